@@ -1,8 +1,7 @@
 // Steps on surfaces: smoothed, given texture, simplified, mended.
-#include <numbers>
-
 #include "rholm/repair.h"
 #include "rholm/simplify.h"
+#include "studio/controls.h"
 #include "studio/edits.h"
 #include "studio/step.h"
 
@@ -32,8 +31,9 @@ Json of_surface(Json step, const char* field, const Named& surface) {
 Step smooth_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = with_surface(request, "item", now);
   const SmoothWish wish = smooth_in(request);
-  Json step = recipe_step("smooth", request, {"wavelength", "strength", "fitting", "repair"});
+  Json step = recipe_step("smooth", request, {"strength"});
   step["regions"] = wish.regions;
+  record_fields(wish.options, step);
   return {"Smooth " + item->name, true, [=, &shared](Document& document, const Context& context) {
             Mesh mesh = *item->shown;
             const Patch patch = analyze_patch(mesh, parsed(wish.regions), wish.options, context);
@@ -48,9 +48,9 @@ Step transfer_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr source = with_surface(request, "source", now);
   const ItemPtr target = with_surface(request, "target", now);
   const TransferWish wish = transfer_in(request);
-  const Json step = recipe_step(
-      "transfer", request,
-      {"from", "to", "from_degree", "scale", "height", "angle", "repeat", "refine", "remove_own"});
+  Json step = recipe_step("transfer", request, {"from", "to", "angle"});
+  record_fields(wish.options, step);
+  record_fields(wish.update, step);
   return {"Transfer to " + target->name, true,
           [=, &shared](Document& document, const Context& context) {
             Mesh mesh = transfer(*source->shown, parsed(wish.from), *target->shown, parsed(wish.to),
@@ -83,11 +83,15 @@ Step simplify_item(const Json& request, const Document& now, Shared& shared) {
 
 Step repair_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = with_surface(request, "item", now);
+  RepairOptions options;
+  take_fields(request, options);
+  Json step = {{"op", "repair"}};
+  record_fields(options, step);
   return {"Repair " + item->name, true, [=, &shared](Document& document, const Context& context) {
-            Mesh mesh = repair(*item->shown, {}, context).mesh;
+            Mesh mesh = repair(*item->shown, options, context).mesh;
             const Named from = surface_of(document.recipe, *item);
-            finish(document, *item, std::move(mesh), "-repaired",
-                   of_surface({{"op", "repair"}}, "from", from), shared, context);
+            finish(document, *item, std::move(mesh), "-repaired", of_surface(step, "from", from),
+                   shared, context);
           }};
 }
 

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "rholm/error.h"
+#include "studio/controls.h"
 #include "studio/step.h"
 
 namespace rholm::studio {
@@ -12,18 +12,29 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 }  // namespace
 
+ReconstructOptions reconstruct_in(const Json& request) {
+  ReconstructOptions options;
+  Json fields = request;
+  if (string_or(request, "holes", "") == "close") fields["holes"] = to_string(HolePolicy::kFill);
+  take_fields(fields, options);
+  const std::string noise = string_or(request, "noise", "auto");
+  if (noise != "auto" && noise != "none") throw bad_request("'noise' must be auto or none");
+  if (noise == "none") options.noise = 0;
+  if (const std::optional<double> share = maybe_number(request, "simplify")) {
+    if (!(*share > 0 && *share <= 1))
+      throw bad_request("'simplify' is a share, above 0, at most 1");
+    options.simplify = SimplifyOptions{.share = *share};
+  }
+  return options;
+}
+
 SmoothWish smooth_in(const Json& request) {
   SmoothWish wish;
   wish.regions = regions_in(request, "regions");
   parsed(wish.regions);
-  wish.options.wavelength = number_of(request, "wavelength");
-  wish.options.repair = flag_of(request, "repair");
+  number_of(request, "wavelength");  // there is no default
+  take_fields(request, wish.options);
   wish.strength = number_or(request, "strength", 1);
-  try {
-    wish.options.fitting = parse_name<PatchFitting>(string_or(request, "fitting", "robust"));
-  } catch (const Error& error) {
-    throw bad_request(error.what());
-  }
   if (wish.options.repair && wish.options.fitting == PatchFitting::kMean) {
     throw bad_request("'repair' needs a fitting that knows what stands out, not mean");
   }
@@ -39,14 +50,10 @@ TransferWish transfer_in(const Json& request) {
   }
   parsed(wish.from);
   parsed(wish.to);
-  wish.options.from_degree = integer_or(request, "from_degree", wish.options.from_degree);
-  wish.options.scale = number_or(request, "scale", 1);
-  wish.options.refine = flag_of(request, "refine");
-  wish.update.height = number_or(request, "height", 1);
+  take_fields(request, wish.options);
+  take_fields(request, wish.update);
   wish.degrees = maybe_number(request, "angle");
   if (wish.degrees) wish.update.angle = *wish.degrees * kDegree;
-  wish.update.repeat = flag_of(request, "repeat");
-  wish.update.remove_own = flag_of(request, "remove_own");
   return wish;
 }
 

@@ -1,15 +1,20 @@
-// What requests ask of smoothing and of transfer, live or as a step. Layer: studio.
+// What requests and steps of a recipe ask of reconstruction, smoothing and transfer. Layer: studio.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "rholm/reconstruct.h"
 #include "rholm/smooth.h"
 #include "rholm/transfer.h"
 #include "studio/items/fields.h"
 
 namespace rholm::studio {
+
+// `noise` is auto or none, `simplify` a share. `holes` may be close for fill.
+// Throws Refusal 400.
+ReconstructOptions reconstruct_in(const Json& request);
 
 struct SmoothWish {
   std::vector<std::string> regions;

@@ -9,6 +9,7 @@
 #include "rholm/model.h"
 #include "rholm/rotate.h"
 #include "studio/blend.h"
+#include "studio/controls.h"
 #include "studio/step.h"
 
 namespace rholm::studio {
@@ -22,14 +23,11 @@ ItemPtr with_model(const Json& request, const char* field, const Document& now) 
 
 EncodeOptions analysis_in(const Json& request) {
   EncodeOptions options;
+  take_fields(request, options.analyze);
   if (const std::optional<double> tolerance = maybe_number(request, "tolerance")) {
     options.tolerance = Tolerance{.error = *tolerance};
   } else {
-    const int degree = integer_of(request, "degree");
-    if (degree < 0 || degree > kMaxDegree) {
-      throw bad_request(fmt::format("the degree must be within 0 ... {}", kMaxDegree));
-    }
-    options.analyze.degree = degree;
+    number_of(request, "degree");  // one of the two must be there
   }
   options.chart.center = parse_center(string_or(request, "center", "auto"));
   return options;
@@ -49,7 +47,8 @@ Step analyze_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = item_in(request, "item", now);
   if (item->points) throw wrong_kind(*item, "it has no faces; reconstruct makes a surface of it");
   const EncodeOptions options = analysis_in(request);
-  const Json wanted = recipe_step("analyze", request, {"tolerance", "degree", "center"});
+  Json wanted = recipe_step("analyze", request, {"tolerance", "degree", "center"});
+  record_fields(options.analyze, wanted);
   return {"Analyze " + item->name, true, [=, &shared](Document& document, const Context& context) {
             const std::shared_ptr<const Mesh> mesh = shape_of(*item);
             Encoded encoded = encode(*mesh, options, context);
@@ -134,24 +133,27 @@ std::string told_of(const Alignment& alignment, const Item& onto) {
   return text;
 }
 
-void record_aligned(Recipe& recipe, const Item& a, const Item& b, bool mirror, Item& moved) {
+void record_aligned(Recipe& recipe, const Item& a, const Item& b, const AlignOptions& options,
+                    Item& moved) {
   moved.model_file = recipe.file(stem_of(a.name) + "-aligned", ".h5");
   moved.model_variable = recipe.variable(stem_of(a.name) + "_aligned");
-  recipe.add({{"op", "align"},
-              {"a", json_of(Named{a.model_file, a.model_variable})},
-              {"b", json_of(Named{b.model_file, b.model_variable})},
-              {"mirror", mirror},
-              {"made", json_of(Named{moved.model_file, moved.model_variable})}});
+  Json step = {{"op", "align"},
+               {"a", json_of(Named{a.model_file, a.model_variable})},
+               {"b", json_of(Named{b.model_file, b.model_variable})},
+               {"made", json_of(Named{moved.model_file, moved.model_variable})}};
+  record_fields(options, step);
+  recipe.add(step);
 }
 
 Step align_items(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr a = with_model(request, "a", now), b = with_model(request, "b", now);
-  const bool mirror = flag_of(request, "mirror");
+  AlignOptions options;
+  take_fields(request, options);
   if (a == b) throw bad_request("an item is not aligned with itself: 'a' and 'b' must differ");
   return {"Align " + a->name, true, [=, &shared](Document& document, const Context& context) {
             const Expansion& before = a->model->expansion;
-            const Placement placement = align(before, b->model->expansion, AlignCenters::kAuto,
-                                              {.mirror = mirror}, context);
+            const Placement placement =
+                align(before, b->model->expansion, AlignCenters::kAuto, options, context);
             Expansion moved = placed(before, placement, context);
             std::shared_ptr<const Mesh> mesh;
             if (a->original) {
@@ -172,7 +174,7 @@ Step align_items(const Json& request, const Document& now, Shared& shared) {
                      : facts_of(surface_of(model, whole(model), context), context));
             changed = with_look(changed, a->look, context);
             changed.revision = ++shared.revisions;
-            record_aligned(document.recipe, *a, *b, mirror, changed);
+            record_aligned(document.recipe, *a, *b, options, changed);
             put(document, std::move(changed));
           }};
 }

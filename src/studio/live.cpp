@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/field_text.h"
 #include "rholm/harmonic.h"
 #include "studio/blend.h"
+#include "studio/edits.h"
 #include "studio/items/arrays.h"
 #include "studio/items/binary.h"
 
@@ -109,9 +111,11 @@ Response Live::brush(const Json& request, const Document& document) const {
 Response Live::smooth(const Json& request, const Document& document) {
   const ItemPtr item = item_with_mesh(request, "item", document);
   const SmoothWish wish = smooth_in(request);
-  const std::string key = fmt::format("{} {} {}", fmt::join(wish.regions, " "),
-                                      to_string(wish.options.fitting), wish.options.repair);
   const double wavelength = wish.options.wavelength;
+  PatchOptions others = wish.options;
+  others.wavelength = 0;
+  const std::string key =
+      fmt::format("{} / {}", fmt::join(wish.regions, " "), text_of_fields(others));
   const bool usable = patch_.analysis && patch_.key == key && patch_.of[0] == item->shown &&
                       wavelength >= patch_.analysis->wavelength &&
                       wavelength <= longest_wavelength(*patch_.analysis);
@@ -142,8 +146,10 @@ Response Live::transfer(const Json& request, const Document& document) {
     source_.key = of_source;
     source_.of[0] = source->shown;
   }
-  const std::string key = fmt::format("{} / {} / {} {}", of_source, fmt::join(wish.to, " "),
-                                      wish.options.scale, wish.options.refine);
+  TransferOptions others = wish.options;
+  others.find_angle = false;
+  const std::string key =
+      fmt::format("{} / {} / {}", of_source, fmt::join(wish.to, " "), text_of_fields(others));
   const bool knows = !wish.options.find_angle || transfer_angle_;
   const bool usable = knows && transfer_.analysis && transfer_.key == key &&
                       transfer_.of[0] == source->shown && transfer_.of[1] == target->shown;

@@ -11,7 +11,6 @@
 
 #include "rholm/smooth.h"
 #include "rholm/transfer.h"
-#include "studio/edits.h"
 #include "studio/items/message.h"
 #include "studio/step.h"
 

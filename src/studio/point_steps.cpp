@@ -2,6 +2,8 @@
 #include "rholm/compress.h"
 #include "rholm/points.h"
 #include "rholm/reconstruct.h"
+#include "studio/controls.h"
+#include "studio/edits.h"
 #include "studio/open.h"
 #include "studio/step.h"
 
@@ -16,15 +18,18 @@ ItemPtr with_points(const Json& request, const Document& now) {
 
 Step orient_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = with_points(request, now);
+  OrientOptions options;
+  take_fields(request, options);
+  Json step = {{"op", "orient"}, {"from", json_of(Named{item->file, item->variable})}};
+  record_fields(options, step);
   return {"Orient " + item->name, true, [=, &shared](Document& document, const Context& context) {
             PointCloud cloud = *item->points;
-            orient(cloud, {}, context);
+            orient(cloud, options, context);
             Item changed = *item;
             changed.table = nullptr;  // whose points have other normals, or none
             changed.points = std::make_shared<const PointCloud>(std::move(cloud));
             changed.revision = ++shared.revisions;
-            record(document.recipe, changed, "-oriented",
-                   {{"op", "orient"}, {"from", json_of(Named{item->file, item->variable})}});
+            record(document.recipe, changed, "-oriented", step);
             put(document, std::move(changed));
           }};
 }
@@ -49,26 +54,11 @@ Step read_columns(const Json& request, const Document& now, Shared& shared) {
           }};
 }
 
-ReconstructOptions reconstruct_in(const Json& request) {
-  ReconstructOptions options;
-  const std::string holes = string_or(request, "holes", "close");
-  const std::string noise = string_or(request, "noise", "auto");
-  if (holes != "close" && holes != "keep") throw bad_request("'holes' must be close or keep");
-  if (noise != "auto" && noise != "none") throw bad_request("'noise' must be auto or none");
-  if (holes == "keep") options.holes = HolePolicy::kKeep;
-  if (noise == "none") options.noise = 0;
-  if (const std::optional<double> share = maybe_number(request, "simplify")) {
-    if (!(*share > 0 && *share <= 1))
-      throw bad_request("'simplify' is a share, above 0, at most 1");
-    options.simplify = SimplifyOptions{.share = *share};
-  }
-  return options;
-}
-
 Step reconstruct_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = with_points(request, now);
   const ReconstructOptions options = reconstruct_in(request);
-  Json step = recipe_step("reconstruct", request, {"holes", "noise", "simplify"});
+  Json step = recipe_step("reconstruct", request, {"noise", "simplify"});
+  record_fields(options, step);
   step["from"] = json_of(Named{item->file, item->variable});
   return {"Reconstruct " + item->name, true,
           [=, &shared](Document& document, const Context& context) {
@@ -107,8 +97,9 @@ Step compress_item(const Json& request, const Document& now, Shared& shared) {
   if (item->atlas) throw wrong_kind(*item, "it is caps already");
   CompressOptions options;
   options.tolerance = number_of(request, "tolerance");
-  options.max_degree = integer_or(request, "max_degree", options.max_degree);
-  const Json wanted = recipe_step("compress", request, {"tolerance", "max_degree"});
+  take_fields(request, options);
+  Json wanted = recipe_step("compress", request, {"tolerance"});
+  record_fields(options, wanted);
   return {"Compress " + item->name, true, [=, &shared](Document& document, const Context& context) {
             Compressed found = item->points ? compress(*item->points, options, context)
                                             : compress(prepared(*item->shown), options, context);

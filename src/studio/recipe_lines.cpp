@@ -5,10 +5,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rholm/align.h"
+#include "rholm/analyze.h"
 #include "rholm/coefficients.h"
 #include "rholm/compress.h"
+#include "rholm/points.h"
+#include "rholm/reconstruct.h"
+#include "rholm/repair.h"
 #include "rholm/shape_io.h"
 #include "rholm/star.h"
+#include "studio/controls.h"
 #include "studio/edits.h"
 #include "studio/recipe.h"
 #include "studio/step.h"
@@ -184,37 +190,46 @@ void synthesize_series(Reading& r) {
   r.say(made, shell, fmt::format("{}.mesh({})", from.variable, fmt::join(python, ", ")));
 }
 
+// The options of a struct that a step has under their names.
+template <HasFields Options>
+Options options_in(const Json& step) {
+  Options options;
+  take_fields(step, options);
+  return options;
+}
+
 void analyze(Reading& r) {
   const Named from = r.used("from"), made = r.made();
-  std::string shell, python;
+  const auto options = options_in<AnalyzeOptions>(r.step);
+  Arguments words;
   if (const std::optional<double> tolerance = maybe_number(r.step, "tolerance")) {
-    shell = " --tolerance " + digits(*tolerance);
-    python = ", tolerance=" + digits(*tolerance);
+    words.number("tolerance", *tolerance);
   } else {
-    const int degree = integer_of(r.step, "degree");
-    shell = fmt::format(" --degree {}", degree);
-    python = fmt::format(", degree={}", degree);
+    words.number("degree", integer_of(r.step, "degree"));
   }
   const std::string center = string_or(r.step, "center", "auto");
   if (center != "auto") {
-    const CenterOptions options = parse_center(center);
-    shell += " --center=" + shell_text(center);
-    python += ", center=" + (options.kind == CenterKind::kGiven ? python_point(options.point)
-                                                                : python_text(center));
+    const CenterOptions wanted = parse_center(center);
+    words.shell += " --center=" + shell_text(center);
+    words.python += ", center=" + (wanted.kind == CenterKind::kGiven ? python_point(wanted.point)
+                                                                     : python_text(center));
   }
-  r.say(made,
-        fmt::format("rholm analyze {}{}{}", shell_word(from.file), shell, unit_option(r.step)),
-        fmt::format("rholm.expand({}{}{})", from.variable, python, python_unit(r.step)));
+  words.fields(AnalyzeOptions{
+      .method = options.method, .engine = options.engine, .precision = options.precision});
+  r.say(
+      made,
+      fmt::format("rholm analyze {}{}{}", shell_word(from.file), words.shell, unit_option(r.step)),
+      fmt::format("rholm.expand({}{}{})", from.variable, words.python, python_unit(r.step)));
 }
 
-void align(Reading& r) {
+void align_lines(Reading& r) {
   const Named a = r.used("a"), b = r.used("b"), made = r.made();
-  const bool mirror = flag_of(r.step, "mirror");
+  Arguments words;
+  words.fields(options_in<AlignOptions>(r.step));
   r.say(made,
-        fmt::format("rholm align {} {}{}", shell_word(a.file), shell_word(b.file),
-                    mirror ? " --mirror" : ""),
+        fmt::format("rholm align {} {}{}", shell_word(a.file), shell_word(b.file), words.shell),
         fmt::format("rholm.placed({0}, rholm.align({0}, {1}{2}))", a.variable, b.variable,
-                    mirror ? ", mirror=True" : ""));
+                    words.python));
 }
 
 // The program has no command for it: the shell calls Python.
@@ -262,55 +277,35 @@ std::string region_options(const char* name, const std::vector<std::string>& reg
 
 void smooth(Reading& r) {
   const Named from = r.used("from"), made = r.made();
-  const SmoothWish wish = smooth_in(r.step);
-  const bool robust = wish.options.fitting == PatchFitting::kRobust, full = wish.strength == 1;
-  const std::string fitting = to_string(wish.options.fitting);
-  const bool repair = wish.options.repair;
+  SmoothWish wish = smooth_in(r.step);
+  const std::string wavelength = digits(wish.options.wavelength);
+  wish.options.wavelength = 0;  // Python has it without its name
+  Arguments words;
+  if (wish.strength != 1) words.number("strength", wish.strength);
+  words.fields(wish.options);
   r.say(made,
-        fmt::format("rholm smooth {}{} --wavelength {}{}{}{}", shell_word(from.file),
-                    region_options("region", wish.regions), digits(wish.options.wavelength),
-                    full ? "" : fmt::format(" --strength={}", wish.strength),
-                    robust ? "" : " --fitting " + fitting, repair ? " --repair" : ""),
-        fmt::format("rholm.smooth({}, {}, {}{}{}{})", from.variable, python_list(wish.regions),
-                    digits(wish.options.wavelength),
-                    full ? "" : fmt::format(", strength={}", wish.strength),
-                    robust ? "" : ", fitting=" + python_text(fitting),
-                    repair ? ", repair=True" : ""));
+        fmt::format("rholm smooth {}{} --wavelength {}{}", shell_word(from.file),
+                    region_options("region", wish.regions), wavelength, words.shell),
+        fmt::format("rholm.smooth({}, {}, {}{})", from.variable, python_list(wish.regions),
+                    wavelength, words.python));
 }
 
 void transfer(Reading& r) {
   const Named from = r.used("source"), to = r.used("target"), made = r.made();
   const TransferWish wish = transfer_in(r.step);
-  const TransferOptions& o = wish.options;
-  const TransferUpdate& u = wish.update;
-  std::string shell = fmt::format("rholm transfer --from {}{} --to {}{}", shell_word(from.file),
-                                  region_options("from-region", wish.from), shell_word(to.file),
-                                  region_options("to-region", wish.to));
-  std::string python = fmt::format("rholm.transfer({}, {}, {}, {}", from.variable,
-                                   python_list(wish.from), to.variable, python_list(wish.to));
-  if (o.from_degree != TransferOptions{}.from_degree) {
-    shell += fmt::format(" --from-degree {}", o.from_degree);
-    python += fmt::format(", from_degree={}", o.from_degree);
+  Arguments words;
+  words.fields(wish.options);
+  words.fields(wish.update);
+  if (wish.update.angle) {
+    words.shell += " --rotate=" + digits(*wish.degrees);
+    words.python += ", angle=" + digits(*wish.update.angle);
   }
-  if (o.scale != 1) {
-    shell += " --scale " + digits(o.scale);
-    python += ", scale=" + digits(o.scale);
-  }
-  if (u.height != 1) {
-    shell += " --height=" + digits(u.height);
-    python += ", height=" + digits(u.height);
-  }
-  if (u.angle) {
-    shell += " --rotate=" + digits(*wish.degrees);
-    python += ", angle=" + digits(*u.angle);
-  }
-  const auto flag = [&](bool is_set, const char* option, const char* argument) {
-    if (is_set) shell += option, python += argument;
-  };
-  flag(u.repeat, " --repeat", ", repeat=True");
-  flag(o.refine, " --refine", ", refine=True");
-  flag(u.remove_own, " --remove-own", ", remove_own=True");
-  r.say(made, shell, python + ")");
+  r.say(made,
+        fmt::format("rholm transfer --from {}{} --to {}{}{}", shell_word(from.file),
+                    region_options("from-region", wish.from), shell_word(to.file),
+                    region_options("to-region", wish.to), words.shell),
+        fmt::format("rholm.transfer({}, {}, {}, {}{})", from.variable, python_list(wish.from),
+                    to.variable, python_list(wish.to), words.python));
 }
 
 void simplify(Reading& r) {
@@ -328,48 +323,45 @@ void simplify(Reading& r) {
   r.say(made, shell, fmt::format("rholm.simplify({}).mesh", fmt::join(python, ", ")));
 }
 
-void repair(Reading& r) {
+void repair_lines(Reading& r) {
   const Named from = r.used("from");
-  r.say(r.made(), "rholm repair " + shell_word(from.file),
-        fmt::format("rholm.repair({}).mesh", from.variable));
+  Arguments words;
+  words.fields(options_in<RepairOptions>(r.step));
+  r.say(r.made(), "rholm repair " + shell_word(from.file) + words.shell,
+        fmt::format("rholm.repair({}{}).mesh", from.variable, words.python));
 }
 
-void orient(Reading& r) {
+void orient_lines(Reading& r) {
   const Named from = r.used("from");
-  r.say(r.made(), "rholm orient " + shell_word(from.file),
-        fmt::format("rholm.orient({}).points", from.variable));
+  Arguments words;
+  words.fields(options_in<OrientOptions>(r.step));
+  r.say(r.made(), "rholm orient " + shell_word(from.file) + words.shell,
+        fmt::format("rholm.orient({}{}).points", from.variable, words.python));
 }
 
-void reconstruct(Reading& r) {
+void reconstruct_lines(Reading& r) {
   const Named from = r.used("from"), made = r.made();
-  std::string shell, python;
-  if (string_or(r.step, "holes", "close") == "keep") {
-    shell += " --holes keep";
-    python += ", holes=\"keep\"";
+  const ReconstructOptions options = reconstruct_in(r.step);
+  Arguments words;
+  words.fields(options);
+  if (options.noise) words.number("noise", *options.noise);
+  if (options.simplify) {
+    words.shell += fmt::format(" --simplify {}%", 100 * options.simplify->share);
+    words.python += fmt::format(", simplify={{\"share\": {}}}", options.simplify->share);
   }
-  if (string_or(r.step, "noise", "auto") == "none") {
-    shell += " --noise 0";
-    python += ", noise=0";
-  }
-  if (const std::optional<double> share = maybe_number(r.step, "simplify")) {
-    shell += fmt::format(" --simplify {}%", 100 * *share);
-    python += fmt::format(", simplify={{\"share\": {}}}", *share);
-  }
-  r.say(made, "rholm reconstruct " + shell_word(from.file) + shell,
-        fmt::format("rholm.reconstruct({}{}).mesh", from.variable, python));
+  r.say(made, "rholm reconstruct " + shell_word(from.file) + words.shell,
+        fmt::format("rholm.reconstruct({}{}).mesh", from.variable, words.python));
 }
 
 void compress(Reading& r) {
   const Named from = r.used("from"), made = r.made();
-  const double tolerance = number_of(r.step, "tolerance");
-  const int usual = CompressOptions{}.max_degree;
-  const int degree = integer_or(r.step, "max_degree", usual);
+  const std::string tolerance = digits(number_of(r.step, "tolerance"));
+  Arguments words;
+  words.fields(options_in<CompressOptions>(r.step));
   r.say(made,
-        fmt::format(
-            "rholm analyze {} --atlas --tolerance {}{}{}", shell_word(from.file), digits(tolerance),
-            degree == usual ? "" : fmt::format(" --max-degree {}", degree), unit_option(r.step)),
-        fmt::format("rholm.compress({}, {}{}{})", from.variable, digits(tolerance),
-                    degree == usual ? "" : fmt::format(", max_degree={}", degree),
+        fmt::format("rholm analyze {} --atlas --tolerance {}{}{}", shell_word(from.file), tolerance,
+                    words.shell, unit_option(r.step)),
+        fmt::format("rholm.compress({}, {}{}{})", from.variable, tolerance, words.python,
                     python_unit(r.step)));
 }
 
@@ -390,15 +382,15 @@ StepLines step_lines(const Json& step, const Recipe& before) {
       {"filter", filter},
       {"synthesize", synthesize_series},
       {"analyze", analyze},
-      {"align", align},
+      {"align", align_lines},
       {"blend", blend},
       {"unit", set_unit},
       {"smooth", smooth},
       {"transfer", transfer},
       {"simplify", simplify},
-      {"repair", repair},
-      {"orient", orient},
-      {"reconstruct", reconstruct},
+      {"repair", repair_lines},
+      {"orient", orient_lines},
+      {"reconstruct", reconstruct_lines},
       {"compress", compress},
       {"atlas_look", limit}};
   if (!step.is_object()) throw bad_request("a step is no object");

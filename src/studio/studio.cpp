@@ -11,6 +11,7 @@
 #include "rholm/context.h"
 #include "rholm/error_info.h"
 #include "studio/answers.h"
+#include "studio/controls.h"
 #include "studio/sessions.h"
 
 namespace rholm {
@@ -106,6 +107,7 @@ StudioResponse Studio::State::answer_in(studio::Session& session, const StudioRe
       [&] { return !session.closed() && (!options.keep_going || options.keep_going()); });
   if (request.method == "GET") {
     if (path == "api/state") return studio::json_response(session.state());
+    if (path == "api/controls") return studio::controls_answer();
     if (path == "api/windows") return studio::windows_answer();
     if (path == "api/gains") return studio::gains_answer(request.query);
     if (path == "api/session-file") return session.session_file();

@@ -68,6 +68,30 @@ it("points get normals and become a surface, as by the program", async () => {
   expect(Buffer.compare(ours, bytesOf(studio, "surface.ply"))).toBe(0);
 });
 
+it("options without a place of their own are those of the program", async () => {
+  const { page } = now;
+  await choose("scan.ply");
+  await openTab(page, "Points");
+  await page.getByText("More options", { exact: true }).click();
+  await page.getByLabel("Blend").selectOption("spline");
+  const least = page.getByLabel("Min component");
+  await least.fill("2");
+  await least.press("Enter");
+  expect(await page.getByRole("alert").innerText()).toContain("Min component is a number from 0 to 1.");
+  await least.fill("0.5");
+  await least.press("Enter");
+  await press(page, "Make a surface");
+  await openTab(page, "Save");
+  const recipe = await page.locator(".copy pre").first().innerText();
+  expect(recipe).toContain("--blend spline --min-component 0.5");
+  await openTab(page, "Points");
+  await choose("scan.ply");
+  await page.getByText("More options", { exact: true }).click();
+  await page.getByLabel("Blend").selectOption("smooth");
+  await least.fill("");
+  await least.press("Enter");
+});
+
 it("a surface is simplified", async () => {
   const { page } = now;
   await openTab(page, "Points");

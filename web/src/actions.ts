@@ -1,8 +1,8 @@
 // What people do, as requests to the studio.
 import { count } from "./format";
 import { PortTransport } from "./messages";
-import type { Fields, FilterWindows, Item, Job, State } from "./protocol";
-import { busy, demo, filterWindows, items, job, lost, notice, selected, stopped, studio, unread, working } from "./state";
+import type { Controls, Fields, FilterWindows, Item, Job, State } from "./protocol";
+import { busy, controls, demo, filterWindows, items, job, lost, notice, selected, stopped, studio, unread, working } from "./state";
 import {
   getJson,
   HttpTransport,
@@ -22,7 +22,10 @@ let unsubscribe: (() => void) | null = null;
 export async function start(): Promise<void> {
   try {
     await openSession();
-    filterWindows.value = await getJson<FilterWindows>(transport, "windows");
+    [controls.value, filterWindows.value] = await Promise.all([
+      getJson<Controls>(transport, "controls"),
+      getJson<FilterWindows>(transport, "windows"),
+    ]);
     lost.value = false;
     listen();
     if (items.value.length === 0) {

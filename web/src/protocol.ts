@@ -124,6 +124,26 @@ export interface FilterWindows {
   default: string;
 }
 
+export type Value = number | string | boolean | null;
+
+// An option of a step, of GET api/controls.
+export interface Control {
+  name: string;
+  label: string;
+  help: string;
+  kind: "flag" | "choice" | "number" | "whole number";
+  default: Value; // null: the library decides
+  least: number | null;
+  most: number | null;
+  step: number | null; // of a slider
+  scale: "linear" | "log";
+  unit: "" | "diagonal" | "degrees"; // a part of the item's diagonal
+  choices: { value: string; label: string }[];
+  shown: boolean; // a panel has it at its place; else it is one of more options
+}
+
+export type Controls = Readonly<Record<string, Control[]>>; // by the op of the step
+
 // A request of POST api/step or api/live: its fields are those of docs/studio.md.
 export type Fields = Record<string, unknown>;
 

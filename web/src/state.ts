@@ -2,7 +2,7 @@
 import { computed, signal } from "@preact/signals";
 import { shortNames } from "./format";
 import { ups, type Up } from "./geometry/up";
-import type { FilterWindows, Item, Job, State } from "./protocol";
+import type { Controls, FilterWindows, Item, Job, State } from "./protocol";
 
 export const tabs = [
   ["figures", "Figures"],
@@ -18,6 +18,7 @@ export type Tab = (typeof tabs)[number][0];
 
 export const studio = signal<State | null>(null);
 export const filterWindows = signal<FilterWindows>({ windows: [], default: "" });
+export const controls = signal<Controls>({});
 export const lost = signal(false);
 export const stopped = signal(false); // the program has ended as it was told
 export const tab = signal<Tab>("figures");

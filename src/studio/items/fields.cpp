@@ -57,7 +57,15 @@ Json parse_object(std::string_view text) {
   return json;
 }
 
+bool has_field(const Json& json, const char* name) { return find(json, name) != nullptr; }
+
 double number_of(const Json& json, const char* name) { return number(need(json, name), name); }
+
+double whole_number_of(const Json& json, const char* name) {
+  const double value = number_of(json, name);
+  if (value != std::floor(value) || std::abs(value) > 0x1p53) refuse(name, "a whole number");
+  return value;
+}
 
 double number_or(const Json& json, const char* name, double fallback) {
   return maybe_number(json, name).value_or(fallback);

@@ -19,7 +19,9 @@ Json parse_object(std::string_view text);
 
 // Fields of a request. Each throws Refusal 400 with the name of a field that is not there or of
 // another type; those with a fallback take it where the field is not there or null.
+bool has_field(const Json& json, const char* name);  // and it is not null
 double number_of(const Json& json, const char* name);
+double whole_number_of(const Json& json, const char* name);  // all of whose digits a double has
 double number_or(const Json& json, const char* name, double fallback);
 std::optional<double> maybe_number(const Json& json, const char* name);
 int integer_of(const Json& json, const char* name);

@@ -1,11 +1,13 @@
 import { useEffect } from "preact/hooks";
 import { step } from "../actions";
 import { Button } from "../button";
+import { FlagControl, MoreOptions, NumberControl } from "../controls";
+import { othersChosen } from "../options";
 import { hideOther, showOther } from "../show";
 import { cssColor, plain, second, type Rgb } from "../geometry/colors";
 import { item, items, nameOf, selected } from "../state";
 import * as tool from "../tools/blend";
-import { Check, Hint, Select, Slider } from "../widgets";
+import { Hint, Select } from "../widgets";
 
 // Both shapes at one place while this panel is open; the second alone while it is blended.
 function useBoth(): void {
@@ -45,32 +47,27 @@ export function AlignPanel() {
         options={others.map((each) => [String(each.id), nameOf(each)] as const)}
         onChange={(value) => (tool.partnerId.value = Number(value))}
       />
-      <Check
-        label="Try mirror images as well"
-        checked={tool.mirror.value}
-        onChange={(on) => (tool.mirror.value = on)}
-      />
+      <FlagControl of={tool.mirror} />
+      <MoreOptions op="align" />
       {!both && <Hint>Both shapes need degrees: analyse them first, under Degrees.</Hint>}
       <Button
         main
         disabled={!both}
         onClick={() =>
-          step({ op: "align", a: one.id, b: other.id, mirror: tool.mirror.value }, "Aligning")
+          step(
+            { op: "align", a: one.id, b: other.id, mirror: tool.mirror.value, ...othersChosen("align") },
+            "Aligning",
+          )
         }
       >
         Align
       </Button>
       <Hint>{one.placed ?? "The size stays as it is."}</Hint>
-      <Slider
-        label="Blend towards the other"
-        value={tool.between.value}
-        min={0}
-        max={1}
-        step={0.005}
+      <NumberControl
+        of={tool.between}
         disabled={!both}
-        onInput={(value, since) => {
+        after={(since) => {
           tool.playing.value = false;
-          tool.between.value = value;
           tool.preview(since);
         }}
       />

@@ -1,17 +1,16 @@
 import { computed, signal } from "@preact/signals";
 import { step } from "../actions";
 import { Button } from "../button";
+import { MoreOptions, NumberControl } from "../controls";
 import { bytes, withUnit } from "../format";
+import { Option, othersChosen } from "../options";
 import type { Item, ItemAtlas } from "../protocol";
 import { coloring } from "../show";
 import { item } from "../state";
 import { Check, Facts, Hint, Slider } from "../widgets";
 
-const tolerance = signal(3e-3); // parts of the diagonal
-const leastError = 1e-4; // parts of the diagonal; chosen: below it caps are no smaller than the mesh
-const mostError = 3e-2;
-const maxDegree = signal(14);
-const mostDegrees = 24; // of a cap, as the library has them
+const tolerance = new Option<number>("compress", "tolerance");
+const maxDegree = new Option<number>("compress", "max_degree");
 
 // What a mesh costs as 32-bit floats and indices.
 const meshBytes = computed(() => 12 * (item.value?.vertices ?? 0) + 12 * (item.value?.faces ?? 0));
@@ -20,22 +19,9 @@ function Compress({ one }: { one: Item }) {
   return (
     <>
       <Hint>A small model of a shape of any kind: overlapping caps, each with an expansion of its own.</Hint>
-      <Slider
-        label="Allowed error, rms"
-        value={tolerance.value * one.diagonal}
-        min={leastError * one.diagonal}
-        max={mostError * one.diagonal}
-        scale="log"
-        unit={one.unit}
-        onInput={(value) => (tolerance.value = value / one.diagonal)}
-      />
-      <Slider
-        label="Highest degree of a cap"
-        value={maxDegree.value}
-        min={2}
-        max={mostDegrees}
-        onInput={(value) => (maxDegree.value = value)}
-      />
+      <NumberControl of={tolerance} one={one} />
+      <NumberControl of={maxDegree} />
+      <MoreOptions op="compress" />
       {one.faces > 0 && <Facts facts={[{ label: "As a mesh", value: bytes(meshBytes.value) }]} />}
       <Button
         main
@@ -46,6 +32,7 @@ function Compress({ one }: { one: Item }) {
               item: one.id,
               tolerance: tolerance.value * one.diagonal,
               max_degree: maxDegree.value,
+              ...othersChosen("compress"),
             },
             "Compressing",
           )

@@ -1,8 +1,10 @@
 import { useEffect } from "preact/hooks";
 import { step } from "../actions";
 import { Button } from "../button";
+import { MoreOptions, NumberControl } from "../controls";
 import { percent, withUnit } from "../format";
 import { bandMeans } from "../harmonics/bands";
+import { Option, othersChosen } from "../options";
 import { Spectrum } from "../plots/spectrum";
 import type { Item } from "../protocol";
 import { coloring, hideOther, layout, showOther } from "../show";
@@ -11,10 +13,8 @@ import { MarkOffending } from "./figures";
 import { WindowChoice } from "./windows";
 import * as tool from "../tools/degrees";
 import { Check, Hint, Select, Slider } from "../widgets";
-import { signal } from "@preact/signals";
 
-const wanted = signal(32);
-const maxAsked = 1024; // chosen: what a page still moves live
+const wanted = new Option<number>("analyze", "degree");
 
 // Why there are no degrees of it, where that is known beforehand, and what can be done.
 function NoDegrees({ one }: { one: Item }) {
@@ -32,7 +32,11 @@ function NoDegrees({ one }: { one: Item }) {
     return (
       <>
         <Hint>Only closed surfaces have degrees, and this one is open. Repair closes it; Caps take it as it is.</Hint>
-        <Button main onClick={() => step({ op: "repair", item: one.id }, "Repairing")}>
+        <MoreOptions op="repair" />
+        <Button
+          main
+          onClick={() => step({ op: "repair", item: one.id, ...othersChosen("repair") }, "Repairing")}
+        >
           Repair
         </Button>
         <Button onClick={() => (tab.value = "caps")}>Go to Caps</Button>
@@ -69,19 +73,15 @@ function Analyze({ one }: { one: Item }) {
   return (
     <>
       <Hint>Split the shape into degrees: coarse form first, then detail.</Hint>
-      <Slider
-        label="Up to degree"
-        value={wanted.value}
-        min={1}
-        max={maxAsked}
-        step={1}
-        scale="log"
-        onInput={(value) => (wanted.value = value)}
-      />
+      <NumberControl of={wanted} />
+      <MoreOptions op="analyze" />
       <Button
         main
         onClick={() =>
-          step({ op: "analyze", item: one.id, degree: wanted.value, center: "auto" }, "Analysing")
+          step(
+            { op: "analyze", item: one.id, degree: wanted.value, center: "auto", ...othersChosen("analyze") },
+            "Analysing",
+          )
         }
       >
         Analyse

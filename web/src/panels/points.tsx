@@ -1,17 +1,17 @@
 import { signal } from "@preact/signals";
 import { step } from "../actions";
 import { Button } from "../button";
+import { ChoiceControl, MoreOptions, NumberControl } from "../controls";
+import { Option, othersChosen } from "../options";
 import type { Item } from "../protocol";
 import { item, items, studio } from "../state";
-import { Check, Hint, Select, Slider } from "../widgets";
+import { Check, Hint, Select } from "../widgets";
 
-const holes = signal<"close" | "keep">("close");
+const holes = new Option<string>("reconstruct", "holes");
 const noise = signal<"auto" | "none">("auto");
 const simplified = signal(false);
-const share = signal(0.1);
-
-const faces = signal(10_000);
-const leastFaces = 100; // chosen: a shape that can be told
+const share = new Option<number>("reconstruct", "simplify");
+const faces = new Option<number>("simplify", "faces");
 
 function Cloud({ one }: { one: Item }) {
   return (
@@ -21,18 +21,15 @@ function Cloud({ one }: { one: Item }) {
           ? "These points have normals."
           : "These points have no normals. They are computed first."}
       </Hint>
-      <Button onClick={() => step({ op: "orient", item: one.id }, "Computing normals")}>
+      <MoreOptions op="orient" label="More options of normals" />
+      <Button
+        onClick={() =>
+          step({ op: "orient", item: one.id, ...othersChosen("orient") }, "Computing normals")
+        }
+      >
         Compute normals
       </Button>
-      <Select
-        label="Holes"
-        value={holes.value}
-        options={[
-          ["close", "Close all"],
-          ["keep", "Leave open"],
-        ]}
-        onChange={(value) => (holes.value = value)}
-      />
+      <ChoiceControl of={holes} />
       <Select
         label="Noise"
         value={noise.value}
@@ -48,15 +45,9 @@ function Cloud({ one }: { one: Item }) {
         onChange={(on) => (simplified.value = on)}
       />
       {simplified.value && (
-        <Slider
-          label="Share of faces kept"
-          value={share.value}
-          min={0.01}
-          max={1}
-          scale="log"
-          onInput={(value) => (share.value = value)}
-        />
+        <NumberControl of={share} />
       )}
+      <MoreOptions op="reconstruct" />
       <Button
         main
         onClick={() =>
@@ -67,6 +58,7 @@ function Cloud({ one }: { one: Item }) {
               simplify: simplified.value ? share.value : null,
               holes: holes.value,
               noise: noise.value,
+              ...othersChosen("reconstruct"),
             },
             "Making a surface",
           )
@@ -79,21 +71,14 @@ function Cloud({ one }: { one: Item }) {
 }
 
 function Simplify({ one }: { one: Item }) {
-  const most = Math.max(one.faces, leastFaces + 1);
-  const wanted = Math.min(Math.max(faces.value, leastFaces), most);
+  const least = faces.control?.least ?? 1;
+  const most = Math.max(one.faces, least + 1);
+  const wanted = Math.min(Math.max(faces.value, least), most);
   return (
     <>
       <h3>Simplify the mesh</h3>
       <Hint>Keeps the surface, with fewer faces.</Hint>
-      <Slider
-        label="Faces"
-        value={wanted}
-        min={leastFaces}
-        max={most}
-        step={1}
-        scale="log"
-        onInput={(value) => (faces.value = value)}
-      />
+      <NumberControl of={faces} most={most} />
       <Button
         main
         onClick={() => step({ op: "simplify", item: one.id, faces: Math.round(wanted) }, "Simplifying")}

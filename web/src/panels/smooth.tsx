@@ -1,6 +1,7 @@
 import { useLayoutEffect } from "preact/hooks";
 import { theView } from "../show";
 import { Button } from "../button";
+import { MoreOptions, NumberControl } from "../controls";
 import { item } from "../state";
 import * as brush from "../tools/brush";
 import * as tool from "../tools/smooth";
@@ -63,29 +64,9 @@ export function SmoothPanel() {
           tool.preview(performance.now());
         }}
       />
-      <Slider
-        label="Wavelength"
-        value={tool.wavelength.value}
-        min={0.01 * one.diagonal}
-        max={0.5 * one.diagonal}
-        scale="log"
-        unit={one.unit}
-        onInput={(value, since) => {
-          tool.wavelengthShare.value = value / one.diagonal;
-          tool.preview(since);
-        }}
-      />
-      <Slider
-        label="Strength"
-        value={tool.strength.value}
-        min={-1}
-        max={1}
-        step={0.01}
-        onInput={(value, since) => {
-          tool.strength.value = value;
-          tool.preview(since, false);
-        }}
-      />
+      <NumberControl of={tool.wavelengthShare} one={one} after={(since) => tool.preview(since)} />
+      <NumberControl of={tool.strength} after={(since) => tool.preview(since, false)} />
+      <MoreOptions op="smooth" after={(since) => tool.preview(since, false)} />
       <Hint>
         Detail shorter than {withUnit(tool.wavelength.value, one.unit)} is removed. A strength below 0 makes it
         stronger instead.

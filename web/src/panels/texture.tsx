@@ -1,7 +1,7 @@
 import { useLayoutEffect } from "preact/hooks";
 import { theView } from "../show";
 import { Button } from "../button";
-import type { Scale } from "../format";
+import { FlagControl, MoreOptions, NumberControl } from "../controls";
 import type { Item } from "../protocol";
 import { item, items } from "../state";
 import * as tool from "../tools/texture";
@@ -14,39 +14,19 @@ const picks = [
   ["none", "Turns the shape"],
 ] as const;
 
-function Live(props: {
-  label: string;
-  value: Signal<number>;
-  min: number;
-  max: number;
-  step?: number;
-  scale?: Scale;
-  per?: number; // what the value is a part of
-  unit?: string;
-}) {
-  const { value, min, max, per = 1, ...rest } = props;
+// The radius of a disc, as a part of the diagonal of its shape.
+function Radius({ label, value, of }: { label: string; value: Signal<number>; of: Item }) {
   return (
     <Slider
-      {...rest}
-      min={min * per}
-      max={max * per}
-      value={value.value * per}
-      onInput={(next, since) => {
-        value.value = next / per;
-        tool.preview(since);
-      }}
-    />
-  );
-}
-
-function LiveCheck({ label, value }: { label: string; value: Signal<boolean> }) {
-  return (
-    <Check
       label={label}
-      checked={value.value}
-      onChange={(on) => {
-        value.value = on;
-        tool.preview(performance.now());
+      value={value.value * of.diagonal}
+      min={0.01 * of.diagonal}
+      max={0.5 * of.diagonal}
+      scale="log"
+      unit={of.unit}
+      onInput={(next, since) => {
+        value.value = next / of.diagonal;
+        tool.preview(since);
       }}
     />
   );
@@ -64,18 +44,7 @@ function Turn() {
           tool.preview(performance.now());
         }}
       />
-      <Slider
-        label="Angle"
-        unit="°"
-        value={angle ?? 0}
-        min={-180}
-        max={180}
-        disabled={angle === null}
-        onInput={(value, since) => {
-          tool.angle.value = Math.round(value);
-          tool.preview(since);
-        }}
-      />
+      <NumberControl of={tool.angle} disabled={angle === null} after={tool.preview} />
     </>
   );
 }
@@ -86,8 +55,6 @@ function isCoarse(source: Item, target: Item): boolean {
   const edge = ({ diagonal, faces }: Item) => diagonal / Math.sqrt(faces);
   return tool.ready.value && !tool.refine.value && edge(target) > 2 * tool.scale.value * edge(source);
 }
-
-const radius = (of: Item) => ({ min: 0.01, max: 0.5, scale: "log", per: of.diagonal, unit: of.unit }) as const;
 
 export function TexturePanel() {
   useLayoutEffect(() => {
@@ -113,14 +80,15 @@ export function TexturePanel() {
         options={picks}
         onChange={(value) => (tool.picking.value = value)}
       />
-      <Live label="Radius of the source" value={tool.radiusShare} {...radius(source)} />
-      <Live label="Radius of the target" value={tool.targetShare} {...radius(target)} />
-      <Live label="Height" value={tool.height} min={-2} max={4} step={0.01} />
-      <Live label="Scale" value={tool.scale} min={0.2} max={5} scale="log" />
+      <Radius label="Radius of the source" value={tool.radiusShare} of={source} />
+      <Radius label="Radius of the target" value={tool.targetShare} of={target} />
+      <NumberControl of={tool.height} after={tool.preview} />
+      <NumberControl of={tool.scale} after={tool.preview} />
       <Turn />
-      <LiveCheck label="Repeat the texture over the target" value={tool.repeat} />
-      <LiveCheck label="Remove the target's own detail first" value={tool.removeOwn} />
-      <LiveCheck label="Refine the target's mesh" value={tool.refine} />
+      <FlagControl of={tool.repeat} after={tool.preview} />
+      <FlagControl of={tool.removeOwn} after={tool.preview} />
+      <FlagControl of={tool.refine} after={tool.preview} />
+      <MoreOptions op="transfer" after={tool.preview} />
       {isCoarse(source, target) && (
         <Hint>The faces of the target are larger than those of the source: without refining, detail is lost.</Hint>
       )}

@@ -1,9 +1,10 @@
 // The window of a filter and its parameters, as the studio describes them.
-import { number, percent, typedNumber } from "../format";
+import { NumberField } from "../controls";
+import { percent } from "../format";
 import type { WindowParameter } from "../protocol";
-import { filterWindows, notice } from "../state";
+import { filterWindows } from "../state";
 import * as tool from "../tools/degrees";
-import { Hint, Select, Slider, TextField } from "../widgets";
+import { Hint, Select, Slider } from "../widgets";
 
 const titled = (name: string) => name.charAt(0).toUpperCase() + name.slice(1);
 
@@ -17,23 +18,18 @@ function setParameter(name: string, value: number | undefined, since: number): v
 function Parameter({ one }: { one: WindowParameter }) {
   const { name, min, max } = one;
   if (one.default === null) {
-    const take = (typed: string): Promise<boolean> => {
-      const value = typed.trim() === "" ? undefined : typedNumber(typed);
-      if (value !== undefined && !(value >= min && value <= max)) {
-        notice.value = { text: `${titled(name)} is a number from ${number(min)} to ${number(max)}.`, bad: true };
-        return Promise.resolve(false);
-      }
-      setParameter(name, value, performance.now());
-      void tool.keepLook();
-      return Promise.resolve(true);
-    };
-    const given = tool.parameters.value[name];
     return (
-      <TextField
+      <NumberField
         label={`${titled(name)} ${one.symbol}`}
-        value={given === undefined ? "" : String(given)}
+        value={tool.parameters.value[name]}
         placeholder="by the degree"
-        onChange={take}
+        least={min}
+        most={max}
+        whole={one.whole}
+        onChange={(value) => {
+          setParameter(name, value, performance.now());
+          void tool.keepLook();
+        }}
       />
     );
   }

@@ -3,13 +3,14 @@ import { computed, signal } from "@preact/signals";
 import { step } from "../actions";
 import { arrayOf, needArray, surfaceOf } from "../binary";
 import { liveChannel } from "../live";
+import { Option } from "../options";
 import type { Item } from "../protocol";
 import { restoreSurface, shown, theView } from "../show";
 import { item, items, otherItem, selected } from "../state";
 
 export const partnerId = signal<number | null>(null);
-export const mirror = signal(false);
-export const between = signal(0);
+export const mirror = new Option<boolean>("align", "mirror");
+export const between = new Option<number>("blend", "t");
 export const playing = signal(false);
 export const previewed = signal(false);
 

@@ -3,6 +3,7 @@ import { computed, effect, signal } from "@preact/signals";
 import { step } from "../actions";
 import { needArray } from "../binary";
 import { liveChannel } from "../live";
+import { Option, othersChosen } from "../options";
 import { restoreSurface, shown, theView } from "../show";
 import { item, tab } from "../state";
 import { clearRegion, radius, regions, showWeights, takeBackStroke, transition } from "./brush";
@@ -15,8 +16,8 @@ export const actions = [
 export type Action = (typeof actions)[number][0];
 
 export const action = signal<Action>("smooth");
-export const strength = signal(1);
-export const wavelengthShare = signal(0.08); // of the diagonal
+export const strength = new Option<number>("smooth", "strength");
+export const wavelengthShare = new Option<number>("smooth", "wavelength"); // of the diagonal
 export const wavelength = computed(() => wavelengthShare.value * (item.value?.diagonal ?? 1));
 export const previewed = signal(false);
 
@@ -32,6 +33,7 @@ function fields(): Record<string, unknown> {
     strength: strength.value,
     fitting: bridge ? "around" : "robust",
     repair: action.value === "repair",
+    ...othersChosen("smooth"),
   };
 }
 

@@ -4,6 +4,7 @@ import { step } from "../actions";
 import { arrayOf, needArray, surfaceOf, type Binary } from "../binary";
 import { painted, placed } from "../geometry/colors";
 import { liveChannel } from "../live";
+import { Option, othersChosen } from "../options";
 import type { PointerTool } from "../scene/pointer";
 import type { Ring } from "../scene/markers";
 import type { Touch } from "../scene/shape";
@@ -24,13 +25,12 @@ export const from = signal<Disc | null>(null);
 export const to = signal<Disc | null>(null);
 export const radiusShare = signal(0.12); // of the diagonal, of the source
 export const targetShare = signal(0.12); // of the target
-export const scale = signal(1);
-export const height = signal(1);
-export const angle = signal<number | null>(null); // degrees; null: where it is most like what is there
-export const repeat = signal(false);
-export const removeOwn = signal(false);
-export const refine = signal(false);
-export const fromDegree = signal(8);
+export const scale = new Option<number>("transfer", "scale");
+export const height = new Option<number>("transfer", "height");
+export const angle = new Option<number | null>("transfer", "angle"); // null: where it is most like what is there
+export const repeat = new Option<boolean>("transfer", "repeat");
+export const removeOwn = new Option<boolean>("transfer", "remove_own");
+export const refine = new Option<boolean>("transfer", "refine");
 export const previewed = signal(false);
 
 export const ready = computed(() => from.value !== null && to.value !== null);
@@ -45,13 +45,13 @@ function fields(): Record<string, unknown> {
     target: to.value?.item,
     from: regionOf(from.value, radiusShare.value),
     to: regionOf(to.value, targetShare.value),
-    from_degree: fromDegree.value,
     scale: scale.value,
     height: height.value,
     angle: angle.value,
     repeat: repeat.value,
     remove_own: removeOwn.value,
     refine: refine.value,
+    ...othersChosen("transfer"),
   };
 }
 
