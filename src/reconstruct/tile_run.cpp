@@ -78,6 +78,7 @@ class TileRun {
   Reconstruction run() {
     cloud_.prepare();
     TileCaps caps = fit();
+    cloud_.keep_no_scenes();
     set_scene(caps);
     TileWinding winding(caps, n_, kTrees);
     TileSurface surface(store_, cloud_.plan(), caps, winding, origin_);
@@ -104,7 +105,8 @@ class TileRun {
     OutlierSearch search{.n_points = cloud_.n_points(),
                          .most = most_outliers(strays, wrong),
                          .noise = cloud_.size().noise,
-                         .load = [&](std::size_t tile) { return cloud_.load(tile, kTried); }};
+                         .load = [&](std::size_t tile) { return cloud_.load(tile); },
+                         .changed = [&] { cloud_.forget_scenes(); }};
     const auto remove = [&] {
       return remove_tile_outliers(store_, cloud_.plan(), search, stages_);
     };
@@ -137,28 +139,27 @@ class TileRun {
                                 .diagonal = cloud_.diagonal(),
                                 .noise = cloud_.size().noise};
     const auto crossings_in = [&](std::size_t tile) { return piece_of("crossings" + round, tile); };
-    // With a halo of its own: caps depend on what they see.
     const std::size_t halo = std::max({kCrossingNeighbors, kPatch, cloud_.around()});
     stages_.each("crossings", n_, [&](std::size_t tile) {
       if (store_.has(crossings_in(tile))) return;
-      const TileScene scene = cloud_.load(tile, halo, search.reach());
-      const WallPatches patches = choose_patches(*scene.tree, scene.points, scene.foreign, search.n,
-                                                 cloud_.around(), context_);
+      const auto scene = cloud_.load(tile, halo, search.reach());
+      const WallPatches patches = choose_patches(*scene->tree, scene->points, scene->foreign,
+                                                 search.n, cloud_.around(), context_);
       write_values(store_, piece_of("patch-points" + round, tile), patches.points);
       write_values(store_, piece_of("patch-areas" + round, tile), patches.areas);
-      const Crossings found =
-          find_crossings(*scene.tree, scene.points, scene.gaps, scene.foreign, search, context_);
+      const Crossings found = find_crossings(*scene->tree, scene->points, scene->gaps,
+                                             scene->foreign, search, context_);
       write_values(store_, crossings_in(tile), std::vector{found});
     });
     stages_.each("caps", n_, [&](std::size_t tile) {
       if (caps.has(tile)) return;
-      const TileScene scene = cloud_.load(tile, cloud_.size().neighbours);
+      const auto scene = cloud_.load_for(tile, cloud_.size().neighbours);
       CoverOptions wanted = cover_options(options_, cloud_.size());
-      wanted.foreign = scene.foreign;
-      const Cover found = cover(scene.ordered(), wanted, context_);
+      wanted.foreign = scene->foreign;
+      const Cover found = cover(scene->ordered(), wanted, context_);
       std::vector<std::uint32_t> rejected;
       for (const std::uint32_t i : found.rejected) {
-        if (scene.foreign[i] == 0) rejected.push_back(scene.tree->order()[i]);
+        if (scene->foreign[i] == 0) rejected.push_back(scene->tree->order()[i]);
       }
       std::sort(rejected.begin(), rejected.end());
       caps.write_rejected(tile, rejected);
@@ -251,7 +252,7 @@ class TileRun {
     const double typical = std::max(cloud_.sample().median, report_.step);
     TileHandles handles(store_, surface, n_, typical,
                         [&](std::size_t tile, const std::vector<Vec3>& places) {
-                          return spacings_at(cloud_.load(tile, kTried), places);
+                          return spacings_at(*cloud_.load(tile), places);
                         });
     stages_.each("surface", n_, [&](std::size_t tile) {
       if (handles.has(tile)) return;
@@ -362,7 +363,7 @@ class TileRun {
 
   Mesh write(const TileParts& parts) {
     const TileOutput out(store_, stages_, options_, cloud_.survey().layout, n_,
-                         [&](std::size_t tile) { return cloud_.load(tile, kTried); });
+                         [&](std::size_t tile) { return cloud_.load(tile); });
     if (options_.confidence) put_areas(out.measure_confidence(parts), report_);
     rules_.left_out = carried_names(out.attributes());
     if (options_.output.empty()) return out.collect(parts, whole_);

@@ -58,12 +58,11 @@ TileScene load_tile(const PieceStore& store, const TilePlan& plan, std::size_t t
   if (have_normals(store)) confidence = put_normals(store, tile, read);
   if (have_turned(store)) turn_normals(store, tile, read);
   scene.computed_normals = have_normals(store);
-  scene.cloud = std::move(read.cloud);
   scene.n_own = read.n_own;
   scene.halo = std::move(read.halo);
-  scene.tree = std::make_unique<PointTree>(scene.cloud.points, context);
+  scene.tree = std::make_unique<PointTree>(read.cloud.points, context);
   const std::size_t n = scene.tree->size();
-  const bool directed = !scene.cloud.normals.empty();
+  const bool directed = !read.cloud.normals.empty();
   scene.points.resize(n);
   scene.foreign.resize(n);
   if (directed) scene.normals.resize(n);
@@ -71,12 +70,13 @@ TileScene load_tile(const PieceStore& store, const TilePlan& plan, std::size_t t
   parallel_for(n, 8192, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t given = scene.tree->order()[i];
-      scene.points[i] = scene.cloud.points[given];
+      scene.points[i] = read.cloud.points[given];
       scene.foreign[i] = given >= scene.n_own;
-      if (directed) scene.normals[i] = normalized(scene.cloud.normals[given]);
+      if (directed) scene.normals[i] = normalized(read.cloud.normals[given]);
       if (scene.computed_normals) scene.confidence[i] = confidence[given];
     }
   });
+  scene.attributes = std::move(read.cloud.attributes);
   if (n > 0) scene.gaps = find_gaps(*scene.tree, scene.points, scene.normals, context);
   return scene;
 }

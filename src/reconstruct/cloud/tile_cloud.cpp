@@ -20,6 +20,8 @@
 namespace rholm {
 namespace {
 
+// Caps are tried with up to so many neighbours before the halo of a tile ends.
+constexpr std::size_t kTried = 128;
 // Points that speak for all; at least so many of each tile.
 constexpr std::size_t kSamples = 2000, kSamplesOfTile = 16;
 // Tiles in which the size of caps is looked for: the median counts.
@@ -34,6 +36,8 @@ TileCloud::TileCloud(PointSource& source, PieceStore& store, const ReconstructOp
   survey_ = read_survey(store_).value();
   plan_ = make_plan(survey_, points_per_tile);
   n_ = plan_.n_tiles();
+  keeps_scenes_ = store_.in_memory();
+  scenes_.resize(n_), neighbors_.resize(n_);
   given_ = survey_.layout.normals;
   if (!given_) stages_.add(costs_of_normals());
 }
@@ -62,9 +66,42 @@ bool TileCloud::has_column(const char* name) const {
                      [&](const ColumnLayout& column) { return column.name == name; });
 }
 
-TileScene TileCloud::load(std::size_t tile, std::size_t neighbours, double least) const {
-  const double halo = std::max(least, spacings_[tile] * reach_of(neighbours));
-  return load_tile(store_, plan_, tile, halo, stages_.context());
+std::shared_ptr<const TileScene> TileCloud::load(std::size_t tile, std::size_t neighbours,
+                                                 double least) const {
+  const double usual = spacings_[tile] * reach_of(kTried);
+  const double needed = std::max(least, spacings_[tile] * reach_of(neighbours));
+  return scene(tile, std::max(usual, needed), !(needed > usual));
+}
+
+std::shared_ptr<const TileScene> TileCloud::load_for(std::size_t tile,
+                                                     std::size_t neighbours) const {
+  return scene(tile, spacings_[tile] * reach_of(neighbours), false);
+}
+
+// A tile alone has no halo.
+std::shared_ptr<const TileScene> TileCloud::scene(std::size_t tile, double halo, bool keep) const {
+  const auto made = [&] {
+    return std::make_shared<const TileScene>(
+        load_tile(store_, plan_, tile, halo, stages_.context()));
+  };
+  if (!keeps_scenes_ || !(keep || n_ == 1)) return made();
+  {
+    const std::lock_guard lock(mutex_);
+    if (scenes_[tile]) return scenes_[tile];
+  }
+  auto loaded = made();
+  const std::lock_guard lock(mutex_);
+  return scenes_[tile] = std::move(loaded);
+}
+
+void TileCloud::forget_scenes() {
+  scenes_.assign(n_, {});
+  neighbors_.assign(n_, {});
+}
+
+void TileCloud::keep_no_scenes() {
+  forget_scenes();
+  keeps_scenes_ = false;
 }
 
 void TileCloud::find_survey(std::uint64_t points_per_tile) {
@@ -132,11 +169,14 @@ void TileCloud::remove_strays() {
   TileRemoval strays(store_, plan_, "strays");
   stages_.each("strays", n_, [&](std::size_t tile) {
     if (strays.has_found(tile)) return;
-    const double halo = spacings_[tile] * reach_of(kTried);
-    strays.put(tile, find_tile_strays(store_, plan_, tile, halo, stages_.context()));
+    const bool asked = keeps_scenes_ && given_;  // signs of given normals need neighbours
+    strays.put(tile, find_tile_strays(*load(tile), stages_.context(),
+                                      asked ? &neighbors_[tile] : nullptr));
   });
   stages_.each("strays", n_, [&](std::size_t tile) { strays.remove(tile); });
-  report_.outliers += strays.count();
+  const std::uint64_t n_strays = strays.count();
+  if (n_strays > 0) forget_scenes();
+  report_.outliers += n_strays;
 }
 
 // Points that have no normals get them.
@@ -155,6 +195,7 @@ void TileCloud::orient() {
     undetermined.put(tile, flags);
   });
   stages_.each("turn", n_, [&](std::size_t tile) { undetermined.remove(tile); });
+  forget_scenes();
 }
 
 // In some tiles, which are parts of one surface. Given normals that are off it are computed anew.
@@ -164,10 +205,10 @@ void TileCloud::look_at_shape() {
   stages_.each("cap size", pilots, [&](std::size_t pilot) {
     const std::string name = round + std::to_string(pilot);
     if (store_.has(name)) return;
-    const TileScene scene = load(pilot * n_ / pilots, kTried);
+    const auto scene = load(pilot * n_ / pilots);
     const LocalShape shape =
-        rholm::look_at_shape(*scene.tree, scene.points, scene.normals, stages_.context());
-    check_shape(shape, scene.points.size());
+        rholm::look_at_shape(*scene->tree, scene->points, scene->normals, stages_.context());
+    check_shape(shape, scene->points.size());
     write_values(store_, name, std::vector{shape});
   });
   std::vector<std::size_t> neighbors;
@@ -197,11 +238,13 @@ void TileCloud::mend() {
                  {.mend = given_,
                   .closed = options_.holes == HolePolicy::kFill,
                   .load = [&](std::size_t tile) { return load(tile, halo); },
+                  .neighbors = [&](std::size_t tile) { return std::move(neighbors_[tile]); },
                   .points = points,
                   .samples = kSamples,
                   .around = around_,
                   .max_memory = options_.max_memory},
                  stages_);
+  if (have_turned(store_)) forget_scenes();
   report_.contradicting_normals = mended.contradicting;
   report_.contradictions.assign(mended.first.begin(), mended.first.begin() + mended.named);
   report_.turned_normals = mended.all_inward != 0;
@@ -213,11 +256,11 @@ void TileCloud::take_sample(const std::string& round) {
   const auto name_of = [&](std::size_t tile) { return round + "/" + std::to_string(tile); };
   stages_.each("sample", n_, [&](std::size_t tile) {
     if (store_.has(name_of(tile))) return;
-    const TileScene scene = load(tile, std::max(2 * kCircle, around_));
-    const double share = static_cast<double>(scene.n_own) / static_cast<double>(points_);
+    const auto scene = load_for(tile, std::max(2 * kCircle, around_));
+    const double share = static_cast<double>(scene->n_own) / static_cast<double>(points_);
     const auto wanted = static_cast<std::size_t>(std::ceil(share * kSamples));
     write_values(store_, name_of(tile),
-                 sample_tile(scene, std::max(wanted, kSamplesOfTile), around_, stages_.context()));
+                 sample_tile(*scene, std::max(wanted, kSamplesOfTile), around_, stages_.context()));
   });
   std::vector<SamplePoint> all;
   for (std::size_t tile = 0; tile < n_; ++tile) {
@@ -232,9 +275,9 @@ void TileCloud::choose_size(const std::string& round) {
   const auto name_of = [&](std::size_t pilot) { return round + "/" + std::to_string(pilot); };
   stages_.each("cap size", pilots, [&](std::size_t pilot) {
     if (store_.has(name_of(pilot))) return;
-    const TileScene scene = load(pilot * n_ / pilots, kTried);
+    const auto scene = load(pilot * n_ / pilots);
     write_values(store_, name_of(pilot),
-                 std::vector{choose_cap_size(scene.ordered(), kDegree, stages_.context())});
+                 std::vector{choose_cap_size(scene->ordered(), kDegree, stages_.context())});
   });
   std::vector<CapSize> sizes;
   sizes.reserve(pilots);

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -18,9 +20,6 @@
 #include "rholm/reconstruct.h"
 
 namespace rholm {
-
-// Caps are tried with up to so many neighbours before the halo of a tile ends.
-inline constexpr std::size_t kTried = 128;
 
 class TileCloud {
  public:
@@ -48,10 +47,19 @@ class TileCloud {
   bool has_column(const char* name) const;
   // Diagonal of the points, before outliers near the surface are removed.
   double diagonal() const { return diagonal_; }
-  // A tile with the halo that caps of so many neighbours need, and no less than `least`.
-  TileScene load(std::size_t tile, std::size_t neighbours, double least = 0) const;
+  // A tile with at least the halo that so many neighbours need, and `least`: for results that a
+  // wider halo leaves as they are.
+  std::shared_ptr<const TileScene> load(std::size_t tile, std::size_t neighbours = 0,
+                                        double least = 0) const;
+  // With exactly that halo: for results that depend on the order of the tree, and so on the halo.
+  std::shared_ptr<const TileScene> load_for(std::size_t tile, std::size_t neighbours) const;
+  // Points of tiles have changed.
+  void forget_scenes();
+  // Scenes are no longer kept, also those that are loaded from here on.
+  void keep_no_scenes();
 
  private:
+  std::shared_ptr<const TileScene> scene(std::size_t tile, double halo, bool keep) const;
   void find_survey(std::uint64_t points_per_tile);
   void sort();
   void refuse_scans() const;
@@ -76,6 +84,12 @@ class TileCloud {
   bool given_ = false;
   std::size_t around_ = 0;        // neighbours that tell the area of a point
   std::vector<double> spacings_;  // in each tile
+  // Of each tile, where tiles are in memory: its scene, once loaded, and graph_neighbors() of it,
+  // once found.
+  bool keeps_scenes_ = false;
+  mutable std::mutex mutex_;  // of scenes_
+  mutable std::vector<std::shared_ptr<const TileScene>> scenes_;
+  std::vector<std::vector<std::uint32_t>> neighbors_;
   WholeSample sample_;
   CapSize size_;
 };

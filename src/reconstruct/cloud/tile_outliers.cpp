@@ -125,6 +125,7 @@ std::uint64_t remove_tile_outliers(PieceStore& store, const TilePlan& plan,
     const std::uint64_t n = found.count();
     if (n == 0 || left < n + kFewestPoints) return false;
     for_tiles("outliers", [&](std::size_t tile) { found.remove(tile); });
+    search.changed();
     left -= n;
     return true;
   };
@@ -132,9 +133,9 @@ std::uint64_t remove_tile_outliers(PieceStore& store, const TilePlan& plan,
     TileRemoval look(store, plan, "outliers-" + std::to_string(pass));
     for_tiles("outliers", [&](std::size_t tile) {
       if (look.has_found(tile)) return;
-      const TileScene scene = search.load(tile);
-      look.put(tile, of_own(scene, find_outliers(*scene.tree, scene.points, scene.normals,
-                                                 search.noise, stages.context())));
+      const auto scene = search.load(tile);
+      look.put(tile, of_own(*scene, find_outliers(*scene->tree, scene->points, scene->normals,
+                                                  search.noise, stages.context())));
     });
     if (pass == 0 && look.count() > search.most) {
       if (!search.suspects) return 0;
@@ -155,7 +156,7 @@ std::uint64_t remove_tile_outliers(PieceStore& store, const TilePlan& plan,
   TileGroups groups(store, plan.n_tiles());
   for_tiles("groups", [&](std::size_t tile) {
     if (!small.has_found(tile) && !groups.has(tile)) {
-      groups.find(tile, search.load(tile), stages.context());
+      groups.find(tile, *search.load(tile), stages.context());
     }
   });
   bool joined = false;  // where it is needed: the groups of a run before may be gone

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,9 @@ struct OutlierSearch {
   std::uint64_t most = 0;
   double noise = 0;
   // A tile with those around it, as they are.
-  std::function<TileScene(std::size_t tile)> load;
+  std::function<std::shared_ptr<const TileScene>(std::size_t tile)> load;
+  // Called once points have been removed from tiles.
+  std::function<void()> changed = [] {};
   // Points of a tile that no cap fits, by their places there; none before there are caps.
   std::function<std::vector<std::uint32_t>(std::size_t tile)> suspects = {};
 };

@@ -6,7 +6,6 @@
 
 #include "reconstruct/normals/tile_mending.h"
 #include "reconstruct/normals/tile_normals.h"
-#include "reconstruct/points/tile_halo.h"
 #include "reconstruct/points/tile_points.h"
 #include "rholm/error.h"
 #include "shape/points/point_tree.h"
@@ -78,27 +77,35 @@ void TileRemoval::remove(std::size_t tile) {
   store_.remove(found(tile));
 }
 
-std::vector<std::uint8_t> find_tile_strays(const PieceStore& store, const TilePlan& plan,
-                                           std::size_t tile, double halo, const Context& context) {
-  const TileAndHalo read = read_with_halo(store, plan, tile, halo);
-  std::vector<std::uint8_t> flags(read.n_own, 0);
-  std::vector<std::uint32_t> left(read.cloud.points.size());  // of the cloud, after each look
+std::vector<std::uint8_t> find_tile_strays(const TileScene& scene, const Context& context,
+                                           std::vector<std::uint32_t>* neighbors) {
+  std::vector<std::uint8_t> flags(scene.n_own, 0);
+  if (scene.points.empty()) return flags;
+  const auto flag = [&](std::uint32_t i) {
+    const std::uint32_t given = scene.tree->order()[i];
+    if (given < scene.n_own) flags[given] = 1;
+  };
+  std::vector<std::uint8_t> found =
+      find_strays(*scene.tree, scene.points, scene.gaps, context, neighbors);
+  std::vector<std::uint32_t> left(found.size());  // of the scene, after each look
   std::iota(left.begin(), left.end(), 0U);
-  for (int pass = 0; pass < kStrayPasses && !left.empty(); ++pass) {
-    std::vector<Vec3> places, points;
-    for (const std::uint32_t i : left) places.push_back(read.cloud.points[i]);
-    const PointTree tree(places, context);
-    for (const std::uint32_t i : tree.order()) points.push_back(places[i]);
-    const SamplingGaps gaps = find_gaps(tree, points, {}, context);
-    const std::vector<std::uint8_t> found = find_strays(tree, points, gaps, context);
-    if (std::find(found.begin(), found.end(), 1) == found.end()) break;
-    std::vector<std::uint8_t> gone(left.size(), 0);
-    for (std::size_t i = 0; i < found.size(); ++i) gone[tree.order()[i]] = found[i];
+  for (int pass = 1;; ++pass) {
     std::vector<std::uint32_t> rest;
     for (std::size_t k = 0; k < left.size(); ++k) {
-      if (gone[k] == 0) rest.push_back(left[k]);
-      if (gone[k] != 0 && left[k] < read.n_own) flags[left[k]] = 1;
+      found[k] == 0 ? rest.push_back(left[k]) : flag(left[k]);
     }
+    if (rest.size() == left.size() || rest.empty() || pass == kStrayPasses) break;
+    std::vector<Vec3> places, points, normals;
+    for (const std::uint32_t i : rest) places.push_back(scene.points[i]);
+    const PointTree tree(places, context);
+    for (const std::uint32_t k : tree.order()) {
+      points.push_back(places[k]);
+      if (!scene.normals.empty()) normals.push_back(scene.normals[rest[k]]);
+    }
+    const SamplingGaps gaps = find_gaps(tree, points, normals, context);
+    const std::vector<std::uint8_t> seen = find_strays(tree, points, gaps, context);
+    found.assign(rest.size(), 0);
+    for (std::size_t k = 0; k < seen.size(); ++k) found[tree.order()[k]] = seen[k];
     left = std::move(rest);
   }
   return flags;

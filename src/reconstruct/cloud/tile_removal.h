@@ -8,6 +8,7 @@
 
 #include "io/spill/piece_store.h"
 #include "reconstruct/points/tile_plan.h"
+#include "reconstruct/points/tile_scene.h"
 #include "rholm/context.h"
 
 namespace rholm {
@@ -39,9 +40,9 @@ class TileRemoval {
   std::string name_;
 };
 
-// Those far from all others, alone or in small groups: find_strays(), with points of other tiles
-// in a box that is wider by `halo`.
-std::vector<std::uint8_t> find_tile_strays(const PieceStore& store, const TilePlan& plan,
-                                           std::size_t tile, double halo, const Context& context);
+// Those far from all others, alone or in small groups: find_strays(), one flag per own point.
+// `neighbors`, if it is given, gets graph_neighbors() of all points of the scene.
+std::vector<std::uint8_t> find_tile_strays(const TileScene& scene, const Context& context,
+                                           std::vector<std::uint32_t>* neighbors);
 
 }  // namespace rholm

@@ -132,12 +132,13 @@ std::vector<SignSample> samples_of(const TileScene& scene, const SignPieces& pie
 
 void TileMending::find(std::size_t tile, const Context& context) const {
   if (store_.has(pieces_name(tile))) return;
-  const TileScene scene = options_.load(tile);
+  const std::shared_ptr<const TileScene> loaded = options_.load(tile);
+  const TileScene& scene = *loaded;
   SignPieces found;
   std::vector<SignSample> samples;
   if (scene.n_own > 0) {
     found = find_sign_pieces(*scene.tree, scene.points, scene.normals, scene.gaps, scene.foreign,
-                             context);
+                             context, options_.neighbors(tile));
     samples = samples_of(scene, found, options_, context);
   }
   const std::span<const std::uint32_t> order = scene.tree->order();

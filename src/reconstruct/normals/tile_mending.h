@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "io/spill/piece_store.h"
@@ -26,7 +27,9 @@ struct TileMendingOptions {
   bool mend = true;    // else contradictions are counted only
   bool closed = true;  // the surface is to be closed
   // Points of one tile with those around it.
-  std::function<TileScene(std::size_t tile)> load;
+  std::function<std::shared_ptr<const TileScene>(std::size_t tile)> load;
+  // Their graph_neighbors(), or nothing.
+  std::function<std::vector<std::uint32_t>(std::size_t tile)> neighbors;
   std::uint64_t points = 0;      // of all tiles
   std::uint64_t samples = 0;     // of all tiles
   std::size_t around = 0;        // neighbours that tell the area of a point: see sample_tile()

@@ -17,12 +17,12 @@ namespace rholm {
 namespace {
 
 // What is known of the signs of normals: of given ones nothing.
-void put_confidence(TileScene& scene) {
-  std::vector<double> sure(scene.cloud.points.size(), 1.0);
+Attribute confidence_of(const TileScene& scene) {
+  std::vector<double> sure(scene.points.size(), 1.0);
   for (std::size_t i = 0; i < scene.confidence.size(); ++i) {
     sure[scene.tree->order()[i]] = static_cast<double>(scene.confidence[i]);
   }
-  set_attribute(scene.cloud.attributes, {"confidence", ScalarType::kFloat32, std::move(sure)});
+  return {"confidence", ScalarType::kFloat32, std::move(sure)};
 }
 
 }  // namespace
@@ -112,11 +112,12 @@ bool TileOutput::is_left_out(const std::string& attribute) const {
 // What the points of a tile tell of its vertices.
 void TileOutput::carry(std::size_t tile, Mesh& vertices) const {
   if (layout_.columns.empty() && !options_.confidence) return;
-  TileScene scene = load_(tile);
-  if (options_.confidence) put_confidence(scene);
-  std::erase_if(scene.cloud.attributes, [&](const Attribute& a) { return is_left_out(a.name); });
-  carry_attributes(*scene.tree, scene.cloud.attributes, vertices, stages_.context());
-  if (options_.confidence) add_confidence(scene.ordered(), vertices, stages_.context());
+  const std::shared_ptr<const TileScene> scene = load_(tile);
+  std::vector<Attribute> attributes = scene->attributes;
+  if (options_.confidence) set_attribute(attributes, confidence_of(*scene));
+  std::erase_if(attributes, [&](const Attribute& a) { return is_left_out(a.name); });
+  carry_attributes(*scene->tree, attributes, vertices, stages_.context());
+  if (options_.confidence) add_confidence(scene->ordered(), vertices, stages_.context());
 }
 
 // Of the triangles of each tile.
@@ -124,13 +125,11 @@ ConfidenceAreas TileOutput::measure_confidence(const TileParts& parts) const {
   const auto name_of = [](std::size_t tile) { return "confidence/" + std::to_string(tile); };
   stages_.each("confidence", n_tiles_, [&](std::size_t tile) {
     if (store_.has(name_of(tile))) return;
-    TileScene scene = load_(tile);
-    put_confidence(scene);
-    std::erase_if(scene.cloud.attributes,
-                  [](const Attribute& a) { return a.name != "confidence"; });
+    const std::shared_ptr<const TileScene> scene = load_(tile);
+    const Attribute sure = confidence_of(*scene);
     Mesh mesh = parts.kept_mesh(tile).mesh;
-    carry_attributes(*scene.tree, scene.cloud.attributes, mesh, stages_.context());
-    const ConfidenceAreas areas = add_confidence(scene.ordered(), mesh, stages_.context());
+    carry_attributes(*scene->tree, std::span(&sure, 1), mesh, stages_.context());
+    const ConfidenceAreas areas = add_confidence(scene->ordered(), mesh, stages_.context());
     const std::span<const std::byte> sections[] = {bytes_of(std::span(&areas, 1))};
     store_.write(name_of(tile), sections);
   });

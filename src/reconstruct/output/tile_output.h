@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +23,8 @@ namespace rholm {
 
 class TileOutput {
  public:
-  using Load = std::function<TileScene(std::size_t tile)>;  // a tile's points and its halo
+  // A tile's points and its halo.
+  using Load = std::function<std::shared_ptr<const TileScene>(std::size_t tile)>;
 
   TileOutput(PieceStore& store, TileStages& stages, const ReconstructOptions& options,
              const PointLayout& layout, std::size_t n_tiles, Load load)

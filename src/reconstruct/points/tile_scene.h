@@ -16,8 +16,8 @@ namespace rholm {
 
 // The points of a tile and those of others near it, its halo, in the order of a tree.
 struct TileScene {
-  PointCloud cloud;  // the tile's own first
-  std::size_t n_own = 0;
+  std::size_t n_own = 0;                     // points of the tile, before those of others
+  std::vector<Attribute> attributes;         // in that order, which the tree has as order()
   std::vector<TileAndHalo::Part> halo = {};  // where the others are from, unless some were left out
   std::unique_ptr<PointTree> tree;
   std::vector<Vec3> points, normals;  // in the order of the tree; unit normals, or none
