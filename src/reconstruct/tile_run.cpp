@@ -246,6 +246,7 @@ class TileRun {
       if (store_.has("holes")) return;
       const HoleFilling filling = filled.join();
       write_values(store_, "holes", std::vector<std::uint64_t>{filling.holes, filling.smooth});
+      for (std::size_t tile = 0; tile < n_; ++tile) surface.forget_values(tile);
     });
     const std::vector<std::uint64_t> holes = read_values<std::uint64_t>(store_, "holes");
     report_.holes = holes.at(0), report_.smooth_holes = holes.at(1);

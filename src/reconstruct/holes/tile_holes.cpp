@@ -163,8 +163,7 @@ class HoleGrid {
     const std::size_t before = grid.n_blocks();
     add_blocks(grid, wanted);
     for (const auto& [tile, blocks] : of_tiles) {
-      BlockGrid own = make_block_grid(grid.origin, grid.step, blocks, context_);
-      surface_.fill(surface_.caps_at(blocks), own, context_);
+      const BlockGrid own = surface_.values_at(tile, blocks, context_);
       for (std::size_t b = 0; b < own.n_blocks(); ++b) {
         const std::int32_t to = find_block(grid, own.blocks[b]);
         std::copy(own.block_values(b), own.block_values(b + 1),

@@ -23,6 +23,7 @@ namespace {
 constexpr double kAround = 3.5 + 8 + 1.5;
 // A triangle's cube starts in a block whose middle lies up to 3.5 steps from there.
 constexpr double kWithin = 3.5 + 1 + 1.5;
+constexpr std::size_t kTogether = 16;  // blocks, of 2 KiB each; chosen: those of a hole are near
 constexpr std::size_t kNoLimit = std::size_t{1} << 40;
 
 std::string name_of(const char* what, std::size_t tile) {
@@ -100,10 +101,10 @@ void TileSurface::find_values(std::size_t tile, const Context& context) {
   all.insert(all.end(), blocks.around.begin(), blocks.around.end());
   BlockGrid grid = make_block_grid(frame_.origin, frame_.step, std::move(all), context);
   fill(caps, grid, context);
+  const std::vector<std::uint32_t> which = open_blocks(grid, blocks.own.size(), context);
+  write_near_open(tile, grid, blocks.own.size(), which);
   std::vector<BlockCoordinates> open;
-  for (const std::uint32_t b : open_blocks(grid, blocks.own.size(), context)) {
-    open.push_back(grid.blocks[b]);
-  }
+  for (const std::uint32_t b : which) open.push_back(grid.blocks[b]);
   const std::span<const std::byte> places[] = {bytes_of(open)};
   store_.write(name_of("open", tile), places);
   store_.write(name_of("grid", tile), {narrow_blocks(grid, all_below(blocks.own.size()), context)});
@@ -124,6 +125,65 @@ void TileSurface::fill(const NearCaps& caps, BlockGrid& grid, const Context& con
   const std::vector<std::uint64_t> doubtful =
       fill_grid(caps.atlas, caps.bands, lists, grid, context);
   clear_refuted(grid, doubtful, winding_.numbers(context));
+}
+
+// Section 0: coordinates; then kTogether blocks each.
+void TileSurface::write_near_open(std::size_t tile, const BlockGrid& grid, std::size_t n_own,
+                                  std::span<const std::uint32_t> open) const {
+  std::vector<std::uint8_t> is_near(n_own, 0);
+  for (const std::uint32_t b : open) {
+    for (const std::int32_t other : grid.neighbours[b]) {
+      if (other != kNoBlock && static_cast<std::size_t>(other) < n_own) is_near[other] = 1;
+    }
+  }
+  std::vector<BlockCoordinates> places;
+  std::vector<std::vector<std::byte>> sections(1);
+  for (std::size_t b = 0; b < n_own; ++b) {
+    if (is_near[b] == 0) continue;
+    if (places.size() % kTogether == 0) sections.emplace_back();
+    places.push_back(grid.blocks[b]);
+    const auto values = bytes_of(std::span(grid.block_values(b), BlockGrid::kNodes));
+    sections.back().insert(sections.back().end(), values.begin(), values.end());
+  }
+  const std::span<const std::byte> bytes = bytes_of(places);
+  sections.front().assign(bytes.begin(), bytes.end());
+  store_.write(name_of("near-open", tile), sections);
+}
+
+BlockGrid TileSurface::values_at(std::size_t tile, const std::vector<BlockCoordinates>& blocks,
+                                 const Context& context) const {
+  BlockGrid grid = make_block_grid(frame_.origin, frame_.step, blocks, context);
+  const PieceReader piece = store_.open(name_of("near-open", tile));
+  const auto places = piece.values<BlockCoordinates>(0);
+  std::vector<BlockCoordinates> others;
+  std::size_t section = 0;
+  std::vector<float> values;  // of the section
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const auto at = std::lower_bound(places.begin(), places.end(), blocks[b], comes_before);
+    if (at == places.end() || *at != blocks[b]) {
+      others.push_back(blocks[b]);
+      continue;
+    }
+    const auto place = static_cast<std::size_t>(at - places.begin());
+    if (section != 1 + place / kTogether) {
+      section = 1 + place / kTogether;
+      values = piece.values<float>(section);
+    }
+    std::copy_n(values.data() + place % kTogether * BlockGrid::kNodes, BlockGrid::kNodes,
+                grid.block_values(b));
+  }
+  if (others.empty()) return grid;
+  BlockGrid rest = make_block_grid(frame_.origin, frame_.step, others, context);
+  fill(caps_at(others), rest, context);
+  for (std::size_t b = 0; b < rest.n_blocks(); ++b) {
+    const auto to = static_cast<std::size_t>(find_block(grid, rest.blocks[b]));
+    std::copy_n(rest.block_values(b), BlockGrid::kNodes, grid.block_values(to));
+  }
+  return grid;
+}
+
+void TileSurface::forget_values(std::size_t tile) const {
+  store_.remove(name_of("near-open", tile));
 }
 
 void TileSurface::write_closed(std::size_t tile, std::span<const ClosedBlock> blocks) {

@@ -44,13 +44,18 @@ class TileSurface {
   const TileCaps& caps() const { return caps_; }
 
   // The values of the grid: "grid/TILE", the blocks at the tile's border once more: "rim/TILE",
-  // and the places of those that have open cubes: "open/TILE".
+  // the places of those that have open cubes: "open/TILE", and all values of these blocks and of
+  // those beside them: "near-open/TILE".
   void find_values(std::size_t tile, const Context& context);
   bool has_values(std::size_t tile) const { return has("rim", tile); }
   std::vector<BlockCoordinates> open(std::size_t tile) const;
 
-  // The values of the caps, of which all that reach the grid are given.
-  void fill(const NearCaps& caps, BlockGrid& grid, const Context& context) const;
+  // The values of the caps at the tile's blocks of those coordinates, which are in order: read
+  // where they are near open cubes, else found again.
+  BlockGrid values_at(std::size_t tile, const std::vector<BlockCoordinates>& blocks,
+                      const Context& context) const;
+  // Once no value is asked for again.
+  void forget_values(std::size_t tile) const;
   // All caps that reach some blocks.
   NearCaps caps_at(std::span<const BlockCoordinates> blocks) const;
   // The places of the tile's blocks, sorted.
@@ -97,6 +102,10 @@ class TileSurface {
   bool has(const char* what, std::size_t tile) const;
   std::string mesh_name(std::size_t tile) const;  // of the last one
   NearCaps near_caps(std::size_t tile) const;
+  // The values of the caps, of which all that reach the grid are given.
+  void fill(const NearCaps& caps, BlockGrid& grid, const Context& context) const;
+  void write_near_open(std::size_t tile, const BlockGrid& grid, std::size_t n_own,
+                       std::span<const std::uint32_t> open) const;
   BlockGrid whole_grid(std::size_t tile, std::size_t& n_own, const Context& context) const;
 
   PieceStore& store_;
