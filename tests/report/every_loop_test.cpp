@@ -72,8 +72,7 @@ Mesh large_mesh_in_random_order() {
 TEST(every_loop, gives_the_same_bits_for_a_mesh_in_parts) {
   const Mesh mesh = many_triangles();
   expect_same_bits([&](const Context& context) {
-    const MeshPassOptions options{
-        .degree = 120, .precision = 1e-4, .most_held = 100, .streamed_parts = 10};
+    const MeshPassOptions options{.degree = 120, .precision = 1e-4, .parts = 10};
     return Bits().add(mesh_pass(view_of(mesh), options, context).coefficients);
   });
 }

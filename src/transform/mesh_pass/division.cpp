@@ -13,7 +13,7 @@ namespace {
 
 // Chosen: a part and what is between it and others are large against its rim, and its lumps (8 ...
 // 50 MB) small.
-constexpr std::size_t kStreamedSize = std::size_t{1} << 20;
+constexpr std::size_t kLargeSize = std::size_t{1} << 20, kLargeMesh = std::size_t{1} << 23;
 
 }  // namespace
 
@@ -27,14 +27,11 @@ Division divide_triangles(std::size_t n_triangles, std::size_t wanted) {
           .count = (blocks + each - 1) / each};
 }
 
-std::size_t held_parts(std::size_t n_triangles) {
-  return std::clamp<std::size_t>(n_triangles / 20000, 1, 8);
-}
-
-std::size_t streamed_parts(std::size_t n_triangles, int degree) {
+std::size_t part_count(std::size_t n_triangles, int degree, std::size_t grids) {
+  if (n_triangles <= kLargeMesh) return grids;
   // A grid has some 3 L^2 cells, each of which costs a tenth of a triangle to make and to add.
   const auto degrees = static_cast<std::size_t>(degree);
-  const std::size_t size = std::max(kStreamedSize, 2 * degrees * degrees);
+  const std::size_t size = std::max(kLargeSize, 2 * degrees * degrees);
   return (n_triangles + size - 1) / size;
 }
 

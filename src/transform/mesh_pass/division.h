@@ -21,12 +21,9 @@ struct Division {
 // At most `wanted` parts of the same size.
 Division divide_triangles(std::size_t n_triangles, std::size_t wanted);
 
-// How many parts pay before the sources are spread, when no grid goes with each.
-std::size_t held_parts(std::size_t n_triangles);
-// Beyond so many triangles what parts leave is not held until the window is known: they are spread
-// one after the other, each to a grid of its own, as streamed_parts() says.
-inline constexpr std::size_t kMostHeld = std::size_t{1} << 23;
-std::size_t streamed_parts(std::size_t n_triangles, int degree);
+// As many parts as grids pay; beyond 2^23 triangles so many that memory does not grow with the
+// mesh.
+std::size_t part_count(std::size_t n_triangles, int degree, std::size_t grids);
 
 // The smallest and the largest index of a vertex; none if low > high.
 struct IndexRange {

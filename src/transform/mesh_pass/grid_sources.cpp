@@ -10,7 +10,6 @@ namespace rholm {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::size_t kMostKept = std::size_t{1} << 20;  // nodes, 32 MB
 constexpr std::size_t kCellsInRow = 64;  // chosen: a part of a mesh in order leaves most rows empty
 constexpr std::size_t kMostUndivided = std::size_t{1} << 18;
 
@@ -125,23 +124,13 @@ void PartSink<T>::add(std::span<const Node> nodes) {
   part_.nodes += nodes.size();
   part_.weight += sum_of(nodes, [](double weight) { return weight; });
   part_.modulus += sum_of(nodes, [](double weight) { return std::abs(weight); });
-  if (grid_ != nullptr) return grid_->add(nodes);
-  part_.source2 += sum_of(nodes, [](double weight) { return weight * weight; });
-  part_.too_many = part_.too_many || part_.kept.size() + nodes.size() > kMostKept;
-  if (part_.too_many) return;
-  part_.kept.insert(part_.kept.end(), nodes.begin(), nodes.end());
-  part_.n_kept += nodes.size();
+  grid_.add(nodes);
 }
 
 template <typename T>
 void PartSink<T>::add_gradient(const GradientNode& node) {
   ++part_.nodes;
-  if (grid_ != nullptr) return grid_->add(node);
-  part_.source2 += counted2(node, plan_.divided.degree);
-  part_.too_many = part_.too_many || part_.kept_gradients.size() >= kMostKept;
-  if (part_.too_many) return;
-  part_.kept_gradients.push_back(node);
-  ++part_.n_kept;
+  grid_.add(node);
 }
 
 template <typename T>

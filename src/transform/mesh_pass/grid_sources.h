@@ -63,11 +63,11 @@ class GridSources {
   std::size_t n_values_ = 0, n_gradients_ = 0;
 };
 
-// Where a part's nodes go: to a grid or, if there is none yet, kept.
+// A part's nodes on their way to its grid.
 template <typename T>
 class PartSink : public NodeSink {
  public:
-  PartSink(MeshPart<T>& part, GridSources<T>* grid, const MeshPlan& plan)
+  PartSink(MeshPart<T>& part, GridSources<T>& grid, const MeshPlan& plan)
       : part_(part), grid_(grid), plan_(plan) {}
   void add(std::span<const Node> nodes) override;
   void add_gradient(const GradientNode& node) override;
@@ -76,7 +76,7 @@ class PartSink : public NodeSink {
 
  private:
   MeshPart<T>& part_;
-  GridSources<T>* grid_;
+  GridSources<T>& grid_;
   const MeshPlan& plan_;
   std::vector<Vec3> undivided_;
   std::vector<double> undivided_weights_;

@@ -11,9 +11,6 @@ template <typename Part, typename Archive>
 void visit_numbers(Part& part, Archive& archive) {
   archive.value(part.sums);
   archive.value(part.mean);
-  archive.value(part.n_kept);
-  archive.value(part.too_many);
-  archive.value(part.source2);
   archive.value(part.weight);
   archive.value(part.modulus);
   archive.value(part.nodes);

@@ -13,7 +13,6 @@
 #include "rholm/coefficients.h"
 #include "transform/mesh_pass/block/block.h"
 #include "transform/mesh_pass/border_lumps.h"
-#include "transform/mesh_pass/node_sink.h"
 #include "transform/mesh_pass/vertex_lumps.h"
 
 namespace rholm {
@@ -27,12 +26,6 @@ struct MeshPart {
   BlockSums sums = no_triangles();
   double mean = 0;  // int r dOmega over triangles with nodes for it
   std::vector<SampledHalfEdge> half_edges;
-  // Nodes that wait for a grid, unless they are too many.
-  std::vector<Node> kept;
-  std::vector<GradientNode> kept_gradients;
-  std::size_t n_kept = 0;  // of both
-  bool too_many = false;
-  double source2 = 0;               // of those kept
   double weight = 0;                // sum of weights, of all that are divided by l(l+1)
   double modulus = 0;               // and of their moduli
   std::size_t nodes = 0;            // of all
@@ -44,8 +37,7 @@ struct MeshPart {
   BorderLumps<LumpOf<T>> border;
 };
 
-// All of a part but the nodes kept, which stay with whoever spreads it. read_part() throws Io for
-// bytes that are not those of a part.
+// read_part() throws Io for bytes that are not those of a part.
 template <typename T>
 void write(const MeshPart<T>& part, ByteWriter& writer);
 template <typename T>

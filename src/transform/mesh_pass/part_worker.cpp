@@ -27,15 +27,16 @@ template <typename T>
 class PartWorker<T>::Triangles {
  public:
   // To `lumps`, those of the part's vertices. `fans`: see link_fans(), if anything is to be linked.
-  Triangles(const PartWorker& worker, WorkedPart<T>& worked, VertexLump<Lump>* lumps,
-            GridSources<T>* grid, std::uint32_t* fans)
+  Triangles(const PartWorker& worker, const PartMesh& part_mesh, VertexLump<Lump>* lumps,
+            GridSources<T>& grid, std::uint32_t* fans, MeshPart<T>& part)
       : worker_(worker),
-        worked_(worked),
+        part_mesh_(part_mesh),
         lumps_(lumps),
         mesh_(worker.mesh_),
         parameters_(worker.plan_.block),
         fans_(fans),
-        sink_(worked.part, grid, worker.plan_),
+        part_(part),
+        sink_(part, grid, worker.plan_),
         vertices_{.mesh = mesh_,
                   .center = parameters_.scale * parameters_.center,
                   .scale = parameters_.scale},
@@ -44,9 +45,9 @@ class PartWorker<T>::Triangles {
         lumping2_(std::pow(lumping_error(worker.plan_.divided.degree), 2)) {}
 
   void run(SharedProgress& progress) {
-    const std::size_t first = worked_.mesh.first_triangle, n = worked_.mesh.n_triangles;
+    const std::size_t first = part_mesh_.first_triangle, n = part_mesh_.n_triangles;
     const auto& release = worker_.options_.release;
-    worked_.part.block_errors.reserve((n + kBlockSize - 1) / kBlockSize);
+    part_.block_errors.reserve((n + kBlockSize - 1) / kBlockSize);
     look_at(0);
     for (std::size_t at = 0; at < n; at += kBlockSize) {
       ask_cancel();
@@ -60,7 +61,7 @@ class PartWorker<T>::Triangles {
       progress.add(kStep);
     }
     writer_.flush();
-    worked_.part.node_error2 = writer_.error2();
+    part_.node_error2 = writer_.error2();
     between_.flush();
     sink_.sum_undivided();
   }
@@ -74,29 +75,28 @@ class PartWorker<T>::Triangles {
   };
 
   void look_at(std::size_t at) {
-    const std::size_t first = worked_.mesh.first_triangle + at;
-    const std::size_t n = std::min(kBlockSize, worked_.mesh.n_triangles - at);
-    if (worked_.mesh.names.empty()) check_triangles(worker_.options_, first, n);
+    const std::size_t first = part_mesh_.first_triangle + at;
+    const std::size_t n = std::min(kBlockSize, part_mesh_.n_triangles - at);
+    if (part_mesh_.names.empty()) check_triangles(worker_.options_, first, n);
     next_->largest = largest_index(mesh_, first, n);
     if (next_->largest >= mesh_.n_vertices) worker_.refuse_mesh();
-    next_->places = worked_.mesh.corners(mesh_, first, n, next_->room);
+    next_->places = part_mesh_.corners(mesh_, first, n, next_->room);
     ask_for_lumps(next_->places, n, parameters_.hessians, lumps_);
   }
 
   void work(std::size_t first, std::size_t n) {
-    MeshPart<T>& part = worked_.part;
     parameters_.largest_index = here_->largest;
     const double mean_reach2 = std::max(parameters_.mean_reach2, parameters_.mean_nodes_reach2);
-    const std::size_t before = part.sums.nodes;
-    work_block(mesh_, first, n, parameters_, *block_, part.sums);
+    const std::size_t before = part_.sums.nodes;
+    work_block(mesh_, first, n, parameters_, *block_, part_.sums);
     scatter_lumps(here_->places, n, parameters_.hessians, *block_, lumps_);
     if (fans_ != nullptr) link_fans(here_->places, n, *block_, fans_);
     if (block_->has_nodes_between) between_.add(mesh_, first, n, *block_);
-    sample_half_edges(*block_, n, part.half_edges);
+    sample_half_edges(*block_, n, part_.half_edges);
     const double written = writer_.error2();
-    if (part.sums.nodes != before || part.sums.max_edge2 > mean_reach2) write_nodes(first, n);
+    if (part_.sums.nodes != before || part_.sums.max_edge2 > mean_reach2) write_nodes(first, n);
     const double error2 = lumping2_ * lumped_error2(n) + writer_.error2() - written;
-    part.block_errors.push_back(static_cast<float>(std::sqrt(error2)));
+    part_.block_errors.push_back(static_cast<float>(std::sqrt(error2)));
   }
 
   // In units of lumping_error(L), of the block's first n triangles.
@@ -120,17 +120,18 @@ class PartWorker<T>::Triangles {
         writer_.add_triangle(p, mesh_.triangle(first + t));
       }
       if ((block.flag[t] & kMeanNodes) != 0) {
-        worked_.part.mean += radius_integral(p, worker_.plan_.allowed.mean);
+        part_.mean += radius_integral(p, worker_.plan_.allowed.mean);
       }
     }
   }
 
   const PartWorker& worker_;
-  WorkedPart<T>& worked_;
+  const PartMesh& part_mesh_;
   VertexLump<Lump>* lumps_;
   const MeshView& mesh_;
   BlockParameters parameters_;
   std::uint32_t* fans_;
+  MeshPart<T>& part_;
   std::unique_ptr<Ahead> here_ = std::make_unique<Ahead>(), next_ = std::make_unique<Ahead>();
   std::unique_ptr<TriangleBlock<Lump>> block_ = std::make_unique<TriangleBlock<Lump>>();
   PartSink<T> sink_;
@@ -148,51 +149,56 @@ IndexRange PartWorker<T>::range_of(std::size_t p) const {
 }
 
 template <typename T>
-WorkedPart<T> PartWorker<T>::work(std::size_t p, GridSources<T>* grid,
-                                  SharedProgress& progress) const {
-  const bool hessians = plan_.block.hessians;
-  WorkedPart<T> worked;
-  worked.mesh =
+MeshPart<T> PartWorker<T>::work(std::size_t p, GridSources<T>& grid,
+                                SharedProgress& progress) const {
+  const std::size_t per_vertex = lumps_per_vertex(plan_.block.hessians);
+  PartMesh mesh =
       part_mesh(mesh_, division_.first(p), division_.n(p), ranges_[p],
                 [&](std::size_t first, std::size_t n) { check_triangles(options_, first, n); });
-  const std::size_t n_vertices = worked.mesh.n_vertices;
-  worked.lumps = AlignedArray<VertexLump<Lump>>::zeros(lumps_per_vertex(hessians) * n_vertices);
-  worked.part.border.per_vertex = lumps_per_vertex(hessians);
+  auto lumps = AlignedArray<VertexLump<Lump>>::zeros(per_vertex * mesh.n_vertices);
   AlignedArray<std::uint32_t> fans;
-  if (!shared_ranges(ranges_, p).empty()) fans = AlignedArray<std::uint32_t>::zeros(n_vertices);
-  Triangles(*this, worked, worked.lumps.data(), grid, fans.data()).run(progress);
-  worked.mesh.ranks.reset();
-  if (fans.size() > 0) take_border(p, fans.data(), worked);
-  worked.part.lumps = sums_of(worked.lumps.data(), n_vertices);
-  return worked;
+  if (!shared_ranges(ranges_, p).empty()) {
+    fans = AlignedArray<std::uint32_t>::zeros(mesh.n_vertices);
+  }
+  MeshPart<T> part;
+  part.border.per_vertex = per_vertex;
+  Triangles(*this, mesh, lumps.data(), grid, fans.data(), part).run(progress);
+  mesh.ranks.reset();
+  if (fans.size() > 0) take_border(p, mesh, fans.data(), lumps.data(), part);
+  fans = {};
+  part.lumps = sums_of(lumps.data(), mesh.n_vertices);
+  spread(mesh, lumps.data(), grid);
+  grid.flush();
+  return part;
 }
 
 template <typename T>
-WorkedPart<T> PartWorker<T>::work(std::size_t p, CommonLumps<Lump>& common, GridSources<T>* grid,
-                                  SharedProgress& progress) const {
-  WorkedPart<T> worked;
-  worked.mesh.first_triangle = division_.first(p);
-  worked.mesh.n_triangles = division_.n(p);
+MeshPart<T> PartWorker<T>::work(std::size_t p, CommonLumps<Lump>& common, GridSources<T>& grid,
+                                SharedProgress& progress) const {
+  MeshPart<T> part;
+  PartMesh mesh;
+  mesh.first_triangle = division_.first(p);
+  mesh.n_triangles = division_.n(p);
   const typename CommonLumps<Lump>::Loan loan(common);
-  Triangles(*this, worked, loan.lumps(), grid, nullptr).run(progress);
-  return worked;
+  Triangles(*this, mesh, loan.lumps(), grid, nullptr, part).run(progress);
+  grid.flush();
+  return part;
 }
 
 // What is around a vertex lies in this part if it is closed: others may have the vertex, but none a
 // triangle next to one of these.
 template <typename T>
-void PartWorker<T>::take_border(std::size_t p, const std::uint32_t* fans,
-                                WorkedPart<T>& worked) const {
-  MeshPart<T>& part = worked.part;
+void PartWorker<T>::take_border(std::size_t p, const PartMesh& mesh, const std::uint32_t* fans,
+                                VertexLump<Lump>* lumps, MeshPart<T>& part) const {
   const std::size_t per_vertex = part.border.per_vertex;
   for (const IndexRange& shared : shared_ranges(ranges_, p)) {
-    const PartMesh::Places places = worked.mesh.places(shared);
+    const PartMesh::Places places = mesh.places(shared);
     for (std::size_t i = places.begin; i < places.end; ++i) {
       if (fans[i] == 0) continue;
-      VertexLump<Lump>* lumps = worked.lumps.data() + per_vertex * i;
-      part.border.add(worked.mesh.name(i), lumps);
-      part.border_weight += static_cast<double>(lumps->value[0]);
-      std::fill(lumps, lumps + per_vertex, VertexLump<Lump>{});
+      VertexLump<Lump>* const own = lumps + per_vertex * i;
+      part.border.add(mesh.name(i), own);
+      part.border_weight += static_cast<double>(own->value[0]);
+      std::fill(own, own + per_vertex, VertexLump<Lump>{});
     }
   }
 }
@@ -211,22 +217,19 @@ void PartWorker<T>::visit_lumps(const VertexLump<Lump>* lumps, std::size_t n,
 }
 
 template <typename T>
-void PartWorker<T>::spread(const WorkedPart<T>& worked, GridSources<T>& grid) const {
-  grid.add(worked.part.kept);
-  for (const GradientNode& node : worked.part.kept_gradients) grid.add(node);
-  const PartMesh& mesh = worked.mesh;
+void PartWorker<T>::spread(const PartMesh& mesh, const VertexLump<Lump>* all,
+                           GridSources<T>& grid) const {
   std::uint32_t names[kVerticesPerBlock];
-  visit_lumps(worked.lumps.data(), mesh.n_vertices,
-              [&](std::size_t first, std::size_t n, const VertexLump<Lump>* lumps) {
-                if (first % (256 * kVerticesPerBlock) == 0) ask_cancel();
-                for (std::size_t i = 0; i < n; ++i) names[i] = mesh.name(first + i);
-                // Those of the next block may lie far apart.
-                for (std::size_t i = first + n; i < std::min(first + 2 * n, mesh.names.size());
-                     ++i) {
-                  hwy::Prefetch(mesh_.vertices + mesh.names[i] * mesh_.vertex_stride);
-                }
-                grid.add_vertices(mesh_, names, n, plan_.block, lumps);
-              });
+  visit_lumps(
+      all, mesh.n_vertices, [&](std::size_t first, std::size_t n, const VertexLump<Lump>* lumps) {
+        if (first % (256 * kVerticesPerBlock) == 0) ask_cancel();
+        for (std::size_t i = 0; i < n; ++i) names[i] = mesh.name(first + i);
+        // Those of the next block may lie far apart.
+        for (std::size_t i = first + n; i < std::min(first + 2 * n, mesh.names.size()); ++i) {
+          hwy::Prefetch(mesh_.vertices + mesh.names[i] * mesh_.vertex_stride);
+        }
+        grid.add_vertices(mesh_, names, n, plan_.block, lumps);
+      });
   if (options_.release_vertices && mesh.names.empty() && mesh.n_vertices > 0) {
     options_.release_vertices(mesh.first_vertex, mesh.n_vertices);
   }
@@ -262,7 +265,7 @@ template <typename T>
 LumpSums PartWorker<T>::sums_of(const VertexLump<Lump>* lumps, std::size_t n) const {
   LumpSums sums;
   visit_lumps(lumps, n, [&](std::size_t, std::size_t count, const VertexLump<Lump>* block) {
-    sums.add(sum_lumps(block, count, plan_.block.hessians));
+    sums.add(sum_lumps(block, count));
   });
   return sums;
 }

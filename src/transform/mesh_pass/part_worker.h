@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
-#include "base/aligned_array.h"
 #include "base/progress.h"
-#include "rholm/context.h"
+#include "harmonic/nonuniform/nonuniform_plan.h"
 #include "rholm/mesh_view.h"
 #include "transform/mesh_pass/common_lumps.h"
 #include "transform/mesh_pass/division.h"
@@ -20,14 +21,6 @@
 
 namespace rholm {
 
-// What of a part has not been spread yet.
-template <typename T>
-struct WorkedPart {
-  MeshPart<T> part;
-  PartMesh mesh;
-  AlignedArray<VertexLump<LumpOf<T>>> lumps;  // of the mesh's vertices
-};
-
 // Parts may be worked by several threads at a time, and by several processes that have the ranges
 // of all parts.
 template <typename T>
@@ -35,23 +28,38 @@ class PartWorker {
  public:
   using Lump = LumpOf<T>;
 
+  // `transform`: the window, which has been chosen.
   PartWorker(const MeshView& mesh, const MeshPassOptions& options, const MeshPlan& plan,
-             const Division& division)
-      : mesh_(mesh), options_(options), plan_(plan), division_(division) {}
+             const Division& division, const NonuniformPlan& transform)
+      : mesh_(mesh),
+        options_(options),
+        plan_(plan),
+        division_(division),
+        transform_(transform),
+        kernel_(grid_kernel<T>(transform_.fourier)) {}
+  PartWorker(const PartWorker&) = delete;
+  PartWorker& operator=(const PartWorker&) = delete;
 
   // Of the triangles of part p, for set_ranges(). Throws InvalidInput for an index out of range.
   IndexRange range_of(std::size_t p) const;
   void set_ranges(std::vector<IndexRange> ranges) { ranges_ = std::move(ranges); }
   const std::vector<IndexRange>& ranges() const { return ranges_; }
-  std::size_t n_vertices() const { return mesh_.n_vertices; }
 
-  // Nodes go to the grid; with none they are kept. Throws as mesh_pass() does.
-  WorkedPart<T> work(std::size_t p, GridSources<T>* grid, SharedProgress& progress) const;
-  // The same, lumps to those in common, without ranges of parts: what is left are the nodes kept.
-  WorkedPart<T> work(std::size_t p, CommonLumps<Lump>& common, GridSources<T>* grid,
-                     SharedProgress& progress) const;
-  // Nodes that were kept, then the vertices that no other part has.
-  void spread(const WorkedPart<T>& worked, GridSources<T>& grid) const;
+  // An empty one, good as long as this.
+  std::unique_ptr<GridSources<T>> new_grid() const {
+    return std::make_unique<GridSources<T>>(transform_, kernel_);
+  }
+
+  // None yet of any vertex.
+  CommonLumps<Lump> no_lumps() const {
+    return {mesh_.n_vertices, lumps_per_vertex(plan_.block.hessians)};
+  }
+
+  // Spreads nodes and the vertices that no other part has to the grid. Throws as mesh_pass() does.
+  MeshPart<T> work(std::size_t p, GridSources<T>& grid, SharedProgress& progress) const;
+  // The same, lumps to those in common, without ranges of parts: nodes alone are spread.
+  MeshPart<T> work(std::size_t p, CommonLumps<Lump>& common, GridSources<T>& grid,
+                   SharedProgress& progress) const;
   // Vertices begin ... end - 1 of those that several parts have.
   void spread(const BorderLumps<Lump>& border, std::size_t begin, std::size_t end,
               GridSources<T>& grid) const;
@@ -71,15 +79,20 @@ class PartWorker {
 
  private:
   class Triangles;
-  void take_border(std::size_t p, const std::uint32_t* fans, WorkedPart<T>& worked) const;
+  void take_border(std::size_t p, const PartMesh& mesh, const std::uint32_t* fans,
+                   VertexLump<Lump>* lumps, MeshPart<T>& part) const;
+  // Vertices of the part.
+  void spread(const PartMesh& mesh, const VertexLump<Lump>* all, GridSources<T>& grid) const;
   // Calls visit(first, n, lumps) for blocks of vertices, `first` counted from the first of them.
   template <typename Visit>
   void visit_lumps(const VertexLump<Lump>* lumps, std::size_t n, const Visit& visit) const;
 
   const MeshView& mesh_;
   const MeshPassOptions& options_;
-  const MeshPlan& plan_;
-  Division division_;
+  const MeshPlan plan_;
+  const Division division_;
+  const NonuniformPlan transform_;
+  const GridKernel<T> kernel_;
   std::vector<IndexRange> ranges_;
 };
 

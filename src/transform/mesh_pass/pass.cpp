@@ -125,9 +125,7 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
     result.times = std::move(times);
     const Outcome outcome = run_pass(input.mesh, input.options, plan, context, result);
     result.report.passes = passes;
-    // Each of these is possible once.
-    limits.forbid_single = limits.forbid_single || outcome == Outcome::kOutOfRange;
-    limits.many_nodes = limits.many_nodes || outcome == Outcome::kTooManyNodes;
+    if (outcome == Outcome::kOutOfRange) limits.forbid_single = true;  // possible once
     if (outcome == Outcome::kDone) {
       // The sample may have missed what matters, or taken the norm for larger than it is.
       const double norm = norm_of_degrees(result.coefficients, 1, options.degree);

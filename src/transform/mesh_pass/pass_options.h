@@ -7,7 +7,6 @@
 #include "parts/executor.h"
 #include "rholm/error.h"
 #include "rholm/vec3.h"
-#include "transform/mesh_pass/division.h"
 
 namespace rholm {
 
@@ -22,8 +21,7 @@ struct MeshPassOptions {
   std::function<void(std::size_t first, std::size_t n)> release = {};
   // Called with ranges of vertices that will hardly be used any more.
   std::function<void(std::size_t first, std::size_t n)> release_vertices = {};
-  std::size_t most_held = kMostHeld;  // triangles, see division.h; another for tests
-  std::size_t streamed_parts = 0;     // beyond them; 0: as division.h says
+  std::size_t parts = 0;  // for tests; 0: as part_count() says
   // Has other processes work parts, by a PassHelper of the same mesh (shared_parts.h); none: this
   // one works all. Not for triangles that have to be ordered first.
   Executor* executor = nullptr;

@@ -30,8 +30,7 @@ struct MeshPassResult {
 // How one way through the triangles ends.
 enum class Outcome {
   kDone,
-  kOutOfRange,   // a vertex has left the range of its integers: double precision is needed
-  kTooManyNodes  // to be kept until their number is known
+  kOutOfRange  // a vertex has left the range of its integers: double precision is needed
 };
 
 }  // namespace rholm

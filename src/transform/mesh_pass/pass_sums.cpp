@@ -25,14 +25,11 @@ void PassSums<T>::add(const MeshPart<T>& part, bool lumps_in_common) {
   whole_.half_edges.insert(whole_.half_edges.end(), part.half_edges.begin(), part.half_edges.end());
   whole_.block_errors.insert(whole_.block_errors.end(), part.block_errors.begin(),
                              part.block_errors.end());
-  whole_.too_many = whole_.too_many || part.too_many;
   whole_.modulus += part.modulus;
   whole_.nodes += part.nodes;
   whole_.node_error2 += part.node_error2;
   whole_.lumps.add(part.lumps);
   whole_.border_weight += part.border_weight;
-  kept2_ += part.source2;
-  n_kept_ += part.n_kept;
   border_sums_.add(part.border);
   if (part.undivided.degree() != plan_.divided.degree) return;
   if (whole_.undivided.degree() != part.undivided.degree()) {
@@ -54,7 +51,6 @@ BorderLumps<LumpOf<T>> PassSums<T>::take_border(const std::vector<IndexRange>& l
 
 template <typename T>
 Outcome PassSums<T>::finish(const PartWorker<T>& worker) {
-  if (whole_.too_many) return Outcome::kTooManyNodes;
   if (!std::isfinite(whole_.sums.probe)) worker.refuse_mesh();
   border_ = &border_sums_.finish();
   border_lumps_.add(worker.sums_of(*border_));
@@ -74,13 +70,6 @@ Outcome PassSums<T>::finish(const PartWorker<T>& worker) {
                slope = gradient_as_weight(plan_.divided.degree) / plan_.block.per_gradient;
   lumps2_ = weight * weight * whole_.lumps.weight2 + slope * slope * whole_.lumps.gradient2;
   return Outcome::kDone;
-}
-
-template <typename T>
-double PassSums<T>::hessian2() const {
-  if (!plan_.block.hessians) return 0;
-  return std::pow(std::pow(plan_.divided.degree, 2) / plan_.block.per_hessian, 2) *
-         whole_.lumps.hessian2;
 }
 
 template <typename T>

@@ -28,11 +28,6 @@ class PassSums {
   Outcome finish(const PartWorker<T>& worker);
 
   const BorderLumps<LumpOf<T>>& border() const { return *border_; }
-  std::size_t n_kept() const { return n_kept_; }
-  // Sums of squares of what is spread, as far as it is known before: of nodes that were kept and
-  // vertices, and of L^2 times Hessians.
-  double source2() const { return kept2_ + lumps2_; }
-  double hessian2() const;
 
   // `sum`: of all grids, transformed. `source2`, `hessian2`: what the grids have counted.
   void set_result(const MeshView& mesh, Coefficients sum, double source2, double hessian2,
@@ -43,13 +38,12 @@ class PassSums {
                  const NonuniformPlan& transform, MeshPassResult& result);
 
   const MeshPlan& plan_;
-  MeshPart<T> whole_;  // but for its border and what is kept
+  MeshPart<T> whole_;  // but for its border
   BorderSums<LumpOf<T>> border_sums_;
   const BorderLumps<LumpOf<T>>* border_ = nullptr;  // what was not taken
   LumpSums border_lumps_, common_;
   double weight_beside_common_ = 0;  // that of nodes, in quanta
-  std::size_t n_kept_ = 0;
-  double kept2_ = 0, lumps2_ = 0;
+  double lumps2_ = 0;                // sum of squares of lumps, as they count in a window's error
   bool out_of_range_ = false;
 };
 

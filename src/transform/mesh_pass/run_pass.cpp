@@ -21,19 +21,15 @@
 namespace rholm {
 namespace {
 
-// Parts, and grids with them, that are there at a time: as many as are held.
+// Parts, and grids with them, that are there at a time (chosen).
 constexpr std::size_t kPartsAtATime = 8;
 // Vertices whose lumps in common are added up at a time (chosen: some 100 us).
 constexpr std::size_t kCommonGrain = 64 * kVerticesPerBlock;
 // Vertices that are spread one after the other, as they lie (chosen: of 4 to 64 blocks rows of
 // 1000 want the most, subdivided bodies the least, a tenth of the time of spreading either way).
 constexpr std::size_t kRun = 16 * kVerticesPerBlock;
-// Below so many nodes per triangle these are kept until the sums of squares are known
-// exactly; above, they are spread as they come, to a window chosen from the sample.
-constexpr double kFewNodes = 0.05;
-
-// Windows that are chosen before the squares of sources are known take them for this many times
-// what the sample says: of steep surfaces it misses up to six times (Igea and Ryugu to degree 128
+// The window is chosen before the squares of sources are known: they are taken for this many times
+// what the sample says. Of steep surfaces it misses up to six times (Igea and Ryugu to degree 128
 // and more, which `analyze --json` said took two passes). The price is a point of width, a
 // twentieth of the pass.
 constexpr double kUnseen2 = 8;
@@ -48,36 +44,23 @@ class Pass {
         options_(options),
         plan_(plan),
         context_(context),
-        streamed_(mesh.n_triangles > options.most_held),
-        upfront_(streamed_ || plan.nodes > kFewNodes),
-        sums_(plan_) {}
+        sums_(plan_),
+        transform_(window_plan()),
+        division_(divide_triangles(mesh.n_triangles, wanted_parts())),
+        worker_(mesh, options, plan, division_, transform_) {}
 
   Outcome run(MeshPassResult& result) {
-    if (upfront_) {
-      choose_window(kUnseen2 * plan_.source2, kUnseen2 * plan_.hessian2, estimated_sources());
-    }
-    division_ = divide_triangles(mesh_.n_triangles, part_count());
-    worker_.emplace(mesh_, options_, plan_, division_);
-    if (division_.count > 1 && division_.count <= kPartsAtATime && !streamed_ &&
-        parts_overlap(mesh_, division_)) {
+    if (division_.count > 1 && has_few_parts() && parts_overlap(mesh_, division_)) {
       common_.emplace(mesh_.n_vertices, lumps_per_vertex(plan_.block.hessians));
     }
-    if (options_.executor != nullptr) groups_ = group_count();
-    if (groups_ > 1) shared_.emplace(mesh_, options_, plan_, division_);
     {
       const StageTimer timer(result.times, "triangles");
-      if (shared_ || !common_) find_ranges();
-      if (shared_) {
-        share_parts();
-      } else {
-        work_parts();
-      }
+      options_.executor != nullptr&& division_.count > 1 ? share_parts() : work_parts();
       if (common_) add_up_common();
     }
-    if (const Outcome outcome = sums_.finish(*worker_); outcome != Outcome::kDone) return outcome;
+    if (const Outcome outcome = sums_.finish(worker_); outcome != Outcome::kDone) return outcome;
     {
       const StageTimer timer(result.times, "spread");
-      if (!upfront_) spread_held();
       common_ ? spread_common() : spread_border();
     }
     {
@@ -93,87 +76,57 @@ class Pass {
            static_cast<std::size_t>(plan_.nodes * static_cast<double>(mesh_.n_triangles));
   }
 
-  std::size_t part_count() const {
-    if (!streamed_) {
-      return upfront_ ? grid_count(transform_, estimated_sources()) : held_parts(mesh_.n_triangles);
-    }
-    if (options_.streamed_parts > 0) return options_.streamed_parts;
-    return streamed_parts(mesh_.n_triangles, plan_.divided.degree);
+  std::size_t wanted_parts() const {
+    if (options_.parts > 0) return options_.parts;
+    return part_count(mesh_.n_triangles, plan_.divided.degree,
+                      grid_count(transform_, estimated_sources()));
   }
 
-  // Tasks of other processes: what is held goes from a process as whole grids.
-  std::size_t group_count() const {
-    if (upfront_) return division_.count;
-    const std::size_t sources = estimated_sources();
-    const NonuniformPlan likely =
-        window_plan(kUnseen2 * plan_.source2, kUnseen2 * plan_.hessian2, sources);
-    return std::min(division_.count, grid_count(likely, sources));
-  }
-
-  void choose_window(double source2, double hessian2, std::size_t sources) {
-    transform_ = window_plan(source2, hessian2, sources);
-    kernel_ = grid_kernel<T>(transform_.fourier);
-  }
-
-  // `hessian2`: L^2 times Hessians, whose part in the error depends on the grid.
-  NonuniformPlan window_plan(double source2, double hessian2, std::size_t sources) const {
+  NonuniformPlan window_plan() const {
+    const double source2 = kUnseen2 * plan_.source2;
     const double allowed = options_.window_share * allowed_window_error(plan_, source2);
-    NonuniformNeeds needs{.degree = plan_.divided.degree,
-                          .allowed = std::clamp(allowed, 1e-15, 1e-2),
-                          .sources = sources,
-                          .derivatives = plan_.block.hessians ? 2 : 1,
-                          .forbid_single = sizeof(T) == 8,
-                          // The sum of squares has gradients in it already.
-                          .gradient_size = 0,
-                          .hessian_size = std::sqrt(hessian2 / std::max(source2, 1e-300)),
-                          .spread_out = mesh_.n_vertices};
+    NonuniformNeeds needs{
+        .degree = plan_.divided.degree,
+        .allowed = std::clamp(allowed, 1e-15, 1e-2),
+        .sources = estimated_sources(),
+        .derivatives = plan_.block.hessians ? 2 : 1,
+        .forbid_single = sizeof(T) == 8,
+        // The sum of squares has gradients in it already.
+        .gradient_size = 0,
+        // L^2 times Hessians, whose part in the error depends on the grid.
+        .hessian_size = std::sqrt(kUnseen2 * plan_.hessian2 / std::max(source2, 1e-300)),
+        .spread_out = mesh_.n_vertices};
     NonuniformPlan plan = plan_nonuniform(needs);
     plan.single = sizeof(T) == 4;
     return plan;
   }
 
-  std::unique_ptr<GridSources<T>> new_grid() const {
-    return std::make_unique<GridSources<T>>(transform_, kernel_);
-  }
+  // Grids of parts are there until the end; else they are added up.
+  bool has_few_parts() const { return division_.count <= kPartsAtATime; }
 
-  void find_ranges() {
+  std::vector<IndexRange> find_ranges() const {
     std::vector<IndexRange> ranges(division_.count);
-    if (shared_) {
-      options_.executor->run(
-          {.count = ranges.size(), .job = kPassJob, .input = ranges_job(plan_, division_)},
-          [&](std::size_t p, int) { return shared_->range_of(p); },
-          [&](std::size_t p, const std::string& bytes) { ByteReader(bytes).value(ranges[p]); });
-      shared_->set_ranges(ranges, groups_, common_.has_value());
-      if (upfront_) shared_->set_transform(transform_);
-      return worker_->set_ranges(std::move(ranges));
-    }
     parallel_for(ranges.size(), 1, {.threads = context_.threads}, {},
-                 [&](std::size_t p, std::size_t) { ranges[p] = worker_->range_of(p); });
-    worker_->set_ranges(std::move(ranges));
+                 [&](std::size_t p, std::size_t) { ranges[p] = worker_.range_of(p); });
+    return ranges;
   }
 
   // A few parts at a time: what they leave is added up in their order before the next begin.
   void work_parts() {
+    if (!common_) worker_.set_ranges(find_ranges());
     SharedProgress progress(context_, "triangles", 0, before_spread(),
                             static_cast<double>(mesh_.n_triangles));
     for (std::size_t first = 0; first < division_.count; first += kPartsAtATime) {
       const std::size_t n = std::min(kPartsAtATime, division_.count - first);
-      std::vector<WorkedPart<T>> worked(n);
-      std::vector<std::unique_ptr<GridSources<T>>> grids(upfront_ ? n : 0);
+      std::vector<MeshPart<T>> parts(n);
+      std::vector<std::unique_ptr<GridSources<T>>> grids(n);
       parallel_for(n, 1, {.threads = threads_for_parts()}, {}, [&](std::size_t i, std::size_t) {
-        if (upfront_) grids[i] = new_grid();
-        worked[i] = common_ ? worker_->work(first + i, *common_, grids_of(grids, i), progress)
-                            : worker_->work(first + i, grids_of(grids, i), progress);
-        if (!upfront_) return;
-        if (!common_) worker_->spread(worked[i], *grids[i]);
-        grids[i]->flush();
-        worked[i].mesh = {};
-        worked[i].lumps = {};
+        grids[i] = worker_.new_grid();
+        parts[i] = common_ ? worker_.work(first + i, *common_, *grids[i], progress)
+                           : worker_.work(first + i, *grids[i], progress);
       });
-      for (const WorkedPart<T>& one : worked) sums_.add(one.part, common_.has_value());
-      if (!upfront_) {
-        held_ = std::move(worked);
-      } else if (division_.count <= kPartsAtATime) {
+      for (const MeshPart<T>& part : parts) sums_.add(part, common_.has_value());
+      if (has_few_parts()) {
         grids_ = std::move(grids);
       } else {
         add_to_whole(grids);
@@ -182,17 +135,9 @@ class Pass {
     }
   }
 
-  static GridSources<T>* grids_of(const std::vector<std::unique_ptr<GridSources<T>>>& grids,
-                                  std::size_t i) {
-    return grids.empty() ? nullptr : grids[i].get();
-  }
-
   // What of the whole is done when spreading begins; that of vertices in common is by itself.
-  static constexpr double kBeforeSpread = 0.6;
-  double before_spread() const {
-    if (common_) return upfront_ ? kBeforeSpread : 0.5;
-    return upfront_ ? 0.9 : 0.5;
-  }
+  static constexpr double kBeforeCommon = 0.6;
+  double before_spread() const { return common_ ? kBeforeCommon : 0.9; }
 
   int threads_for_parts() const {
     if (!common_) return context_.threads;
@@ -206,7 +151,7 @@ class Pass {
     parallel_for(n, kCommonGrain, {.threads = context_.threads}, {},
                  [&](std::size_t begin, std::size_t end) {
                    sums[begin / kCommonGrain] =
-                       worker_->sums_of(common_->add_up(begin, end - begin), end - begin);
+                       worker_.sums_of(common_->add_up(begin, end - begin), end - begin);
                  });
     for (const LumpSums& one : sums) sums_.add_common(one);
   }
@@ -216,12 +161,12 @@ class Pass {
   void spread_common() {
     const std::vector<std::size_t> runs = runs_by_height();
     const std::size_t n = grids_.size();
-    SharedProgress progress(context_, "spread", kBeforeSpread, 0.9,
+    SharedProgress progress(context_, "spread", kBeforeCommon, 0.9,
                             static_cast<double>(mesh_.n_vertices));
     parallel_for(n, 1, {.threads = context_.threads}, {}, [&](std::size_t g, std::size_t) {
       for (std::size_t k = g * runs.size() / n; k < (g + 1) * runs.size() / n; ++k) {
         const std::size_t begin = runs[k], end = std::min(mesh_.n_vertices, begin + kRun);
-        worker_->spread(*common_, begin, end, *grids_[g]);
+        worker_.spread(*common_, begin, end, *grids_[g]);
         progress.add(end - begin);
       }
       grids_[g]->flush();
@@ -254,50 +199,45 @@ class Pass {
 
   // The same by several processes: what they leave is added up in the order of the parts.
   void share_parts() {
+    std::vector<IndexRange> ranges(division_.count);
+    options_.executor->run(
+        {.count = division_.count,
+         .job = kPassJob,
+         .input = ranges_job(plan_, transform_, division_)},
+        [&](std::size_t p, int) { return range_task(worker_, p); },
+        [&](std::size_t p, const std::string& bytes) { ByteReader(bytes).value(ranges[p]); });
+    const std::string input = parts_job(ranges, common_.has_value());
+    worker_.set_ranges(std::move(ranges));
     SharedProgress progress(context_, "triangles", 0, before_spread(),
                             static_cast<double>(mesh_.n_triangles));
     options_.executor->run(
-        {.count = groups_,
-         .dealt = !upfront_ && !common_,
-         .job = kPassJob,
-         .input = parts_job(worker_->ranges(), groups_, common_.has_value(),
-                            upfront_ ? &transform_ : nullptr)},
-        [&](std::size_t group, int) { return shared_->work(group); },
-        [&](std::size_t group, const std::string& bytes) {
+        {.count = division_.count, .job = kPassJob, .input = input},
+        [&](std::size_t p, int) { return part_task(worker_, common_.has_value(), p); },
+        [&](std::size_t p, const std::string& bytes) {
           ByteReader reader(bytes);
-          const std::size_t first = shared_->first(group, groups_);
-          const std::size_t end = shared_->first(group + 1, groups_);
-          for (std::size_t p = first; p < end; ++p) {
-            sums_.add(read_part<T>(reader), common_.has_value());
-            if (upfront_) {
-              take_grid(p, reader);
-            } else if (common_) {
-              MeshPart<T>& part = held_.emplace_back().part;
-              reader.array(part.kept);
-              reader.array(part.kept_gradients);
-            }
-            progress.add(division_.n(p));
-          }
-          if (common_) common_->add_written(reader);
-          reader.finish();
+          take_part(p, reader);
+          progress.add(division_.n(p));
         });
   }
 
-  void take_grid(std::size_t p, ByteReader& reader) {
-    if (division_.count <= kPartsAtATime || grids_.empty()) grids_.push_back(new_grid());
+  void take_part(std::size_t p, ByteReader& reader) {
+    sums_.add(read_part<T>(reader), common_.has_value());
+    if (has_few_parts() || grids_.empty()) grids_.push_back(worker_.new_grid());
     grids_.back()->add_written(reader);
-    if (division_.count <= kPartsAtATime) return;
+    if (common_) common_->add_written(reader);
+    reader.finish();
+    if (has_few_parts()) return;
     if ((p + 1) % kPartsAtATime == 0 || p + 1 == division_.count) spread_done_border(p + 1);
   }
 
   // Of the parts before p: else what parts share would grow with the mesh.
   void spread_done_border(std::size_t p) {
-    const auto done = sums_.take_border(ranges_from(worker_->ranges(), p), *worker_);
-    worker_->spread(done, 0, done.vertices.size(), *grids_[0]);
+    const auto done = sums_.take_border(ranges_from(worker_.ranges(), p), worker_);
+    worker_.spread(done, 0, done.vertices.size(), *grids_[0]);
   }
 
   void add_to_whole(const std::vector<std::unique_ptr<GridSources<T>>>& grids) {
-    if (grids_.empty()) grids_.push_back(new_grid());
+    if (grids_.empty()) grids_.push_back(worker_.new_grid());
     double* const whole = grids_[0]->cells();
     constexpr std::size_t kCells = std::size_t{1} << 16;  // chosen: some 100 us
     parallel_for(transform_.fourier.layout.cells(), kCells, {.threads = context_.threads}, {},
@@ -310,40 +250,10 @@ class Pass {
     for (const auto& grid : grids) grids_[0]->count_as_own(*grid);
   }
 
-  // Parts that were held, to as many grids as pay.
-  void spread_held() {
-    choose_window(sums_.source2(), sums_.hessian2(), mesh_.n_vertices + sums_.n_kept());
-    const std::size_t parts = division_.count;
-    const std::size_t n = std::min(parts, grid_count(transform_, estimated_sources()));
-    for (std::size_t g = 0; g < n; ++g) grids_.push_back(new_grid());
-    SharedProgress progress(context_, "spread", before_spread(), common_ ? kBeforeSpread : 0.9,
-                            static_cast<double>(parts));
-    if (shared_ && !common_) {
-      shared_->set_transform(transform_);
-      return options_.executor->run(
-          {.count = n, .dealt = true, .job = kPassJob, .input = grids_job(n, transform_)},
-          [&](std::size_t g, int) { return shared_->spread(g, n); },
-          [&](std::size_t g, const std::string& bytes) {
-            ByteReader reader(bytes);
-            grids_[g]->add_written(reader);
-            reader.finish();
-            progress.add(shared_->first(g + 1, n) - shared_->first(g, n));
-          });
-    }
-    parallel_for(n, 1, {.threads = context_.threads}, {}, [&](std::size_t g, std::size_t) {
-      for (std::size_t p = g * parts / n; p < (g + 1) * parts / n; ++p) {
-        worker_->spread(held_[p], *grids_[g]);
-        progress.add(1);
-      }
-      grids_[g]->flush();
-    });
-    held_.clear();
-  }
-
   void spread_border() {
     const std::size_t n = grids_.size(), vertices = sums_.border().vertices.size();
     parallel_for(n, 1, {.threads = context_.threads}, {}, [&](std::size_t g, std::size_t) {
-      worker_->spread(sums_.border(), g * vertices / n, (g + 1) * vertices / n, *grids_[g]);
+      worker_.spread(sums_.border(), g * vertices / n, (g + 1) * vertices / n, *grids_[g]);
       grids_[g]->flush();
     });
   }
@@ -364,19 +274,13 @@ class Pass {
 
   const MeshView& mesh_;
   const MeshPassOptions& options_;
-  MeshPlan plan_;
+  const MeshPlan plan_;
   const Context& context_;
-  bool streamed_;  // what parts leave is not held: see kMostHeld
-  bool upfront_;   // the window is chosen before the triangles are worked
   PassSums<T> sums_;
-  Division division_;
-  std::optional<PartWorker<T>> worker_;
+  const NonuniformPlan transform_;
+  const Division division_;
+  PartWorker<T> worker_;
   std::optional<CommonLumps<LumpOf<T>>> common_;  // where the vertices of parts lie scattered
-  std::size_t groups_ = 0;                        // of parts, see group_count()
-  std::optional<SharedParts<T>> shared_;          // with other processes, if there are any
-  std::vector<WorkedPart<T>> held_;
-  NonuniformPlan transform_;
-  GridKernel<T> kernel_;
   std::vector<std::unique_ptr<GridSources<T>>> grids_;
 };
 

@@ -78,10 +78,7 @@ MeshPassResult turned_reading(const MeshView& mesh, const MeshPassOptions& optio
   turned.vertices = reinterpret_cast<const std::byte*>(vertices.data());
   turned.vertex_stride = sizeof(Vec3);
   turned.coordinate = ScalarType::kFloat64;
-  MeshPassOptions wanted{.degree = options.degree,
-                         .precision = precision,
-                         .most_held = options.most_held,
-                         .streamed_parts = options.streamed_parts};
+  MeshPassOptions wanted{.degree = options.degree, .precision = precision, .parts = options.parts};
   MeshPassResult result = mesh_pass(turned, wanted, context);
   result.coefficients = rotate(result.coefficients, inverse(rotation), context);
   return result;

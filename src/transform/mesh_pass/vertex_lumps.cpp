@@ -240,32 +240,11 @@ void LumpSums::add(const LumpSums& other) {
   hessian2 += other.hessian2;
 }
 
-namespace {
-
-LumpSums sum_fours(const VertexLump<std::int32_t>* lumps, std::size_t n) {
+LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n) {
   return HWY_DYNAMIC_DISPATCH(SumSingle)(lumps, n);
 }
-LumpSums sum_fours(const VertexLump<double>* lumps, std::size_t n) {
+LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n) {
   return HWY_DYNAMIC_DISPATCH(SumDouble)(lumps, n);
-}
-template <typename L>
-LumpSums sum_parts(const VertexLump<L>* lumps, std::size_t n, bool hessians) {
-  LumpSums sums = sum_fours(lumps, n);
-  if (!hessians) return sums;
-  for (std::size_t k = 1; k < lumps_per_vertex(true); ++k) {
-    const LumpSums more = sum_fours(lumps + k * kVerticesPerBlock, n);
-    sums.hessian2 += more.weight2 + more.gradient2;
-  }
-  return sums;
-}
-
-}  // namespace
-
-LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n, bool hessians) {
-  return sum_parts(lumps, n, hessians);
-}
-LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n, bool hessians) {
-  return sum_parts(lumps, n, hessians);
 }
 
 template <typename L>

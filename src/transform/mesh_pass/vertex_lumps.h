@@ -35,9 +35,9 @@ struct LumpSums {
 
   void add(const LumpSums& other);
 };
-// Of a block, as arranged() has them.
-LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n, bool hessians);
-LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n, bool hessians);
+// Of weights and gradients of a block, as arranged() has them.
+LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n);
+LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n);
 
 // Sources of n <= kVerticesPerBlock vertices with these numbers, in ascending order, whose lumps
 // are given, eight at a time: read up to a multiple of that. Vertices without a lump may lie

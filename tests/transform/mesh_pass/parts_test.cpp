@@ -289,9 +289,8 @@ TEST(mesh_parts, their_sum_is_the_whole_whatever_their_number) {
     for (const double precision : {1e-2, 1e-6, 1e-10}) {
       MeshPassOptions options{.degree = 20, .precision = precision, .center = {0.05, 0.02, 0.01}};
       const MeshPassResult whole = mesh_pass(view_of(*mesh), options, {});
-      options.most_held = 100;
       for (const std::size_t parts : {1u, 3u, 8u, 21u}) {
-        options.streamed_parts = parts;
+        options.parts = parts;
         const MeshPassResult sum = mesh_pass(view_of(*mesh), options, {});
         EXPECT_LT(relative_error(sum.coefficients, whole.coefficients), 2 * precision) << parts;
         EXPECT_TRUE(sum.report.reached);
@@ -308,8 +307,7 @@ TEST(mesh_parts, their_sum_is_the_whole_whatever_their_number) {
 TEST(mesh_parts, give_the_same_bits_for_any_number_of_threads) {
   const Mesh mesh = rough_sphere(5);
   for (const double precision : {1e-2, 1e-6, 1e-10}) {
-    const MeshPassOptions options{
-        .degree = 20, .precision = precision, .most_held = 100, .streamed_parts = 19};
+    const MeshPassOptions options{.degree = 20, .precision = precision, .parts = 19};
     const MeshPassResult one = mesh_pass(view_of(mesh), options, {.threads = 1});
     const MeshPassResult four = mesh_pass(view_of(mesh), options, {.threads = 4});
     const auto a = one.coefficients.values(), b = four.coefficients.values();
@@ -318,8 +316,8 @@ TEST(mesh_parts, give_the_same_bits_for_any_number_of_threads) {
   }
 }
 
-// Lumps in common: 81 920 triangles are four parts, of which several threads have lumps of their
-// own. In few windows and in many nodes, with and without Hessians, in either precision.
+// Lumps in common, of which several threads have some of their own. With few nodes and many, with
+// and without Hessians, in either precision.
 TEST(mesh_parts, whose_vertices_lie_scattered_are_the_same_on_any_number_of_threads) {
   const Mesh mesh = test::rotated(bumpy_sphere(6, 0.2));
   const MeshView view = view_of(mesh);
@@ -327,7 +325,7 @@ TEST(mesh_parts, whose_vertices_lie_scattered_are_the_same_on_any_number_of_thre
   std::set<bool> single;
   for (const auto& [degree, precision] :
        {std::pair{20, 1e-3}, {40, 1e-6}, {100, 1e-4}, {100, 1e-7}, {60, 1e-11}}) {
-    const MeshPassOptions options{.degree = degree, .precision = precision};
+    MeshPassOptions options{.degree = degree, .precision = precision, .parts = 4};
     const MeshPassResult one = mesh_pass(view, options, {.threads = 1});
     single.insert(one.report.single);
     for (const int threads : {2, 3, 8}) {
@@ -337,10 +335,8 @@ TEST(mesh_parts, whose_vertices_lie_scattered_are_the_same_on_any_number_of_thre
       EXPECT_EQ(one.report.error, many.report.error);
     }
     // In parts with borders.
-    MeshPassOptions streamed = options;
-    streamed.most_held = 100;
-    streamed.streamed_parts = 5;
-    const MeshPassResult parts = mesh_pass(view, streamed, {});
+    options.parts = 9;
+    const MeshPassResult parts = mesh_pass(view, options, {});
     EXPECT_LT(relative_error(one.coefficients, parts.coefficients), 1.5 * precision);
     EXPECT_EQ(one.report.lumped_triangles, parts.report.lumped_triangles);
   }
@@ -376,8 +372,7 @@ TEST(mesh_parts, triangles_without_common_vertices_have_no_border_and_are_closed
   }
   const MeshPassOptions whole{.degree = 12, .precision = 1e-8};
   MeshPassOptions parts = whole;
-  parts.most_held = 100;
-  parts.streamed_parts = 7;
+  parts.parts = 7;
   const MeshPassResult a = mesh_pass(view_of(mesh), whole, {});
   const MeshPassResult b = mesh_pass(view_of(soup), parts, {});
   EXPECT_TRUE(b.closed);
@@ -392,8 +387,7 @@ TEST(mesh_parts, release_the_vertices_they_are_done_with) {
                                     [&](std::size_t first, std::size_t n) {
                                       for (std::size_t v = first; v < first + n; ++v) ++released[v];
                                     },
-                                .most_held = 100,
-                                .streamed_parts = 10};
+                                .parts = 10};
   mesh_pass(view_of(mesh), options, {.threads = 1});
   EXPECT_GT(*std::min_element(released.begin(), released.end()), 0);
 }
@@ -426,14 +420,15 @@ void expect_same_through_bytes(const Mesh& mesh, const MeshPlan& plan) {
   for (std::size_t p = 0; p < division.count; ++p) {
     ranges.push_back(index_range(view, division.first(p), division.n(p)));
   }
+  const NonuniformPlan transform = plan_nonuniform({.degree = plan.divided.degree});
   PassSums<T> near(plan), far(plan);
-  PartWorker<T> one(view, options, plan, division);
+  PartWorker<T> one(view, options, plan, division, transform);
   one.set_ranges(ranges);
   for (std::size_t p = 0; p < division.count; ++p) {
-    PartWorker<T> other(view, options, plan, division);
+    PartWorker<T> other(view, options, plan, division, transform);
     other.set_ranges(ranges);
-    near.add(one.work(p, nullptr, progress).part);
-    const std::string bytes = bytes_of(other.work(p, nullptr, progress).part);
+    near.add(one.work(p, *one.new_grid(), progress));
+    const std::string bytes = bytes_of(other.work(p, *other.new_grid(), progress));
     far.add(part_from<T>(bytes));
     EXPECT_THROW(part_from<T>(std::string_view(bytes).substr(1)), Error);
   }
@@ -441,9 +436,17 @@ void expect_same_through_bytes(const Mesh& mesh, const MeshPlan& plan) {
   EXPECT_EQ(far.finish(one), Outcome::kDone);
   EXPECT_GT(near.border().vertices.size(), 0u);
   EXPECT_EQ(near.border().vertices, far.border().vertices);
-  EXPECT_EQ(near.n_kept(), far.n_kept());
-  EXPECT_EQ(near.source2(), far.source2());
-  EXPECT_EQ(near.hessian2(), far.hessian2());
+  MeshPassResult a, b;
+  Coefficients sum(plan.divided.degree);
+  sum.c(1, 0) = 1;
+  near.set_result(view, sum, 1, 1, transform, a);
+  far.set_result(view, sum, 1, 1, transform, b);
+  EXPECT_GT(a.report.error, 0);
+  EXPECT_EQ(a.report.error, b.report.error);
+  EXPECT_EQ(a.report.nodes, b.report.nodes);
+  EXPECT_EQ(a.coefficients.c(0, 0), b.coefficients.c(0, 0));
+  EXPECT_EQ(a.volume, b.volume);
+  EXPECT_EQ(a.block_errors, b.block_errors);
 }
 
 TEST(mesh_parts, are_the_same_when_they_have_travelled_as_bytes) {

@@ -44,7 +44,6 @@ class Processes {
 
   Executor* executor() { return &executor_; }
 
-  bool is_dealt_badly = false;  // grids to others than those that hold their parts
   std::size_t rounds = 0, bytes = 0;
 
  private:
@@ -56,8 +55,7 @@ class Processes {
     std::vector<std::string> results(parts.count);
     for (std::size_t i = 0; i < parts.count; ++i) {
       const std::size_t part = parts.count - 1 - i;  // any order is good
-      const std::size_t who = parts.dealt && !is_dealt_badly ? part * work.size() / parts.count
-                                                             : (7 * part + rounds) % work.size();
+      const std::size_t who = (7 * part + rounds) % work.size();
       results[part] = work[who](part, 1);
       bytes += who == 0 ? 0 : results[part].size();
     }
@@ -93,11 +91,10 @@ Mesh rows_of_vertices() {
   return mesh;
 }
 
-// Parts that are held until the window is known (three rounds, two where lumps are in common), and
-// spread at once, with lumps of both precisions and with Hessians; up to eight grids, and one that
-// all are added to; a mesh of one part is not shared.
-// Without `all` each mesh meets each precision and each number of parts that are spread at once,
-// and these meet each other on some mesh.
+// With lumps of both precisions and with Hessians, in common or not; as many parts as pay, up to
+// eight grids, and one that all are added to; a mesh of one part is not shared.
+// Without `all` each mesh meets each precision and each number of parts, and these meet each other
+// on some mesh.
 void check_bits_of_one_process(bool all) {
   const Mesh fine = bumpy_sphere(7), rough = rough_sphere(5), rows = rows_of_vertices(),
              small = bumpy_sphere(4);
@@ -105,20 +102,18 @@ void check_bits_of_one_process(bool all) {
   ASSERT_FALSE(parts_overlap(view_of(rows), divide_triangles(rows.triangles.size(), 8)));
   const std::array meshes = {&fine, &rough, &rows, &small};
   const std::array precisions = {1e-2, 1e-6, 1e-10};
-  const std::array<std::size_t, 3> all_streamed = {0, 3, 21};
+  const std::array<std::size_t, 3> all_parts = {0, 3, 21};
   std::set<std::size_t> rounds;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const Mesh* mesh = meshes[i];
     for (std::size_t j = 0; j < precisions.size(); ++j) {
       const double precision = precisions[j];
-      for (std::size_t k = 0; k < all_streamed.size(); ++k) {
+      for (std::size_t k = 0; k < all_parts.size(); ++k) {
         if (!all && (i + j + k) % 3 != 0) continue;
-        const std::size_t streamed = all_streamed[k];
         MeshPassOptions options{.degree = 12,
                                 .precision = precision,
                                 .center = {0.05, 0.02, 0.01},
-                                .most_held = streamed > 0 ? 100 : kMostHeld,
-                                .streamed_parts = streamed};
+                                .parts = all_parts[k]};
         const MeshPassResult alone = mesh_pass(view_of(*mesh), options, {});
         for (const std::size_t n : {1u, 3u}) {
           Processes processes(*mesh, n);
@@ -131,23 +126,12 @@ void check_bits_of_one_process(bool all) {
       }
     }
   }
-  EXPECT_EQ(rounds, (std::set<std::size_t>{0, 2, 3}));
+  EXPECT_EQ(rounds, (std::set<std::size_t>{0, 2}));
 }
 
 TEST(shared_parts, give_the_bits_of_one_process) { check_bits_of_one_process(false); }
 
 TEST(shared_parts, give_the_bits_of_one_process_nightly) { check_bits_of_one_process(true); }
-
-TEST(shared_parts, that_are_not_where_they_are_spread_are_worked_again) {
-  const Mesh mesh = rows_of_vertices();
-  MeshPassOptions options{.degree = 12, .precision = 1e-6};
-  const MeshPassResult alone = mesh_pass(view_of(mesh), options, {});
-  Processes processes(mesh, 3);
-  processes.is_dealt_badly = true;
-  options.executor = processes.executor();
-  expect_same_bits(mesh_pass(view_of(mesh), options, {}), alone);
-  EXPECT_EQ(processes.rounds, 3u);
-}
 
 // Others do not know the order that they are brought into.
 TEST(shared_parts, triangles_in_random_order_are_not_shared) {
@@ -164,7 +148,7 @@ TEST(shared_parts, triangles_in_random_order_are_not_shared) {
 // A part of a mesh in order covers a small part of the sphere, and leaves as much of a grid.
 TEST(shared_parts, send_what_is_in_a_grid) {
   const Mesh mesh = latitude_longitude_sphere(256, 512);
-  MeshPassOptions options{.degree = 100, .precision = 1e-4, .most_held = 100, .streamed_parts = 64};
+  MeshPassOptions options{.degree = 100, .precision = 1e-4, .parts = 64};
   Processes processes(mesh, 2);
   options.executor = processes.executor();
   const MeshPassResult result = mesh_pass(view_of(mesh), options, {});
@@ -178,8 +162,10 @@ TEST(shared_parts, bytes_that_are_no_input_are_refused) {
   Other other(icosphere(2));
   EXPECT_THROW(other.helper.work_of(""), Error);
   EXPECT_THROW(other.helper.work_of("nonsense"), Error);
-  EXPECT_THROW(other.helper.work_of(grids_job(1, {})), Error);  // of a pass that did not begin
-  const std::string input = ranges_job({}, divide_triangles(other.mesh.triangles.size(), 2));
+  EXPECT_THROW(other.helper.work_of(parts_job({}, false)), Error);  // before that of its ranges
+  const NonuniformPlan transform = plan_nonuniform({.degree = 4});
+  const std::string input =
+      ranges_job({}, transform, divide_triangles(other.mesh.triangles.size(), 2));
   EXPECT_THROW(other.helper.work_of(input.substr(0, input.size() - 1)), Error);
   EXPECT_EQ(other.helper.work_of(input)(1, 1).size(), sizeof(IndexRange));
 }

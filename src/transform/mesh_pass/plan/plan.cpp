@@ -173,7 +173,6 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
     plan.node_share = hermite->node_share;
     plan.neighbours = hermite->neighbours;
   }
-  if (limits.many_nodes) plan.node_share = 1;
   plan.single =
       !limits.forbid_single && single_suffices(sample, plan.allowed, degree, hermite.has_value());
   const Quantum quantum = choose_quantum(plan.allowed, mesh.n_vertices, plan.single);

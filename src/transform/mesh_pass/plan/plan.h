@@ -26,8 +26,7 @@ inline constexpr double kLumpRounding = rounding_of_sum(8);
 struct PlanLimits {
   double tighten = 1;  // divides what is allowed
   bool forbid_single = false;
-  bool many_nodes = false;  // more than the sample said
-  bool no_lumps = false;    // the sample misleads: nodes for every triangle
+  bool no_lumps = false;  // the sample misleads: nodes for every triangle
 };
 
 // The first decision: how the wanted error is divided among what leaves errors.
