@@ -15,6 +15,8 @@
 #include "base/field_text.h"
 #include "base/refuse.h"
 #include "io/file/temporary_folder.h"
+#include "io/spill/folder_store.h"
+#include "parts/memory_store.h"
 #include "reconstruct/tile_run.h"
 #include "rholm/error.h"
 #include "rholm/point_stream.h"
@@ -105,16 +107,16 @@ class TileStore {
         options.work_dir.empty() ? std::filesystem::temp_directory_path() : options.work_dir;
     if (options.resume) {
       folder_ = base / (options.output.filename().string() + ".tiles");
-      store_ = std::make_unique<PieceStore>(
+      store_ = std::make_unique<FolderStore>(
           folder_,
           fmt::format("rholm {}\npoints {}\n{}\n", kVersion, input(), text_of_fields(options)));
       store_->keep(true);
     } else if (is_shared || !n || !fits_in_memory(*n, options)) {
       own_.emplace(base, "rholm-tiles-");
       folder_ = own_->path() / "tiles";
-      store_ = std::make_unique<PieceStore>(folder_);
+      store_ = std::make_unique<FolderStore>(folder_);
     } else {
-      store_ = std::make_unique<PieceStore>();
+      store_ = std::make_unique<MemoryStore>();
     }
   }
   const std::filesystem::path& folder() const { return folder_; }  // empty: in memory
@@ -265,7 +267,7 @@ Reconstruction reconstruct_tiles(const PointCloud& points, std::uint64_t dropped
 
 void help_reconstruct(const std::filesystem::path& folder, const ReconstructOptions& options,
                       Executor& executor, const Context& context) {
-  const std::unique_ptr<PieceStore> store = PieceStore::joined(folder);
+  const std::unique_ptr<PieceStore> store = FolderStore::joined(folder);
   NoPoints none;
   run_tiles(none, *store, {.reconstruct = options}, executor, context);
 }

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "io/spill/piece_store.h"
 #include "parts/executor.h"
+#include "parts/store.h"
 #include "reconstruct/points/point_source.h"
 #include "reconstruct/points/point_survey.h"
 #include "rholm/context.h"

@@ -11,6 +11,8 @@
 #include <new>
 #include <thread>
 
+#include "io/spill/folder_store.h"
+#include "parts/memory_store.h"
 #include "reconstruct/test_support.h"
 #include "rholm/error.h"
 
@@ -62,7 +64,7 @@ TEST(PointSource, of_a_file_is_gone_through_again) {
   const TemporaryFolder folder;
   const PointCloud cloud = sphere_points(40000);
   write_shape(cloud, folder / "points.ply");
-  PieceStore store;
+  MemoryStore store;
   const auto source = open_points(folder / "points.ply", {}, store);
   EXPECT_EQ(source->size(), 40000u);
   for (int pass = 0; pass < 2; ++pass) {
@@ -95,7 +97,7 @@ TEST(PointSource, of_a_pipe_is_kept) {
   PointCloud cloud = sphere_points(40000);
   cloud.points[39999].x = 0.1;  // the last piece is wider
   write_shape(cloud, folder / "points.ply");
-  PieceStore store(folder / "store");
+  FolderStore store(folder / "store");
   store.keep(true);
   {
     const Pipe pipe(folder / "pipe.ply", read_all(folder / "points.ply"));
@@ -118,7 +120,8 @@ TEST(PointSource, of_a_pipe_goes_to_tiles) {
   const TemporaryFolder folder;
   const PointCloud cloud = sphere_points(30000);
   write_shape(cloud, folder / "points.ply");
-  PieceStore wanted, store(folder / "store");
+  MemoryStore wanted;
+  FolderStore store(folder / "store");
   const testing::Tiles from_memory(*points_in_memory(cloud), wanted, 4000);
   const Pipe pipe(folder / "pipe.ply", read_all(folder / "points.ply"));
   const testing::Tiles tiles(*open_points(folder / "pipe.ply", {}, store), store, 4000);
@@ -197,7 +200,7 @@ TEST(PointSource, larger_than_memory_goes_to_tiles) {
   EXPECT_EQ(exit_code_within(kMemory, [&] { read_shape(folder / "large.ply"); }), 1);
   EXPECT_EQ(exit_code_within(kMemory,
                              [&] {
-                               PieceStore store(folder / "store");
+                               FolderStore store(folder / "store");
                                const auto source = open_points(folder / "large.ply", {}, store);
                                const testing::Tiles tiles(*source, store, 100000);
                                const SortedTile& n = tiles.counts;

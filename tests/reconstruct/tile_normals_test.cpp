@@ -9,6 +9,7 @@
 #include <string>
 #include <tuple>
 
+#include "parts/memory_store.h"
 #include "parts/threads.h"
 #include "reconstruct/cloud/load_tile.h"
 #include "reconstruct/normals/tile_fit.h"
@@ -26,7 +27,7 @@ using testing::shuffled;
 using testing::Tiles;
 
 struct Oriented {
-  PieceStore store;
+  MemoryStore store;
   Tiles tiles;
   StageTimes times = {};
   TileNormalsReport report = {};
@@ -249,7 +250,7 @@ TEST(tile_normals, are_looked_for_without_sensors_that_are_not_all_known) {
 TEST(tile_normals, are_the_same_after_an_interruption) {
   const PointCloud given = without_normals(ring_points(6000));
   const Oriented whole(given, 1000);
-  PieceStore store;
+  MemoryStore store;
   const Tiles tiles(*points_in_memory(given), store, 1000);
   const std::vector<double> spacings =
       spacings_of_sample(tiles.found, tiles.plan, tiles.found.n_different);
@@ -303,7 +304,7 @@ TEST(tile_normals, are_those_of_a_tile_that_is_loaded) {
 TEST(tile_normals, of_points_on_a_line_are_refused) {
   PointCloud line;
   for (int i = 0; i < 100000; ++i) line.points.push_back({i / 1024.0, i / 512.0, 0});
-  PieceStore store;
+  MemoryStore store;
   const Tiles tiles(*points_in_memory(line), store, 20000);
   Threads alone;
   StageTimes times;

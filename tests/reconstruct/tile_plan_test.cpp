@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "parts/memory_store.h"
 #include "reconstruct/points/point_sample.h"
 #include "reconstruct/test_support.h"
 #include "rholm/error.h"
@@ -158,7 +159,7 @@ TEST(survey, knows_the_narrowest_layout) {
 }
 
 TEST(survey, is_kept_in_a_store) {
-  PieceStore store;
+  MemoryStore store;
   EXPECT_FALSE(read_survey(store));
   const PointCloud cloud = with_strays();
   const Survey found = survey(*points_in_memory(cloud));

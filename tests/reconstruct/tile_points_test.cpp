@@ -5,6 +5,8 @@
 
 #include <map>
 
+#include "io/spill/folder_store.h"
+#include "parts/memory_store.h"
 #include "reconstruct/test_support.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
@@ -33,7 +35,7 @@ TEST(tile_points, are_the_points_that_were_given) {
   cloud.points[7] = {kNan, 0, 0};
   cloud.points[8] = {1e6, 0, 0};
   cloud.normals[9] = {kNan, 0, 1};  // others have a direction
-  PieceStore store;
+  MemoryStore store;
   const Tiles tiles(*points_in_memory(cloud), store, 700);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < 20000; ++i) {
@@ -64,7 +66,8 @@ TEST(tile_points, of_another_order_are_the_same_bytes) {
   cloud.points[1000].x = -0.0;
   const PointCloud other = shuffled(cloud);
   const TemporaryFolder folder;
-  PieceStore first, second(folder / "second");
+  MemoryStore first;
+  FolderStore second(folder / "second");
   const Tiles a(*points_in_memory(cloud), first, 400), b(*points_in_memory(other), second, 400);
   ASSERT_EQ(a.plan.n_tiles(), b.plan.n_tiles());
   EXPECT_GT(a.plan.n_tiles(), 30u);
@@ -94,7 +97,7 @@ PointCloud twins() {
 
 TEST(tile_points, are_merged_as_the_whole_cloud_is) {
   PointCloud cloud = twins();
-  PieceStore store;
+  MemoryStore store;
   const Tiles tiles(*points_in_memory(cloud), store, 30);
   const PointCloud found = all_points(store, tiles.plan);
   const PlaceLattice lattice(bounds(cloud.points));
@@ -121,7 +124,7 @@ TEST(tile_points, are_merged_as_the_whole_cloud_is) {
 
 TEST(tile_points, within_a_box_are_those_of_a_search_through_all) {
   const PointCloud cloud = sphere_points(60000);
-  PieceStore store;
+  MemoryStore store;
   const Tiles tiles(*points_in_memory(cloud), store, 20000);
   for (std::size_t k = 0; k < tiles.plan.n_tiles(); ++k) {
     const TilePoints all = read_points(store, k);
@@ -152,7 +155,7 @@ TEST(tile_points, within_a_box_are_those_of_a_search_through_all) {
 
 TEST(tile_points, lie_near_each_other_in_chunks) {
   const PointCloud cloud = sphere_points(100000);
-  PieceStore store;
+  MemoryStore store;
   const Tiles tiles(*points_in_memory(cloud), store, 1000000);
   const TileIndex index = read_index(store, 0);
   ASSERT_EQ(index.chunks.size(), (100000 + kChunkPoints - 1) / kChunkPoints);
@@ -182,11 +185,11 @@ class Interrupted final : public PointSource {
 
 TEST(tile_points, are_finished_by_another_run) {
   const PointCloud cloud = sphere_points(50000);
-  PieceStore whole;
+  MemoryStore whole;
   const Tiles wanted(*points_in_memory(cloud), whole, 5000);
   const TemporaryFolder folder;
   {
-    PieceStore store(folder / "run");
+    FolderStore store(folder / "run");
     store.keep(true);
     write_survey(wanted.found, store);
     Interrupted source(cloud, 2);
@@ -195,14 +198,14 @@ TEST(tile_points, are_finished_by_another_run) {
     EXPECT_FALSE(store.has(raw_name(0)));
   }
   {
-    PieceStore store(folder / "run");
+    FolderStore store(folder / "run");
     store.keep(true);
     const Survey found = *read_survey(store);
     const TilePlan plan = make_plan(found, 5000);
     distribute(*points_in_memory(cloud), found, plan, store, {});
     for (std::size_t k = 0; k < plan.n_tiles() / 2; ++k) sort_points(store, k);
   }
-  PieceStore store(folder / "run");
+  FolderStore store(folder / "run");
   Interrupted never(cloud, 0);
   distribute(never, wanted.found, wanted.plan, store, {});  // all of it is there
   SortedTile counts;
@@ -218,7 +221,7 @@ TEST(tile_points, of_a_file_that_changes_are_refused) {
   const PointCloud cloud = sphere_points(1000);
   const Survey found = survey(*points_in_memory(cloud));
   const TilePlan plan = make_plan(found, 100);
-  PieceStore store;
+  MemoryStore store;
   PointCloud other = cloud;
   other.points[3].x = 0.1;  // no float
   expect_error([&] { distribute(*points_in_memory(other), found, plan, store); },
@@ -234,7 +237,7 @@ TEST(tile_points, of_a_file_that_changes_are_refused) {
 
 TEST(tile_points, that_are_damaged_are_refused) {
   const PointCloud cloud = sphere_points(300);
-  PieceStore store;
+  MemoryStore store;
   const Tiles tiles(*points_in_memory(cloud), store, 1000);
   const auto whole = bytes_of_piece(store, sorted_name(0));
   const auto read = [&] {

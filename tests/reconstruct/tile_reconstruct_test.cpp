@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "io/spill/piece_store.h"
+#include "io/spill/folder_store.h"
 #include "parts/threads.h"
 #include "reconstruct/points/point_source.h"
 #include "reconstruct/points/point_survey.h"
@@ -227,7 +227,7 @@ TEST_F(TileReconstruct, closes_gaps_around_islands_whatever_the_portions_nightly
     return angle < 0.2 || angle > 1.75;
   });
   const auto run_portions = [&](std::size_t open_blocks, const std::string& name) {
-    PieceStore store(path(name + ".work"));
+    FolderStore store(path(name + ".work"));
     store.keep(true);
     Threads alone;
     const TileRunOptions wanted{.reconstruct = {.tile_points = 4000, .output = path(name)},

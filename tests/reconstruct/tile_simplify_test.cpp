@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "parts/memory_store.h"
 #include "reconstruct/caps/tile_caps.h"
 #include "reconstruct/field/tile_winding.h"
 #include "rholm/primitives.h"
@@ -142,7 +143,7 @@ class TilesOfMesh {
 
   TilePlan plan_;
   std::size_t n_;
-  PieceStore store_;
+  MemoryStore store_;
   TileCaps caps_;
   std::unique_ptr<TileWinding> winding_;
   std::unique_ptr<TileSurface> surface_;

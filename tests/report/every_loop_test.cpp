@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "atlas/cover/cap_cover.h"
+#include "parts/memory_store.h"
 #include "parts/threads.h"
 #include "reconstruct/field/tile_grid.h"
 #include "reconstruct/normals/tile_fit.h"
@@ -352,7 +353,7 @@ TEST(every_loop, gives_the_same_bits_for_normals_in_tiles) {
   PointCloud bare = test::sphere_points(6000);
   bare.normals.clear();
   expect_same_bits([&](const Context& context) {
-    PieceStore store;
+    MemoryStore store;
     const auto source = points_in_memory(bare);
     const Survey found = survey(*source, {.points_per_tile = 3000}, context);
     const TilePlan plan = make_plan(found, 3000);
@@ -397,7 +398,7 @@ TEST(every_loop, gives_the_same_bits_for_surfaces_in_tiles) {
     sheet.normals.push_back(normalized(Vec3{-0.6 * std::cos(3 * x), 0, 1}));
   }
   expect_same_bits([&](const Context& context) {
-    PieceStore store;
+    MemoryStore store;
     const auto source = points_in_memory(sheet);
     Threads alone;
     const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) /

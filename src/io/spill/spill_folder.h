@@ -1,7 +1,4 @@
 // The folder of a store: its lock, its manifest, the files of its pieces. Layer: io, private.
-//
-// FOLDER/lock, FOLDER/manifest, and FOLDER/pieces with a file for each piece. What is not whole has
-// a name that ends in ".part"; no piece has.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +12,7 @@ namespace rholm {
 
 class SpillFolder {
  public:
-  // As PieceStore does.
+  // As FolderStore does.
   SpillFolder(const std::filesystem::path& path, const std::string& manifest);
   // One that another process has opened, and will remove. Throws Io if it is not there.
   explicit SpillFolder(const std::filesystem::path& path);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "atlas/cover/cap_cover.h"
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "rholm/atlas.h"
 #include "rholm/context.h"
 #include "rholm/topology.h"

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/points/tile_plan.h"
 #include "reconstruct/points/tile_scene.h"
 #include "rholm/context.h"

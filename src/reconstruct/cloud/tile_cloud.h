@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "atlas/cover/cap_size.h"
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/normals/tile_fit.h"
 #include "reconstruct/points/point_source.h"
 #include "reconstruct/points/point_survey.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/points/tile_plan.h"
 #include "reconstruct/points/tile_scene.h"
 #include "reconstruct/points/tile_stages.h"

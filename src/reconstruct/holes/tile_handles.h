@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/points/known_spacings.h"
 #include "reconstruct/surface/tile_surface.h"
 #include "rholm/context.h"

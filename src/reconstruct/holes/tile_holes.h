@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/field/tile_winding.h"
 #include "reconstruct/surface/tile_surface.h"
 #include "rholm/context.h"

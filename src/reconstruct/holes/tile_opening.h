@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/surface/tile_gather.h"
 #include "reconstruct/surface/tile_surface.h"
 #include "rholm/context.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/points/tile_halo.h"
 #include "reconstruct/points/tile_plan.h"
 #include "rholm/context.h"

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/normals/tile_sides.h"
 #include "reconstruct/points/tile_plan.h"
 #include "rholm/context.h"

@@ -90,7 +90,7 @@ void TileField::thin(std::size_t tile, const Context& context) {
   }
   const std::span<const std::byte> head = bytes_of(std::span<const std::uint64_t>(&first, 1));
   sections[0].assign(head.begin(), head.end());
-  store_.write(thinned_name(tile), sections);
+  store_.write(thinned_name(tile), std::move(sections));
 }
 
 bool TileField::next() {

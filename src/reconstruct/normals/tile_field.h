@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/normals/tile_doubt.h"
 #include "reconstruct/points/tile_plan.h"
 #include "rholm/context.h"

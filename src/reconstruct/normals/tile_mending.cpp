@@ -80,7 +80,7 @@ enum JoinedSection : std::size_t {
 };
 
 template <class T>
-T only(const std::vector<T>& list) {
+T only(const PieceValues<T>& list) {
   if (list.size() != 1) refuse_piece();
   return list.front();
 }

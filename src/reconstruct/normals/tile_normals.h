@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/normals/tile_directions.h"
 #include "reconstruct/normals/tile_doubt.h"
 #include "reconstruct/normals/tile_field.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/normals/tile_signs.h"
 #include "rholm/context.h"
 

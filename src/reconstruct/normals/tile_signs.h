@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/normals/tile_directions.h"
 #include "rholm/vec3.h"
 #include "shape/points/normals.h"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/output/surface_confidence.h"
 #include "reconstruct/points/point_rows.h"
 #include "reconstruct/points/tile_scene.h"

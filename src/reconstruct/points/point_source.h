@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "rholm/shape_io.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/points/point_rows.h"
 #include "reconstruct/points/point_source.h"
 #include "rholm/context.h"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/points/tile_plan.h"
 #include "reconstruct/points/tile_points.h"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/points/point_rows.h"
 #include "reconstruct/points/point_source.h"
 #include "reconstruct/points/point_survey.h"

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/points/tile_plan.h"
 #include "rholm/context.h"
 #include "rholm/topology.h"

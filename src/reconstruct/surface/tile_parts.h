@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/ply/ply_parts.h"
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/surface/tile_surface.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/surface/tile_gather.h"
 #include "reconstruct/surface/tile_parts.h"
 #include "reconstruct/surface/tile_surface.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/spill/piece_store.h"
+#include "parts/store.h"
 #include "reconstruct/caps/tile_caps.h"
 #include "reconstruct/field/tile_grid.h"
 #include "reconstruct/field/tile_winding.h"

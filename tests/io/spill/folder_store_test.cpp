@@ -1,5 +1,4 @@
 // What goes in comes out, whole or not at all, whatever happens to the folder meanwhile.
-#include "io/spill/piece_store.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -15,6 +14,8 @@
 
 #include "../shapes/test_support.h"
 #include "base/random.h"
+#include "io/spill/folder_store.h"
+#include "parts/memory_store.h"
 #include "rholm/error.h"
 
 namespace rholm {
@@ -54,8 +55,8 @@ const Sections kThree = {some_bytes(1000, 1), {}, some_bytes(37, 2)};
 class PieceStores : public ::testing::TestWithParam<bool> {
  protected:
   std::unique_ptr<PieceStore> make() {
-    if (GetParam()) return std::make_unique<PieceStore>();
-    return std::make_unique<PieceStore>(folder_ / "store", "a test");
+    if (GetParam()) return std::make_unique<MemoryStore>();
+    return std::make_unique<FolderStore>(folder_ / "store", "a test");
   }
   TemporaryFolder folder_;
 };
@@ -211,14 +212,14 @@ TEST(PieceStore, numbers_are_bytes_and_back) {
 
 TEST(PieceStore, leaves_nothing_behind) {
   const TemporaryFolder folder;
-  { PieceStore(folder / "made").write("a", kThree); }
+  { FolderStore(folder / "made").write("a", kThree); }
   EXPECT_EQ(folder.n_files(), 0u);
   std::filesystem::create_directory(folder / "given");
-  { PieceStore(folder / "given").write("a", kThree); }
+  { FolderStore(folder / "given").write("a", kThree); }
   EXPECT_TRUE(std::filesystem::is_empty(folder / "given"));
   std::filesystem::remove(folder / "given");
   {
-    PieceStore store(folder / "made");
+    FolderStore store(folder / "made");
     store.write("a", kThree);
     write_all(folder / "made/letter", "of somebody else");
   }
@@ -229,7 +230,7 @@ TEST(PieceStore, leaves_nothing_behind) {
 TEST(PieceStore, is_taken_up_again) {
   const TemporaryFolder folder;
   {
-    PieceStore store(folder / "made", "igea, version 1\nnoise 0");
+    FolderStore store(folder / "made", "igea, version 1\nnoise 0");
     EXPECT_FALSE(store.was_there());
     store.keep(true);
     store.write("caps/1", kThree);
@@ -239,7 +240,7 @@ TEST(PieceStore, is_taken_up_again) {
   std::filesystem::create_directories(folder / "made/pieces/raw.0.part");
   write_all(folder / "made/pieces/raw.0.part/0", "half");
   {
-    PieceStore store(folder / "made", "igea, version 1\nnoise 0");
+    FolderStore store(folder / "made", "igea, version 1\nnoise 0");
     EXPECT_TRUE(store.was_there());
     EXPECT_EQ(all_of(store.open("caps/1")), kThree);
     EXPECT_FALSE(store.has("caps/2"));
@@ -255,42 +256,42 @@ TEST(PieceStore, is_taken_up_again) {
 TEST(PieceStore, refuses_the_folder_of_another_run) {
   const TemporaryFolder folder;
   {
-    PieceStore store(folder / "made", "igea\nnoise 0");
+    FolderStore store(folder / "made", "igea\nnoise 0");
     store.keep(true);
     store.write("a", kThree);
   }
-  expect_error([&] { PieceStore(folder / "made", "igea\nnoise 0.1"); }, ErrorCode::kInvalidInput,
+  expect_error([&] { FolderStore(folder / "made", "igea\nnoise 0.1"); }, ErrorCode::kInvalidInput,
                {"another run", "'noise 0' there, 'noise 0.1' now"});
-  expect_error([&] { PieceStore(folder / "made", "igea"); }, ErrorCode::kInvalidInput,
+  expect_error([&] { FolderStore(folder / "made", "igea"); }, ErrorCode::kInvalidInput,
                {"'noise 0' there, 'nothing' now"});
   write_all(folder / "made/manifest", "what is this");
-  expect_error([&] { PieceStore(folder / "made", "igea"); }, ErrorCode::kInvalidInput);
+  expect_error([&] { FolderStore(folder / "made", "igea"); }, ErrorCode::kInvalidInput);
   EXPECT_TRUE(std::filesystem::exists(folder / "made/pieces/a"));
 }
 
 TEST(PieceStore, refuses_a_folder_with_other_files) {
   const TemporaryFolder folder;
   write_all(folder / "letter", "x");
-  expect_error([&] { PieceStore store(folder.path()); }, ErrorCode::kInvalidInput,
+  expect_error([&] { FolderStore store(folder.path()); }, ErrorCode::kInvalidInput,
                {"other files", "letter"});
   EXPECT_EQ(folder.n_files(), 1u);
-  expect_error([&] { PieceStore store(folder / "letter"); }, ErrorCode::kIo, {"letter"});
-  expect_error([&] { PieceStore store(folder / "letter/below"); }, ErrorCode::kIo,
+  expect_error([&] { FolderStore store(folder / "letter"); }, ErrorCode::kIo, {"letter"});
+  expect_error([&] { FolderStore store(folder / "letter/below"); }, ErrorCode::kIo,
                {"Not a directory"});
-  expect_error([&] { PieceStore store("/proc/no/such"); }, ErrorCode::kIo, {"/proc/no"});
+  expect_error([&] { FolderStore store("/proc/no/such"); }, ErrorCode::kIo, {"/proc/no"});
 }
 
 TEST(PieceStore, is_one_program_s) {
   const TemporaryFolder folder;
-  const PieceStore store(folder / "made", "same");
+  const FolderStore store(folder / "made", "same");
   // A lock is one of an open file: this process has no right to a second one either.
-  expect_error([&] { PieceStore second(folder / "made", "same"); }, ErrorCode::kIo, {"in use"});
+  expect_error([&] { FolderStore second(folder / "made", "same"); }, ErrorCode::kIo, {"in use"});
   EXPECT_TRUE(std::filesystem::exists(folder / "made/manifest"));
 }
 
 TEST(PieceStore, damaged_pieces_are_refused) {
   const TemporaryFolder folder;
-  PieceStore store(folder / "made");
+  FolderStore store(folder / "made");
   store.write("a", Sections{some_bytes(60, 1), {}, some_bytes(9, 2)});
   const auto path = folder / "made/pieces/a";
   const std::string whole = read_all(path);
@@ -338,21 +339,21 @@ int exit_code_with_small_files(Action&& action) {
 TEST(PieceStore, full_disk_leaves_what_was_whole) {
   const TemporaryFolder folder;
   EXPECT_EQ(exit_code_with_small_files([&] {
-              PieceStore store(folder / "made");
+              FolderStore store(folder / "made");
               store.keep(true);
               store.write("a", kThree);
               store.write("a", Sections{some_bytes(30000, 1)});
             }),
             0);
   EXPECT_EQ(exit_code_with_small_files([&] {
-              PieceStore store(folder / "made");
+              FolderStore store(folder / "made");
               store.keep(true);
               PieceAppender appender(store, "grown", 2, 10000);
               for (std::size_t i = 0; i < 1000; ++i) appender.append(i % 2, some_bytes(100, i));
               appender.finish();
             }),
             0);
-  PieceStore store(folder / "made");
+  FolderStore store(folder / "made");
   EXPECT_EQ(all_of(store.open("a")), kThree);
   EXPECT_FALSE(store.has("grown/0"));
   std::size_t files = 0;
@@ -364,11 +365,11 @@ TEST(PieceStore, full_disk_leaves_what_was_whole) {
 
 TEST(PieceStore, says_how_much_room_there_is) {
   const TemporaryFolder folder;
-  const PieceStore store(folder / "made");
+  const FolderStore store(folder / "made");
   store.check_room(1);
   expect_error([&] { store.check_room(std::uint64_t{1} << 62); }, ErrorCode::kIo,
                {"has room for", "are needed"});
-  PieceStore().check_room(std::uint64_t{1} << 62);
+  MemoryStore().check_room(std::uint64_t{1} << 62);
 }
 
 TEST(PieceStore, on_a_small_disk_says_that_it_is_full) {
@@ -377,7 +378,7 @@ TEST(PieceStore, on_a_small_disk_says_that_it_is_full) {
     GTEST_SKIP() << "no disk of 1 MB can be mounted here";
   }
   {
-    PieceStore store(folder / "made");
+    FolderStore store(folder / "made");
     expect_error([&] { store.check_room(2000000); }, ErrorCode::kIo, {"has room for 0.0 GB"});
     store.write("a", kThree);
     expect_error([&] { store.write("b", Sections{some_bytes(2000000, 1)}); }, ErrorCode::kIo,
