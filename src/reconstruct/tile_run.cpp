@@ -65,7 +65,7 @@ class TileRun {
       : source_(source),
         store_(store),
         options_(options.reconstruct),
-        stages_(executor, costs(options_), report_.times, context),
+        stages_(executor, store, costs(options_), report_.times, context),
         context_(stages_.context()),
         cloud_(source, store, options_, options_.tile_points, stages_, report_),
         n_(cloud_.n_tiles()) {
@@ -138,19 +138,22 @@ class TileRun {
     const CrossingSearch search{.n = report_.points - report_.dropped_points - report_.outliers,
                                 .diagonal = cloud_.diagonal(),
                                 .noise = cloud_.size().noise};
-    const auto crossings_in = [&](std::size_t tile) { return piece_of("crossings" + round, tile); };
     const std::size_t halo = std::max({kCrossingNeighbors, kPatch, cloud_.around()});
-    stages_.each("crossings", n_, [&](std::size_t tile) {
-      if (store_.has(crossings_in(tile))) return;
+    const auto look = [&](std::size_t tile) {
       const auto scene = cloud_.load(tile, halo, search.reach());
       const WallPatches patches = choose_patches(*scene->tree, scene->points, scene->foreign,
                                                  search.n, cloud_.around(), context_);
       write_values(store_, piece_of("patch-points" + round, tile), patches.points);
       write_values(store_, piece_of("patch-areas" + round, tile), patches.areas);
-      const Crossings found = find_crossings(*scene->tree, scene->points, scene->gaps,
-                                             scene->foreign, search, context_);
-      write_values(store_, crossings_in(tile), std::vector{found});
-    });
+      return std::vector{find_crossings(*scene->tree, scene->points, scene->gaps, scene->foreign,
+                                        search, context_)};
+    };
+    Crossings all;
+    for (const Crossings& found :
+         stages_.values<Crossings>({"crossings", n_, {"crossings" + round}}, look)) {
+      all.add(found);
+    }
+    note_crossings(all, cloud_.diagonal(), report_);
     stages_.each("caps", n_, [&](std::size_t tile) {
       if (caps.has(tile)) return;
       const auto scene = cloud_.load_for(tile, cloud_.size().neighbours);
@@ -166,11 +169,6 @@ class TileRun {
       caps.write(tile, found, context_);
     });
     caps.read_extents();
-    Crossings all;
-    for (std::size_t tile = 0; tile < n_; ++tile) {
-      all.add(read_values<Crossings>(store_, crossings_in(tile)).at(0));
-    }
-    note_crossings(all, cloud_.diagonal(), report_);
     patches_ = {};
     for (std::size_t tile = 0; tile < n_; ++tile) {
       const auto append = [&](auto& to, const auto& from) {
@@ -255,11 +253,14 @@ class TileRun {
                         [&](std::size_t tile, const std::vector<Vec3>& places) {
                           return spacings_at(*cloud_.load(tile), places);
                         });
-    stages_.each("surface", n_, [&](std::size_t tile) {
+    const Stage stage = {.name = "surface", .count = n_, .last_inputs = no_longer_needed()};
+    stages_.each(stage, [&](std::size_t tile) {
       if (handles.has(tile)) return;
       handles.find(tile, surface.extract(tile, is_open(), context_), context_);
     });
-    forget_caps(filled);
+    stages_.once("surface", [&] {
+      if (!store_.is_kept()) filled.forget();
+    });
     stages_.once("handles", [&] { handles.cut(context_); });
     report_.cut_handles = surface.take_round(kCutRound);
     if (keeps_model()) {
@@ -288,24 +289,12 @@ class TileRun {
     return seen;
   }
 
-  // What no later step needs, unless a run after this one may begin again before them. Ranks that
-  // have joined a store keep it: its owner decides.
-  void forget_caps(TileHoles& filled) {
-    stages_.once("surface", [&] {
-      if (store_.is_kept()) return;
-      filled.forget();
-      for (std::size_t tile = 0; tile < n_; ++tile) {
-        const auto forget = [&](const char* what) {
-          store_.remove(std::string(what) + "/" + std::to_string(tile));
-        };
-        for (const char* what : {"grid", "rim", "open", "closed"}) forget(what);
-        if (keeps_model()) continue;
-        for (const char* what : {"crossings", "crossings-again", "caps", "caps-again", "patches",
-                                 "patches-again", "bands", "bands-again"}) {
-          forget(what);
-        }
-      }
-    });
+  // Pieces that no stage after the surface reads. Ranks that have joined a store keep them: its
+  // owner decides.
+  std::vector<std::string> no_longer_needed() const {
+    if (keeps_model()) return {"grid", "rim", "open", "closed"};
+    return {"grid", "rim",        "open",    "closed",        "crossings", "crossings-again",
+            "caps", "caps-again", "patches", "patches-again", "bands",     "bands-again"};
   }
 
   bool is_open() const { return options_.holes == HolePolicy::kKeep; }
@@ -347,17 +336,11 @@ class TileRun {
 
   // Whether the points lie on the surface, from the vertices near some of them.
   void check_points(const TileParts& parts) {
-    stages_.each("walls", n_, [&](std::size_t tile) {
-      if (store_.has(piece_of("walls", tile))) return;
+    const auto look = [&](std::size_t tile) {
       TileMesh part = parts.kept_mesh(tile);
-      write_values(store_, piece_of("walls", tile),
-                   vertices_near(patches_, report_.step, part.mesh, part.n_own));
-    });
-    std::vector<WallVertex> near;
-    for (std::size_t tile = 0; tile < n_; ++tile) {
-      const auto own = read_values<WallVertex>(store_, piece_of("walls", tile));
-      near.insert(near.end(), own.begin(), own.end());
-    }
+      return vertices_near(patches_, report_.step, part.mesh, part.n_own);
+    };
+    const auto near = stages_.values<WallVertex>({"walls", n_, {"walls"}}, look);
     stages_.all("walls",
                 [&] { note_walls(check_walls(patches_, near, report_.step, context_), report_); });
   }
@@ -433,7 +416,7 @@ class TileRun {
   PieceStore& store_;
   const ReconstructOptions& options_;
   ReconstructReport report_;
-  TileStages stages_;
+  Stages stages_;
   const Context& context_;  // of the stage that runs
   TileCloud cloud_;
   std::size_t n_ = 0;               // tiles

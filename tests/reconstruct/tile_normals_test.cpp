@@ -36,7 +36,7 @@ struct Oriented {
            const TileNormalsOptions& options = {}, const Context& context = {})
       : tiles(*points_in_memory(cloud), store, points_per_tile) {
     Threads alone;
-    TileStages stages(alone, {}, times, context);
+    Stages stages(alone, store, {}, times, context);
     report = orient_tiles(store, tiles.plan, spacings(), options, stages);
   }
   std::size_t n() const { return tiles.plan.n_tiles(); }
@@ -267,7 +267,7 @@ TEST(tile_normals, are_the_same_after_an_interruption) {
   }
   Threads alone;
   StageTimes times;
-  TileStages stages(alone, {}, times, {});
+  Stages stages(alone, store, {}, times, {});
   const TileNormalsReport report = orient_tiles(store, tiles.plan, spacings, {}, stages);
   EXPECT_EQ(report.components, whole.report.components);
   for (std::size_t tile = 0; tile < whole.n(); ++tile) {
@@ -277,7 +277,7 @@ TEST(tile_normals, are_the_same_after_an_interruption) {
   }
   // Nothing is done again.
   StageTimes none;
-  TileStages no_stages(alone, {}, none, {});
+  Stages no_stages(alone, store, {}, none, {});
   const TileNormalsReport again = orient_tiles(store, tiles.plan, spacings, {}, no_stages);
   EXPECT_TRUE(none.empty());
   EXPECT_EQ(again.points, report.points);
@@ -308,7 +308,7 @@ TEST(tile_normals, of_points_on_a_line_are_refused) {
   const Tiles tiles(*points_in_memory(line), store, 20000);
   Threads alone;
   StageTimes times;
-  TileStages stages(alone, {}, times, {});
+  Stages stages(alone, store, {}, times, {});
   const std::vector<double> spacings =
       spacings_of_sample(tiles.found, tiles.plan, tiles.found.n_different);
   expect_error([&] { orient_tiles(store, tiles.plan, spacings, {}, stages); },

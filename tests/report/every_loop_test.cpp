@@ -361,7 +361,7 @@ TEST(every_loop, gives_the_same_bits_for_normals_in_tiles) {
     for (std::size_t tile = 0; tile < plan.n_tiles(); ++tile) sort_points(store, tile);
     Threads alone;
     StageTimes times;
-    TileStages stages(alone, {}, times, context);
+    Stages stages(alone, store, {}, times, context);
     orient_tiles(store, plan, spacings_of_sample(found, plan, found.n_different), {}, stages);
     Bits bits;
     for (std::size_t tile = 0; tile < plan.n_tiles(); ++tile) {

@@ -30,7 +30,7 @@ constexpr std::size_t kPilots = 5;
 }  // namespace
 
 TileCloud::TileCloud(PointSource& source, PieceStore& store, const ReconstructOptions& options,
-                     std::uint64_t points_per_tile, TileStages& stages, ReconstructReport& report)
+                     std::uint64_t points_per_tile, Stages& stages, ReconstructReport& report)
     : source_(source), store_(store), options_(options), stages_(stages), report_(report) {
   stages_.once("survey", [&] { find_survey(points_per_tile); });
   survey_ = read_survey(store_).value();
@@ -200,26 +200,24 @@ void TileCloud::orient() {
 
 // In some tiles, which are parts of one surface. Given normals that are off it are computed anew.
 void TileCloud::look_at_shape() {
-  const std::string round = given_ ? "shape-given/" : "shape/";
-  const std::size_t pilots = std::min(n_, kPilots);
-  stages_.each("cap size", pilots, [&](std::size_t pilot) {
-    const std::string name = round + std::to_string(pilot);
-    if (store_.has(name)) return;
-    const auto scene = load(pilot * n_ / pilots);
+  const Stage stage = {.name = "cap size",
+                       .count = std::min(n_, kPilots),
+                       .outputs = {given_ ? "shape-given" : "shape"}};
+  const auto look = [&](std::size_t pilot) {
+    const auto scene = load(pilot * n_ / stage.count);
     const LocalShape shape =
         rholm::look_at_shape(*scene->tree, scene->points, scene->normals, stages_.context());
     check_shape(shape, scene->points.size());
-    write_values(store_, name, std::vector{shape});
-  });
+    return std::vector{shape};
+  };
   std::vector<std::size_t> neighbors;
   double crooked = 0;
-  for (std::size_t pilot = 0; pilot < pilots; ++pilot) {
-    const auto shape = read_values<LocalShape>(store_, round + std::to_string(pilot)).at(0);
+  for (const LocalShape& shape : stages_.values<LocalShape>(stage, look)) {
     neighbors.push_back(shape.neighbors);
-    crooked += shape.crooked / static_cast<double>(pilots);
+    crooked += shape.crooked / static_cast<double>(stage.count);
   }
   std::sort(neighbors.begin(), neighbors.end());
-  around_ = area_neighbors(neighbors[pilots / 2]);
+  around_ = area_neighbors(neighbors[stage.count / 2]);
   if (!given_) return;
   report_.crooked_normals = crooked;
   if (!(crooked > kMostCrooked)) return;
@@ -253,38 +251,22 @@ void TileCloud::mend() {
 }
 
 void TileCloud::take_sample(const std::string& round) {
-  const auto name_of = [&](std::size_t tile) { return round + "/" + std::to_string(tile); };
-  stages_.each("sample", n_, [&](std::size_t tile) {
-    if (store_.has(name_of(tile))) return;
+  const auto take = [&](std::size_t tile) {
     const auto scene = load_for(tile, std::max(2 * kCircle, around_));
     const double share = static_cast<double>(scene->n_own) / static_cast<double>(points_);
     const auto wanted = static_cast<std::size_t>(std::ceil(share * kSamples));
-    write_values(store_, name_of(tile),
-                 sample_tile(*scene, std::max(wanted, kSamplesOfTile), around_, stages_.context()));
-  });
-  std::vector<SamplePoint> all;
-  for (std::size_t tile = 0; tile < n_; ++tile) {
-    const auto own = read_values<SamplePoint>(store_, name_of(tile));
-    all.insert(all.end(), own.begin(), own.end());
-  }
-  sample_ = join(all);
+    return sample_tile(*scene, std::max(wanted, kSamplesOfTile), around_, stages_.context());
+  };
+  sample_ = join(stages_.values<SamplePoint>({"sample", n_, {round}}, take));
 }
 
 void TileCloud::choose_size(const std::string& round) {
   const std::size_t pilots = std::min(n_, kPilots);
-  const auto name_of = [&](std::size_t pilot) { return round + "/" + std::to_string(pilot); };
-  stages_.each("cap size", pilots, [&](std::size_t pilot) {
-    if (store_.has(name_of(pilot))) return;
+  const auto choose = [&](std::size_t pilot) {
     const auto scene = load(pilot * n_ / pilots);
-    write_values(store_, name_of(pilot),
-                 std::vector{choose_cap_size(scene->ordered(), kDegree, stages_.context())});
-  });
-  std::vector<CapSize> sizes;
-  sizes.reserve(pilots);
-  for (std::size_t pilot = 0; pilot < pilots; ++pilot) {
-    sizes.push_back(read_values<CapSize>(store_, name_of(pilot)).at(0));
-  }
-  size_ = median_of(sizes);
+    return std::vector{choose_cap_size(scene->ordered(), kDegree, stages_.context())};
+  };
+  size_ = median_of(stages_.values<CapSize>({"cap size", pilots, {round}}, choose));
   if (options_.noise) size_.noise = *options_.noise;
 }
 

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "atlas/cover/cap_size.h"
+#include "parts/stages.h"
 #include "parts/store.h"
 #include "reconstruct/normals/tile_fit.h"
 #include "reconstruct/points/point_source.h"
 #include "reconstruct/points/point_survey.h"
 #include "reconstruct/points/tile_plan.h"
 #include "reconstruct/points/tile_scene.h"
-#include "reconstruct/points/tile_stages.h"
 #include "rholm/reconstruct.h"
 
 namespace rholm {
@@ -25,7 +25,7 @@ class TileCloud {
  public:
   // Surveys the points and plans the tiles.
   TileCloud(PointSource& source, PieceStore& store, const ReconstructOptions& options,
-            std::uint64_t points_per_tile, TileStages& stages, ReconstructReport& report);
+            std::uint64_t points_per_tile, Stages& stages, ReconstructReport& report);
 
   // Sorts the points into tiles and removes those far from all others; computes their normals or
   // mends those given; measures what sample() and size() tell. The report says what was done.
@@ -74,7 +74,7 @@ class TileCloud {
   PointSource& source_;
   PieceStore& store_;
   const ReconstructOptions& options_;
-  TileStages& stages_;
+  Stages& stages_;
   ReconstructReport& report_;
   Survey survey_;
   TilePlan plan_;

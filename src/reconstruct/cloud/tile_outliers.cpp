@@ -116,8 +116,8 @@ std::vector<std::uint8_t> TileGroups::small(std::size_t tile) const {
 }
 
 std::uint64_t remove_tile_outliers(PieceStore& store, const TilePlan& plan,
-                                   const OutlierSearch& search, TileStages& stages) {
-  const auto for_tiles = [&](const char* stage, const TileStages::Body& body) {
+                                   const OutlierSearch& search, Stages& stages) {
+  const auto for_tiles = [&](const char* stage, const Stages::Body& body) {
     stages.each(stage, plan.n_tiles(), body);
   };
   std::uint64_t left = search.n_points;

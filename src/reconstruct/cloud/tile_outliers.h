@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "parts/stages.h"
 #include "parts/store.h"
 #include "reconstruct/points/tile_plan.h"
 #include "reconstruct/points/tile_scene.h"
-#include "reconstruct/points/tile_stages.h"
 #include "rholm/context.h"
 
 namespace rholm {
@@ -56,6 +56,6 @@ struct OutlierSearch {
 // As WorkingPoints::remove_outliers(), which has the rule; returns how many were removed. Steps
 // that were done by a run before cost nothing: n_points is that of before.
 std::uint64_t remove_tile_outliers(PieceStore& store, const TilePlan& plan,
-                                   const OutlierSearch& search, TileStages& stages);
+                                   const OutlierSearch& search, Stages& stages);
 
 }  // namespace rholm

@@ -307,7 +307,7 @@ void TileMending::finish() {
 }  // namespace
 
 TileMendingReport mend_tiles(PieceStore& store, const TilePlan& plan,
-                             const TileMendingOptions& options, TileStages& stages) {
+                             const TileMendingOptions& options, Stages& stages) {
   const std::size_t n = plan.n_tiles();
   if (!store.has(kMended)) {
     TileMending mending(store, n, options);

@@ -14,10 +14,10 @@
 #include <memory>
 #include <vector>
 
+#include "parts/stages.h"
 #include "parts/store.h"
 #include "reconstruct/points/tile_plan.h"
 #include "reconstruct/points/tile_scene.h"
-#include "reconstruct/points/tile_stages.h"
 #include "rholm/vec3.h"
 #include "shape/points/sign_check.h"
 
@@ -48,7 +48,7 @@ struct TileMendingReport {
 // All steps. Done already where the store has it from a run before. Throws OutOfMemory where pieces
 // are so many that they do not fit into memory.
 TileMendingReport mend_tiles(PieceStore& store, const TilePlan& plan,
-                             const TileMendingOptions& options, TileStages& stages);
+                             const TileMendingOptions& options, Stages& stages);
 
 // Whether normals of the store are turned, and the flag of each point of a tile, in their order.
 bool have_turned(const PieceStore& store);

@@ -281,7 +281,7 @@ std::vector<StageCost> costs_of_normals() {
 
 TileNormalsReport orient_tiles(PieceStore& store, const TilePlan& plan,
                                const std::vector<double>& spacings,
-                               const TileNormalsOptions& options, TileStages& stages) {
+                               const TileNormalsOptions& options, Stages& stages) {
   if (have_normals(store)) {
     return only(store.open(kOriented).values<TileNormalsReport>(0));
   }

@@ -12,13 +12,13 @@
 #include <optional>
 #include <vector>
 
+#include "parts/stages.h"
 #include "parts/store.h"
 #include "reconstruct/normals/tile_directions.h"
 #include "reconstruct/normals/tile_doubt.h"
 #include "reconstruct/normals/tile_field.h"
 #include "reconstruct/normals/tile_sides.h"
 #include "reconstruct/points/tile_plan.h"
-#include "reconstruct/points/tile_stages.h"
 #include "rholm/context.h"
 #include "rholm/vec3.h"
 
@@ -109,6 +109,6 @@ std::vector<StageCost> costs_of_normals();
 // All steps. Done already where the store has it from a run before.
 TileNormalsReport orient_tiles(PieceStore& store, const TilePlan& plan,
                                const std::vector<double>& spacings,
-                               const TileNormalsOptions& options, TileStages& stages);
+                               const TileNormalsOptions& options, Stages& stages);
 
 }  // namespace rholm

@@ -122,20 +122,17 @@ void TileOutput::carry(std::size_t tile, Mesh& vertices) const {
 
 // Of the triangles of each tile.
 ConfidenceAreas TileOutput::measure_confidence(const TileParts& parts) const {
-  const auto name_of = [](std::size_t tile) { return "confidence/" + std::to_string(tile); };
-  stages_.each("confidence", n_tiles_, [&](std::size_t tile) {
-    if (store_.has(name_of(tile))) return;
+  const auto measure = [&](std::size_t tile) {
     const std::shared_ptr<const TileScene> scene = load_(tile);
     const Attribute sure = confidence_of(*scene);
     Mesh mesh = parts.kept_mesh(tile).mesh;
     carry_attributes(*scene->tree, std::span(&sure, 1), mesh, stages_.context());
-    const ConfidenceAreas areas = add_confidence(scene->ordered(), mesh, stages_.context());
-    const std::span<const std::byte> sections[] = {bytes_of(std::span(&areas, 1))};
-    store_.write(name_of(tile), sections);
-  });
+    return std::vector{add_confidence(scene->ordered(), mesh, stages_.context())};
+  };
   ConfidenceAreas sum;
-  for (std::size_t tile = 0; tile < n_tiles_; ++tile) {
-    sum += store_.open(name_of(tile)).values<ConfidenceAreas>(0).at(0);
+  for (const ConfidenceAreas& areas :
+       stages_.values<ConfidenceAreas>({"confidence", n_tiles_, {"confidence"}}, measure)) {
+    sum += areas;
   }
   return sum;
 }

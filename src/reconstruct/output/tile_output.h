@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "parts/stages.h"
 #include "parts/store.h"
 #include "reconstruct/output/surface_confidence.h"
 #include "reconstruct/points/point_rows.h"
 #include "reconstruct/points/tile_scene.h"
-#include "reconstruct/points/tile_stages.h"
 #include "reconstruct/surface/tile_parts.h"
 #include "rholm/mesh.h"
 #include "rholm/reconstruct.h"
@@ -26,7 +26,7 @@ class TileOutput {
   // A tile's points and its halo.
   using Load = std::function<std::shared_ptr<const TileScene>(std::size_t tile)>;
 
-  TileOutput(PieceStore& store, TileStages& stages, const ReconstructOptions& options,
+  TileOutput(PieceStore& store, Stages& stages, const ReconstructOptions& options,
              const PointLayout& layout, std::size_t n_tiles, Load load)
       : store_(store),
         stages_(stages),
@@ -50,7 +50,7 @@ class TileOutput {
   void carry(std::size_t tile, Mesh& vertices) const;
 
   PieceStore& store_;
-  TileStages& stages_;
+  Stages& stages_;
   const ReconstructOptions& options_;
   const PointLayout& layout_;
   std::size_t n_tiles_;

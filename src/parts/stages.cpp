@@ -1,4 +1,4 @@
-#include "reconstruct/points/tile_stages.h"
+#include "parts/stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,9 +56,14 @@ std::string text_of_seconds(double seconds) {
   return fmt::format("{} h {} min", minutes / 60, minutes % 60);
 }
 
-TileStages::TileStages(Executor& executor, const std::vector<StageCost>& costs, StageTimes& times,
-                       const Context& context)
-    : executor_(executor), times_(times), outer_(context), inner_(context), left_(costs) {
+Stages::Stages(Executor& executor, PieceStore& store, const std::vector<StageCost>& costs,
+               StageTimes& times, const Context& context)
+    : executor_(executor),
+      store_(store),
+      times_(times),
+      outer_(context),
+      inner_(context),
+      left_(costs) {
   if (!outer_.progress) return;
   inner_.progress = [this](std::string_view stage, double) {
     const std::lock_guard lock(mutex_);
@@ -66,18 +71,18 @@ TileStages::TileStages(Executor& executor, const std::vector<StageCost>& costs, 
   };
 }
 
-double TileStages::now() const {
+double Stages::now() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
-bool TileStages::tell() {
+bool Stages::tell() {
   const double part = n_ > 0 ? static_cast<double>(done_) / static_cast<double>(n_) : 0;
   if (!left_.is_known()) return outer_.progress(stage_, part);
   return outer_.progress(fmt::format("{}, {} left", stage_, text_of_seconds(left_.seconds())),
                          part);
 }
 
-void TileStages::run(std::string_view stage, std::size_t n, const std::function<void()>& body) {
+void Stages::run(std::string_view stage, std::size_t n, const std::function<void()>& body) {
   {
     const std::lock_guard lock(mutex_);
     stage_ = stage;
@@ -92,30 +97,41 @@ void TileStages::run(std::string_view stage, std::size_t n, const std::function<
   left_.done(stage, 1, now());
 }
 
-void TileStages::each(std::string_view stage, std::size_t n, const Body& body) {
-  run(stage, n, [&] {
-    const auto work = [&](std::size_t tile, int) {
-      body(tile);
-      return std::string();
-    };
-    executor_.run({.count = n, .wide = n, .in_order = false}, work,
-                  [&](std::size_t, const std::string&) {
-                    {
-                      const std::lock_guard lock(mutex_);
-                      const double part = static_cast<double>(++done_) / static_cast<double>(n);
-                      left_.done(stage, part, now());
-                    }
-                    report_progress(inner_, stage, 0);
-                  });
+bool Stages::is_done(const Stage& stage, std::size_t part) const {
+  return !stage.outputs.empty() && std::ranges::all_of(stage.outputs, [&](const auto& output) {
+    return store_.has(name_of(output, part));
   });
 }
 
-void TileStages::once(std::string_view stage, const std::function<void()>& body) {
+void Stages::each(const Stage& stage, const Body& body) {
+  const auto work = [&](std::size_t part, int) {
+    if (!is_done(stage, part)) body(part);
+    return std::string();
+  };
+  const auto take = [&](std::size_t, const std::string&) {
+    {
+      const std::lock_guard lock(mutex_);
+      left_.done(stage.name, static_cast<double>(++done_) / static_cast<double>(stage.count),
+                 now());
+    }
+    report_progress(inner_, stage.name, 0);
+  };
+  run(stage.name, stage.count, [&] {
+    executor_.run({.count = stage.count, .wide = stage.count, .in_order = false}, work, take);
+  });
+  if (stage.last_inputs.empty()) return;
+  once(stage.name, [&] {
+    if (store_.is_kept()) return;
+    for (const std::string& input : stage.last_inputs) {
+      for (std::size_t part = 0; part < stage.count; ++part) store_.remove(name_of(input, part));
+    }
+  });
+}
+
+void Stages::once(std::string_view stage, const std::function<void()>& body) {
   run(stage, 0, [&] { executor_.once(body); });
 }
 
-void TileStages::all(std::string_view stage, const std::function<void()>& body) {
-  run(stage, 0, body);
-}
+void Stages::all(std::string_view stage, const std::function<void()>& body) { run(stage, 0, body); }
 
 }  // namespace rholm
