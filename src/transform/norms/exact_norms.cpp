@@ -18,9 +18,9 @@
 #include "base/bytes.h"
 #include "base/cancel.h"
 #include "base/compensated_sum.h"
-#include "base/parallel.h"
 #include "base/poison.h"
 #include "base/progress.h"
+#include "parts/threads.h"
 #include "shape/queries/corner_rows-inl.h"
 #include "transform/geometry/star_geometry.h"
 #include "transform/norms/exact_norms_rules.h"
@@ -383,15 +383,18 @@ HWY_EXPORT(SumRange);
 
 namespace {
 
-constexpr std::size_t kGrain = 32 * kBlock;      // chosen: about 50 us
-constexpr std::size_t kTask = 256 * kGrain;      // chosen: a million triangles, some 20 ms
-static_assert(kBlock % FaceSizes::kGroup == 0);  // tasks have whole groups
+constexpr std::size_t kGrain = 32 * kBlock;  // chosen: about 50 us
+// Grains of a part; chosen: from 0.2 ms, which threads take little time to hand over, to some 20
+// ms, which is long beside a message. And parts, where they are neither: enough for many threads.
+constexpr std::size_t kLeastGrains = 4, kMostGrains = 256, kParts = 64;
+static_assert(kBlock % FaceSizes::kGroup == 0);  // parts have whole groups
 
 // What another process needs to know.
 struct NormsJob {
   Vec3 center;
   double scale = 1;
   bool with_sizes = false;
+  std::size_t triangles = 0;  // of a part
 
   Frame frame() const { return {.shift = -scale * center, .scale = scale}; }
 };
@@ -418,29 +421,34 @@ ExactNorms norms_of(const std::vector<NormSums>& parts, double scale) {
           .volume = sums[2].value() / 6 / (scale * scale * scale)};
 }
 
-// The triangles of a task as a mesh, its sums and sizes as bytes.
-std::string work(const MeshView& mesh, const NormsJob& job, std::size_t task) {
+std::size_t triangles_of_part(std::size_t n_triangles) {
+  const std::size_t grains = n_triangles / kGrain / kParts;
+  return kGrain * std::clamp(grains, kLeastGrains, kMostGrains);
+}
+
+// The triangles of a part as a mesh, its sums and sizes as bytes.
+std::string work(const MeshView& mesh, const NormsJob& job, std::size_t part) {
   MeshView some = mesh;
-  some.triangles += task * kTask * mesh.triangle_stride;
-  some.n_triangles = std::min(kTask, mesh.n_triangles - task * kTask);
+  some.triangles += part * job.triangles * mesh.triangle_stride;
+  some.n_triangles = std::min(job.triangles, mesh.n_triangles - part * job.triangles);
   FaceSizes sizes;
   if (job.with_sizes) make_room(some.n_triangles, job.scale, sizes);
-  std::vector<NormSums> parts;
+  std::vector<NormSums> grains;
   for (std::size_t at = 0; at < some.n_triangles; at += kGrain) {
     ask_cancel();
-    parts.push_back(sums_of(some, job.frame(), at, std::min(some.n_triangles, at + kGrain),
-                            job.with_sizes ? &sizes : nullptr));
+    grains.push_back(sums_of(some, job.frame(), at, std::min(some.n_triangles, at + kGrain),
+                             job.with_sizes ? &sizes : nullptr));
   }
   ByteWriter writer;
-  writer.array(std::span<const NormSums>(parts));
+  writer.array(std::span<const NormSums>(grains));
   writer.array(std::span<const std::uint32_t>(sizes.area_bits));
   writer.array(std::span<const double>(sizes.angles2));
   writer.array(std::span<const std::uint8_t>(sizes.flat));
   return writer.take();
 }
 
-// Puts them where they belong.
-void take(std::size_t task, const std::string& bytes, std::vector<NormSums>& parts,
+// Puts those of a part where they belong, which begins with that triangle.
+void take(std::size_t first, const std::string& bytes, std::vector<NormSums>& grains,
           FaceSizes* sizes) {
   const auto put = [](const auto& from, std::size_t at, auto& to) {
     if (at + from.size() > to.size()) ByteReader::refuse();
@@ -456,11 +464,11 @@ void take(std::size_t task, const std::string& bytes, std::vector<NormSums>& par
   reader.array(angles);
   reader.array(flat);
   reader.finish();
-  put(sums, task * (kTask / kGrain), parts);
+  put(sums, first / kGrain, grains);
   if (sizes == nullptr) return;
-  put(areas, task * (kTask / FaceSizes::kGroup), sizes->area_bits);
-  put(angles, task * (kTask / kBlock), sizes->angles2);
-  put(flat, task * (kTask / kBlock), sizes->flat);
+  put(areas, first / FaceSizes::kGroup, sizes->area_bits);
+  put(angles, first / kBlock, sizes->angles2);
+  put(flat, first / kBlock, sizes->flat);
 }
 
 }  // namespace
@@ -469,27 +477,25 @@ ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& 
                        FaceSizes* sizes, Executor* executor) {
   const double scale = unit_scale(mesh, center, context);
   if (sizes != nullptr) make_room(mesh.n_triangles, scale, *sizes);
-  const NormsJob job = {.center = center, .scale = scale, .with_sizes = sizes != nullptr};
-  std::vector<NormSums> parts((mesh.n_triangles + kGrain - 1) / kGrain);
-  const std::size_t tasks = (mesh.n_triangles + kTask - 1) / kTask;
-  if (executor != nullptr && tasks > 1) {
-    ByteWriter writer;
-    writer.value(job);
-    SharedProgress progress(context, "norms", 0, 1, static_cast<double>(tasks));
-    executor->run(
-        {.count = tasks, .job = kNormsJob, .input = writer.take()},
-        [&](std::size_t task, int) { return work(mesh, job, task); },
-        [&](std::size_t task, const std::string& bytes) {
-          take(task, bytes, parts, sizes);
-          progress.add(1);
-        });
-    return norms_of(parts, scale);
-  }
-  parallel_for(mesh.n_triangles, kGrain, context, {"norms", 0, 1},
-               [&](std::size_t begin, std::size_t end) {
-                 parts[begin / kGrain] = sums_of(mesh, job.frame(), begin, end, sizes);
-               });
-  return norms_of(parts, scale);
+  const NormsJob job = {.center = center,
+                        .scale = scale,
+                        .with_sizes = sizes != nullptr,
+                        .triangles = triangles_of_part(mesh.n_triangles)};
+  const std::size_t parts = (mesh.n_triangles + job.triangles - 1) / job.triangles;
+  std::vector<NormSums> grains((mesh.n_triangles + kGrain - 1) / kGrain);
+  ByteWriter writer;
+  writer.value(job);
+  SharedProgress progress(context, "norms", 0, 1, static_cast<double>(parts));
+  Threads here(context.threads);
+  (executor != nullptr ? *executor : here)
+      .run(
+          {.count = parts, .job = kNormsJob, .input = writer.take()},
+          [&](std::size_t part, int) { return work(mesh, job, part); },
+          [&](std::size_t part, const std::string& bytes) {
+            take(part * job.triangles, bytes, grains, sizes);
+            progress.add(1);
+          });
+  return norms_of(grains, scale);
 }
 
 Executor::Work norms_work(const MeshView& mesh, std::string_view input) {
@@ -497,7 +503,7 @@ Executor::Work norms_work(const MeshView& mesh, std::string_view input) {
   ByteReader reader(input);
   reader.value(wanted);
   reader.finish();
-  return [&mesh, wanted](std::size_t task, int) { return work(mesh, wanted, task); };
+  return [&mesh, wanted](std::size_t part, int) { return work(mesh, wanted, part); };
 }
 
 bool covers_once(const ExactNorms& norms) {

@@ -50,7 +50,8 @@ struct FaceSizes {
 
 // Signs are those of d_T. Same bits for any number of threads. Throws InvalidInput for an index out
 // of range, a coordinate that is not finite, and a size from the centre outside 1e-150 ... 1e150.
-// With an executor its processes, which have the mesh, sum ranges of it, by norms_work().
+// The executor, by default threads of this process, sums ranges; other processes, which have the
+// mesh, do so by norms_work().
 ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context = {},
                        FaceSizes* sizes = nullptr, Executor* executor = nullptr);
 // The name of that work, and what another process does of it for the input of such parts. The mesh

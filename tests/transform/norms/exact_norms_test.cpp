@@ -196,7 +196,7 @@ TEST(exact_norms, have_the_same_bits_where_another_process_sums_ranges) {
     });
     const ExactNorms shared =
         exact_norms(file.view, center, {}, with_sizes ? &shared_sizes : nullptr, &executor);
-    EXPECT_EQ(n, 2u);
+    EXPECT_GT(n, 2u);
     EXPECT_EQ(shared.radius_squared, alone.radius_squared);
     EXPECT_EQ(shared.solid_angle, alone.solid_angle);
     EXPECT_EQ(shared.volume, alone.volume);
