@@ -4,10 +4,10 @@
 #include <memory>
 #include <set>
 
+#include "base/bytes.h"
 #include "cli/commands/analyze.h"
 #include "cli/terminal/interrupt.h"
 #include "cluster/collect.h"
-#include "cluster/pack.h"
 #include "cluster/rank_executor.h"
 #include "model/encode/encode.h"
 #include "mpi/rank_options.h"
@@ -48,7 +48,7 @@ cli::Command analyze_command(Ranks* ranks) {
                    *ranks, context.threads,
                    [ranks, mesh, threads = context.threads](const Parts& parts) {
                      call(*ranks, kAnalyzeService,
-                          Packer()
+                          ByteWriter()
                               .number(static_cast<std::uint64_t>(threads))
                               .text(mesh)
                               .text(parts.job)
@@ -80,7 +80,7 @@ std::function<void(Ranks& ranks, const std::string& bytes)> analyze_service() {
     std::unique_ptr<SharedMesh> mesh;
   };
   return [opened = std::make_shared<Opened>()](Ranks& ranks, const std::string& bytes) {
-    Unpacker packed(bytes);
+    ByteReader packed(bytes);
     const int threads = static_cast<int>(packed.number());
     const std::string_view mesh = packed.text(), job = packed.text(), input = packed.text();
     if (opened->name != mesh || !opened->mesh) {

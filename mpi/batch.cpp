@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "base/bytes.h"
 #include "cli/batch/job.h"
 #include "cli/batch/outputs_folder.h"
 #include "cli/batch/workers.h"
 #include "cli/commands/batch.h"
 #include "cli/terminal/interrupt.h"
 #include "cluster/collect.h"
-#include "cluster/pack.h"
 #include "cluster/rank_executor.h"
 #include "model/batch/row_bytes.h"
 #include "rholm/error.h"
@@ -23,7 +23,7 @@ namespace {
 // What another rank needs to make the job anew.
 std::string bytes_of(const cli::BatchJob& job, const std::string& rows, int threads) {
   const cli::BatchOptions& o = job.options;
-  return Packer()
+  return ByteWriter()
       .number(static_cast<std::uint64_t>(threads))
       .texts({o.manifest, o.output, o.command, o.shard, o.outputs})
       .texts(o.words)
@@ -40,7 +40,7 @@ struct Part {
 };
 
 Part part_of(const std::string& bytes) {
-  Unpacker packed(bytes);
+  ByteReader packed(bytes);
   Part part;
   part.threads = static_cast<int>(packed.number());
   const std::vector<std::string> texts = packed.texts();

@@ -8,7 +8,6 @@
 #include "cli/grammar/run.h"
 #include "cli/terminal/interrupt.h"
 #include "cluster/collect.h"
-#include "cluster/pack.h"
 #include "cluster/rank_executor.h"
 #include "rholm/error.h"
 #include "shape/fingerprint.h"
@@ -18,7 +17,7 @@ namespace rholm::mpi {
 namespace {
 
 std::string fingerprints(const Mesh& a, const Mesh& b) {
-  return Packer().number(fingerprint(view_of(a))).number(fingerprint(view_of(b))).take();
+  return ByteWriter().number(fingerprint(view_of(a))).number(fingerprint(view_of(b))).take();
 }
 
 // What the command line says but for the command, for ranks that say nothing.
@@ -36,7 +35,7 @@ cli::Command compare_command(Ranks* ranks, const std::shared_ptr<RankOptions>& o
       {.begin =
            [ranks, options](const std::string& a, const std::string& b) {
              for (const std::string& path : {a, b}) check_input(*ranks, path);
-             call(*ranks, kCompareService, Packer().texts(quiet(options->words)).take());
+             call(*ranks, kCompareService, ByteWriter().texts(quiet(options->words)).take());
            },
        .compare = [ranks](const Mesh& a, const Mesh& b, const CompareOptions& wanted,
                           const Context& context) -> std::optional<Comparison> {
@@ -71,7 +70,7 @@ void serve_compare(Ranks& ranks, const std::string& bytes) {
        }});
   append(command.options, rank_options(ignored));
   const CancelScope scope(cli::keep_going);
-  run_command(command, Unpacker(bytes).texts());
+  run_command(command, ByteReader(bytes).texts());
 }
 
 }  // namespace rholm::mpi

@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "base/field_bytes.h"
 #include "cli/commands/reconstruct.h"
 #include "cli/terminal/freed_memory.h"
 #include "cli/terminal/interrupt.h"
 #include "cluster/collect.h"
-#include "cluster/pack_fields.h"
 #include "cluster/rank_executor.h"
 #include "reconstruct/shared_tiles.h"
 
@@ -26,18 +26,18 @@ struct Part {
 };
 
 std::string bytes_of(const Part& part) {
-  Packer packer;
-  packer.text(part.folder.string()).number(static_cast<std::uint64_t>(part.threads));
-  pack_fields(part.options, packer);
-  return packer.take();
+  ByteWriter writer;
+  writer.text(part.folder.string()).number(static_cast<std::uint64_t>(part.threads));
+  write_fields(part.options, writer);
+  return writer.take();
 }
 
 Part part_of(const std::string& bytes) {
-  Unpacker packed(bytes);
+  ByteReader packed(bytes);
   Part part;
   part.folder = std::string(packed.text());
   part.threads = static_cast<int>(packed.number());
-  unpack_fields(packed, part.options);
+  read_fields(packed, part.options);
   return part;
 }
 

@@ -19,27 +19,33 @@ namespace rholm {
 class ByteWriter {
  public:
   template <typename T>
-  void value(const T& v) {
+  ByteWriter& value(const T& v) {
     static_assert(std::is_trivially_copyable_v<T>);
-    append(&v, sizeof v);
+    return append(&v, sizeof v);
   }
+  ByteWriter& number(std::uint64_t n) { return value(n); }
   // With its length.
   template <typename T>
-  void array(std::span<const T> values) {
-    value(std::uint64_t{values.size()});
-    row(values);
+  ByteWriter& array(std::span<const T> values) {
+    return number(values.size()).row(values);
   }
-  void text(std::string_view characters) { array(std::span(characters)); }
+  ByteWriter& text(std::string_view characters) { return array(std::span(characters)); }
+  ByteWriter& texts(const std::vector<std::string>& all) {
+    number(all.size());
+    for (const std::string& one : all) text(one);
+    return *this;
+  }
   template <typename T>
-  void row(std::span<const T> values) {
+  ByteWriter& row(std::span<const T> values) {
     static_assert(std::is_trivially_copyable_v<T>);
-    append(values.data(), values.size_bytes());
+    return append(values.data(), values.size_bytes());
   }
   std::string take() { return std::move(bytes_); }
 
  private:
-  void append(const void* data, std::size_t n) {
+  ByteWriter& append(const void* data, std::size_t n) {
     if (n > 0) bytes_.append(static_cast<const char*>(data), n);
+    return *this;
   }
   std::string bytes_;
 };
@@ -55,17 +61,25 @@ class ByteReader {
   }
   template <typename T>
   void array(std::vector<T>& values) {
-    std::uint64_t n = 0;
-    value(n);
+    const std::uint64_t n = number();
     if (n > bytes_.size() / sizeof(T)) refuse();
     values.resize(n);
     row(std::span<T>(values));
   }
-  // Good as long as the bytes.
-  std::string_view text() {
+  std::uint64_t number() {
     std::uint64_t n = 0;
     value(n);
+    return n;
+  }
+  // Good as long as the bytes.
+  std::string_view text() {
+    const std::uint64_t n = number();
     return {take(n), n};
+  }
+  std::vector<std::string> texts() {
+    std::vector<std::string> all;
+    for (std::uint64_t n = number(); n > 0; --n) all.emplace_back(text());
+    return all;
   }
   template <typename T>
   void row(std::span<T> values) {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "base/bytes.h"
 #include "base/refuse.h"
-#include "cluster/pack.h"
 
 namespace rholm {
 namespace {
@@ -48,13 +48,13 @@ void barrier(Ranks& ranks) {
 }
 
 void call(Ranks& ranks, const std::string& name, const std::string& bytes) {
-  spread(ranks, Packer().text(name).text(bytes).take(), Tag::kCall);
+  spread(ranks, ByteWriter().text(name).text(bytes).take(), Tag::kCall);
 }
 
 void serve_calls(Ranks& ranks, const Services& services) {
   for (;;) {
     const std::string bytes = spread(ranks, {}, Tag::kCall);
-    Unpacker message(bytes);
+    ByteReader message(bytes);
     const std::string_view name = message.text();
     const auto found = std::find_if(services.begin(), services.end(),
                                     [&](const auto& service) { return service.first == name; });

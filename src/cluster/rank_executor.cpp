@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/bytes.h"
 #include "cluster/collect.h"
-#include "cluster/pack.h"
 #include "parts/part_threads.h"
 #include "rholm/context.h"
 #include "rholm/error.h"
@@ -27,7 +27,7 @@ constexpr char kDone = 'd', kInvalid = 'i';
 constexpr std::size_t kMostAtOnce = 64;  // chosen: a message is rare beside parts of 0.1 ms
 
 std::string given(Gives what, std::size_t first = 0, std::size_t n = 0) {
-  return Packer().number(static_cast<std::uint64_t>(what)).number(first).number(n).take();
+  return ByteWriter().number(static_cast<std::uint64_t>(what)).number(first).number(n).take();
 }
 
 std::string result_of(const Executor::Work& work, std::size_t part, int threads) {
@@ -42,9 +42,9 @@ std::string result_of(const Executor::Work& work, std::size_t part, int threads)
 // The part of any rank: works what rank 0 hands out, until nothing is left to be begun.
 void serve(Ranks& ranks, int threads, const Executor::Work& work) {
   const auto send = [&](Says what, std::uint64_t number, std::string_view text) {
-    Packer packer;
-    packer.number(static_cast<std::uint64_t>(what)).number(number).text(text);
-    ranks.send(0, Tag::kTask, packer.take());
+    ByteWriter writer;
+    writer.number(static_cast<std::uint64_t>(what)).number(number).text(text);
+    ranks.send(0, Tag::kTask, writer.take());
   };
   const auto look = [&] {
     if (ranks.is_stopping()) throw Stopped();
@@ -67,7 +67,7 @@ void serve(Ranks& ranks, int threads, const Executor::Work& work) {
     crew.wait_for_queue(last / 2);
     send(Says::kMore, static_cast<std::uint64_t>(threads), {});
     const Packet packet = ranks.receive(Tag::kHand, 0);
-    Unpacker bytes(packet.bytes);
+    ByteReader bytes(packet.bytes);
     const auto what = static_cast<Gives>(bytes.number());
     const std::size_t first = bytes.number(), n = bytes.number();
     if (what == Gives::kNothing) break;
@@ -147,7 +147,7 @@ std::optional<std::string> hand_out(Ranks& ranks, const Parts& parts, const Exec
   std::deque<int> asking;
   while (to_dismiss > 0 || came < left.handed_out()) {
     Packet packet = ranks.receive(Tag::kTask);
-    Unpacker bytes(packet.bytes);
+    ByteReader bytes(packet.bytes);
     const auto what = static_cast<Says>(bytes.number());
     const std::size_t number = bytes.number();
     if (what == Says::kMore) {

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <thread>
 
-#include "cluster/pack.h"
+#include "base/bytes.h"
 #include "cluster/watch.h"
 #include "rholm/error.h"
 
@@ -38,7 +38,9 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-std::string word(Word which) { return Packer().number(static_cast<std::uint64_t>(which)).take(); }
+std::string word(Word which) {
+  return ByteWriter().number(static_cast<std::uint64_t>(which)).take();
+}
 
 }  // namespace
 
@@ -174,7 +176,7 @@ void Ranks::deliver(Packet packet) {
 }
 
 void Ranks::control(const Packet& packet) {
-  Unpacker bytes(packet.bytes);
+  ByteReader bytes(packet.bytes);
   switch (static_cast<Word>(bytes.number())) {
     case Word::kPulse: {
       const bool is_working = bytes.number() != 0;
@@ -212,7 +214,7 @@ void Ranks::control(const Packet& packet) {
 // Rank 0 tells all, the others rank 0.
 void Ranks::send_pulse() {
   const Pulse pulse = {working_ > 0, program_.progress() + done_};
-  Packer bytes;
+  ByteWriter bytes;
   bytes.number(static_cast<std::uint64_t>(Word::kPulse))
       .number(pulse.is_working ? 1 : 0)
       .number(pulse.progress);
@@ -268,7 +270,7 @@ void Ranks::tell(const Ending& ending) {
   has_told_ = true;
   if (rank() == 0) return decide(ending, 0);
   transport_.send(0, static_cast<int>(Tag::kControl),
-                  Packer()
+                  ByteWriter()
                       .number(static_cast<std::uint64_t>(Word::kFailed))
                       .number(static_cast<std::uint64_t>(ending.code))
                       .text(ending.message)
@@ -282,7 +284,7 @@ void Ranks::decide(const Ending& ending, int rank) {
     const bool is_of_all = ending.code == 2 || ending.code > 128;  // usage, signals
     program_.error(with_hint(is_of_all ? ending.message : of_rank(rank, ending.message)));
   }
-  const std::string text = Packer()
+  const std::string text = ByteWriter()
                                .number(static_cast<std::uint64_t>(Word::kStop))
                                .number(static_cast<std::uint64_t>(ending.code))
                                .take();
@@ -318,7 +320,7 @@ void Ranks::move_on(double now) {
     if (rank() != 0) {
       const Traffic traffic = transport_.traffic();
       transport_.send(0, static_cast<int>(Tag::kControl),
-                      Packer()
+                      ByteWriter()
                           .number(static_cast<std::uint64_t>(Word::kStopped))
                           .number(traffic.bytes)
                           .number(traffic.messages)

@@ -1,34 +1,34 @@
-#include "cluster/pack.h"
+#include "base/bytes.h"
 
 #include <gtest/gtest.h>
 
+#include "base/field_bytes.h"
 #include "base/field_text.h"
-#include "cluster/pack_fields.h"
 #include "rholm/error.h"
 #include "support/made_up_options.h"
 
 namespace rholm {
 namespace {
 
-TEST(pack, gives_back_what_was_packed) {
+TEST(bytes, give_back_what_was_written) {
   const std::string zeros(3, '\0');
-  const std::string bytes = Packer()
+  const std::string bytes = ByteWriter()
                                 .number(0)
                                 .number(~std::uint64_t{0})
                                 .text("")
                                 .text(zeros)
                                 .texts({"a", "", "bc"})
                                 .take();
-  Unpacker packed(bytes);
-  EXPECT_EQ(packed.number(), 0U);
-  EXPECT_EQ(packed.number(), ~std::uint64_t{0});
-  EXPECT_EQ(packed.text(), "");
-  EXPECT_EQ(packed.text(), zeros);
-  EXPECT_EQ(packed.texts(), (std::vector<std::string>{"a", "", "bc"}));
-  EXPECT_THROW(packed.number(), Error);
+  ByteReader reader(bytes);
+  EXPECT_EQ(reader.number(), 0U);
+  EXPECT_EQ(reader.number(), ~std::uint64_t{0});
+  EXPECT_EQ(reader.text(), "");
+  EXPECT_EQ(reader.text(), zeros);
+  EXPECT_EQ(reader.texts(), (std::vector<std::string>{"a", "", "bc"}));
+  EXPECT_THROW(reader.number(), Error);
 }
 
-TEST(pack_fields, gives_back_every_field) {
+TEST(field_bytes, give_back_every_field) {
   using namespace test;
   const Outer all{.size = 0.1,
                   .share = 0.5,
@@ -39,26 +39,26 @@ TEST(pack_fields, gives_back_every_field) {
                   .inner = Inner{.depth = 4},
                   .threads = 5};
   for (const Outer& sent : {Outer{}, all}) {
-    Packer packer;
-    pack_fields(sent, packer);
-    const std::string bytes = packer.take();
-    Unpacker packed(bytes);
+    ByteWriter writer;
+    write_fields(sent, writer);
+    const std::string bytes = writer.take();
+    ByteReader reader(bytes);
     Outer got = all;  // what was not given is not left as it was
-    unpack_fields(packed, got);
+    read_fields(reader, got);
     EXPECT_EQ(text_of_fields(got), text_of_fields(sent));
     EXPECT_EQ(got.threads, sent.threads);
-    EXPECT_TRUE(packed.rest().empty());
+    EXPECT_TRUE(reader.rest().empty());
   }
 }
 
-TEST(pack, never_reads_beyond_the_end) {
-  const std::string bytes = Packer().text("some text").texts({"a", "b"}).take();
+TEST(bytes, are_never_read_beyond_the_end) {
+  const std::string bytes = ByteWriter().text("some text").texts({"a", "b"}).take();
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    Unpacker packed(std::string_view(bytes).substr(0, size));
+    ByteReader reader(std::string_view(bytes).substr(0, size));
     EXPECT_THROW(
         {
-          packed.text();
-          packed.texts();
+          reader.text();
+          reader.texts();
         },
         Error)
         << size;
