@@ -1,9 +1,13 @@
-"""A row that is added to a table of the library is found in the package.
+"""A row that is added to a table of the library is found in the package; so is an option.
 
-The module of these tests is that of users, with one made-up row in each table (tests/one_list/*.inc).
+The module of these tests is that of users, with what tests/one_list adds to tables and to options.
 """
 
+import inspect
+import subprocess
+import sys
 import typing
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -31,3 +35,23 @@ def test_descriptor_is_a_property_of_expansions_and_measures(expansion):
     assert expansion.thickness == expansion.volume / expansion.area
     assert "Nobody 1900" in rholm.Expansion.thickness.__doc__
     assert "thickness" in expansion._repr_html_()
+
+
+def test_option_is_an_argument_with_its_documentation():
+    argument = inspect.signature(rholm.reconstruct).parameters["made_up"]
+    assert (argument.default, argument.annotation) == (0.5, "float")
+    assert "made_up : float\n" in rholm.reconstruct.__doc__
+    assert "A made-up option, for tests. Within 0 ... 1." in rholm.reconstruct.__doc__
+
+
+def test_option_is_checked():
+    points = rholm.sample_surface(rholm.bumpy_sphere(3), 2000)
+    assert rholm.reconstruct(points, made_up=0.25).mesh.triangles.shape[1] == 3
+    with pytest.raises(rholm.InvalidInputError, match="made_up is"):
+        rholm.reconstruct(points, made_up=1.5)
+
+
+def test_option_is_in_the_types_of_keywords(tmp_path):
+    script = Path(__file__).resolve().parents[2] / "scripts" / "tables-stub"
+    subprocess.run([sys.executable, script, tmp_path], check=True)
+    assert "    made_up: float\n" in (tmp_path / "_keywords.py").read_text()

@@ -1,6 +1,7 @@
-"""A row that is added to a table of the library is found in everything that the program shows.
+"""A row that is added to a table of the library is found in everything that the program shows; so is an option.
 
-The program of these tests is that of users, with one made-up row in each table (*.inc beside this file).
+The program of these tests is that of users, with one made-up row in each table (*.inc beside this file), and a
+made-up option of reconstruct (CMakeLists.txt).
 """
 
 import csv
@@ -55,6 +56,37 @@ class OneList(CliTest):
         self.assertEqual([(one["name"], one["default"], one["whole"]) for one in wedge["parameters"]], [("order", 4, True)])
         gains = studio.json("GET", "api/gains?window=wedge&cutoff=3&degree=5&order=1")["gains"]
         self.assertEqual(gains, [1, 0.75, 0.5, 0.25, 0, 0])
+
+    def test_option_is_in_all_that_the_program_says_of_itself(self):
+        text = self.words("reconstruct", "--help")
+        self.assertIn("--made-up X", text)
+        self.assertIn("a made-up option, for tests; 0.5 by default", text)
+        for shell in ("bash", "zsh", "fish"):
+            self.assertIn("made-up", self.rholm("completion", shell).out)
+        self.assertIn("made", self.rholm("man-page").out)
+        self.assertIn("| `made_up` | `--made-up` | 0.5 | 0 ... 1 | a made-up option, for tests |",
+                      self.run_rholm("reference").out)
+
+    def test_option_is_parsed_and_checked(self):
+        self.rholm("make", "sample", "rock.ply", "--points", 2000, "-o", "points.ply")
+        self.rholm("reconstruct", "points.ply", "--made-up", 0.25, "-o", "surface.ply")
+        refused = self.rholm("reconstruct", "points.ply", "--made-up", 1.5, "-o", "x.ply", code=2)
+        self.assertIn("--made-up", refused.err)
+        refused = self.rholm("reconstruct", "points.ply", "--made-upp", 1, "-o", "x.ply", code=2)
+        self.assertIn("--made-up", refused.err)
+
+    @unittest.skipUnless(STUDIO, "built without the studio")
+    def test_option_is_in_the_studio(self):
+        studio = Studio(self)
+        studio.begin()
+        control = next(one for one in studio.json("GET", "api/controls")["reconstruct"] if one["name"] == "made_up")
+        self.assertEqual((control["label"], control["kind"], control["default"], control["least"], control["most"]),
+                         ("Made up", "number", 0.5, 0, 1))
+        self.assertFalse(control["shown"])  # under "More options" of the page
+        studio.step(op="make", shape="points")
+        state = studio.step(op="reconstruct", item=1, made_up=0.25)
+        self.assertIn(" --made-up 0.25 ", state["recipe"]["shell"])
+        self.assertIn(", made_up=0.25)", state["recipe"]["python"])
 
     def test_descriptor_is_in_reports_and_tables(self):
         report = self.rholm("info", "rock.h5", "--json").json()
