@@ -50,12 +50,19 @@ class Pass {
         worker_(mesh, options, plan, division_, transform_) {}
 
   Outcome run(MeshPassResult& result) {
+    // Without lumps in common `analyze` of subdivided bodies (1.3 and 5.2 million triangles,
+    // degrees 64 and 480) takes 1.08 to 1.14 times as long. With triangles sorted first it
+    // takes 2.2 times.
     if (division_.count > 1 && has_few_parts() && parts_overlap(mesh_, division_)) {
       common_.emplace(mesh_.n_vertices, lumps_per_vertex(plan_.block.hessians));
     }
     {
       const StageTimer timer(result.times, "triangles");
-      options_.executor != nullptr&& division_.count > 1 ? share_parts() : work_parts();
+      if (options_.executor != nullptr && division_.count > 1) {
+        share_parts();
+      } else {
+        work_parts();
+      }
       if (common_) add_up_common();
     }
     if (const Outcome outcome = sums_.finish(worker_); outcome != Outcome::kDone) return outcome;
