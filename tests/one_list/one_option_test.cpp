@@ -1,9 +1,10 @@
 // The made-up option of rholm/reconstruct.h (CMakeLists.txt) where no command shows it.
 #include <gtest/gtest.h>
 
+#include "base/bytes.h"
 #include "base/check_fields.h"
+#include "base/field_bytes.h"
 #include "base/field_text.h"
-#include "cluster/pack_fields.h"
 #include "rholm/error.h"
 #include "rholm/reconstruct.h"
 
@@ -11,12 +12,12 @@ namespace rholm {
 namespace {
 
 TEST(OneOption, is_in_messages_between_ranks) {
-  Packer packer;
-  pack_fields(ReconstructOptions{.made_up = 0.25}, packer);
-  const std::string bytes = packer.take();
-  Unpacker message(bytes);
+  ByteWriter writer;
+  write_fields(ReconstructOptions{.made_up = 0.25}, writer);
+  const std::string bytes = writer.take();
+  ByteReader message(bytes);
   ReconstructOptions received;
-  unpack_fields(message, received);
+  read_fields(message, received);
   EXPECT_EQ(received.made_up, 0.25);
 }
 
