@@ -66,7 +66,7 @@ struct ReconstructOptions {
   // lines of sight go through.
   std::optional<Vec3> sensor = {};
   // Points with an attribute `scan` stay where they are; else the scans are brought together first,
-  // by align_scans().
+  // by align_scans(); those of several tiles by the motions of a sample of at most tile_points.
   bool keep_scans = false;
   // The vertices get an attribute `confidence`, 0 ... 1, instead of any of that name: how sure the
   // signs of the normals are that were computed, less where no points are near (0 from four
@@ -293,8 +293,7 @@ struct Reconstruction {
 // to resume from that has other files, or what a run with another input or other options has left;
 // OutOfMemory if more than allowed would be needed (with the tile_points or the step that would
 // do); Io if the output cannot be written, a disk has not the room that is foreseen, or another
-// process works in the folder; Unsupported for an output that is named as another format, and for
-// several scans in several tiles, but for options.keep_scans: only one piece brings scans together.
+// process works in the folder; Unsupported for an output that is named as another format.
 Reconstruction reconstruct(const PointCloud& cloud, const ReconstructOptions& options = {},
                            const Context& context = {});
 // The same, without a copy of the points.

@@ -157,8 +157,7 @@ def reconstruct(
     OutOfMemoryError
         If more than allowed would be needed, with the `tile_points` or the step that would do.
     UnsupportedError
-        For an `output` that is named as another format than PLY, and for several scans in several
-        tiles, but for `keep_scans`: only one piece brings scans together.
+        For an `output` that is named as another format than PLY.
 
     Warns
     -----

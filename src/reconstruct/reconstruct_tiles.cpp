@@ -17,6 +17,7 @@
 #include "io/file/temporary_folder.h"
 #include "io/spill/folder_store.h"
 #include "parts/memory_store.h"
+#include "reconstruct/points/moved_scans.h"
 #include "reconstruct/tile_run.h"
 #include "rholm/error.h"
 #include "rholm/point_stream.h"
@@ -33,8 +34,9 @@ constexpr std::uint64_t kMemoryOfPoint = 1750, kMemoryOfAny = 22;
 // Runs have taken up to 1.21 times the memory that was foreseen (373 MiB of 307). Chosen: several
 // tiles have as much again for tables; those of 16 384 points did not do with 1.34 times.
 constexpr double kForecastError = 1.25, kSeveralTiles = 2;
-// Smaller tiles need no less than this: tiles of 2900 of 40 000 points did with 12.3 MiB, and tiles
-// of 1000 did not with 8.2 (tests/cli/reconstruct_test.py). Chosen between them and above.
+// The least limit that is named as enough: what does not grow with tiles takes most of it. Of
+// 40 000 points, tiles of 2900 were made within 12.3 MiB, and tiles of 1000 needed more than 8.2
+// (tests/cli/reconstruct_test.py). Chosen: above what was enough.
 constexpr double kLeastMemory = 13 << 20;
 // For each point with its normal: what is stored of it and of its part of the surface, most at a
 // time, and that part in the output (scripts/memory-figures).
@@ -174,7 +176,8 @@ Reconstruction reconstruct_source(const TileStore& store,
                                   const ReconstructOptions& options, const SharedRun& run,
                                   const Context& context) {
   if (run.begun) run.begun(store.folder());
-  const std::unique_ptr<PointSource> source = open();
+  std::unique_ptr<PointSource> source = open();
+  ScanAlignment scans;
   std::uint64_t memory = 0;
   const auto foreseen = [&](const Survey& survey, std::size_t n_tiles) {
     TileForecast forecast = foresee_tiles(survey.points, options.tile_points);
@@ -189,9 +192,11 @@ Reconstruction reconstruct_source(const TileStore& store,
   try {
     std::optional<Reconstruction> made = run.instead ? run.instead(*source) : std::nullopt;
     if (!made) {
+      source = with_moved_scans(std::move(source), *store, options, scans, context);
       made = run_tiles(*source, *store, {.reconstruct = options, .foreseen = foreseen},
                        run.executor, context);
       made->report.memory = memory;
+      made->report.scans = scans;
     }
     store->keep(false);
     return std::move(*made);

@@ -194,20 +194,34 @@ TEST_F(TileReconstructOptions, takes_one_sensor_for_all_nightly) {
   EXPECT_LT(report.volume, 0);
 }
 
-TEST_F(TileReconstructOptions, refuses_scans_unless_they_may_stay_nightly) {
-  PointCloud cloud = torus_points(5000);
-  cloud.attributes = {{"scan", ScalarType::kInt32, std::vector<double>(5000, 3)}};
-  run(cloud, 2000, "one.ply");  // of one scan
-  for (std::size_t i = 0; i < 2000; ++i) cloud.attributes[0].values[i] = 7;
-  try {
-    run(cloud, 2000, "two.ply");
-    ADD_FAILURE() << "two scans were not refused";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::kUnsupported);
-    EXPECT_NE(std::string(error.what()).find("2 scans"), std::string::npos) << error.what();
+// A ball of eight scans, each off by three spacings: in the mean where they were, on one sphere.
+// The order of the points changes nothing.
+TEST_F(TileReconstructOptions, brings_scans_together_as_one_piece_does) {
+  const PointCloud given =
+      sample_surface(bumpy_sphere(5), {.points = 30000, .scans = 8, .misalignment = 0.02});
+  PointCloud cloud = given;
+  const Reconstruction one = reconstruct(cloud);
+  ReconstructOptions options{.tile_points = 8000, .output = path("tiles.ply")};
+  const ReconstructReport report = reconstruct(cloud, options).report;
+  EXPECT_GT(report.tiles, 2U);
+  EXPECT_EQ(report.scans.scans, 8U);
+  EXPECT_GT(report.scans.pairs, 1000U);
+  // A third of the points tell the motions: errors of a tenth of the way are far above theirs.
+  EXPECT_NEAR(report.scans.moved, one.report.scans.moved, 0.1 * one.report.scans.moved);
+  EXPECT_LT(report.scans.distance, 0.2 * report.scans.distance_before);
+  EXPECT_EQ(report.noise, 0);
+  EXPECT_EQ(test::expect_closed_manifold(mesh("tiles.ply")).euler_characteristic, 2);
+  EXPECT_NEAR(report.volume, one.report.volume, 1e-3 * one.report.volume);
+  std::reverse(cloud.points.begin(), cloud.points.end());
+  std::reverse(cloud.normals.begin(), cloud.normals.end());
+  for (Attribute& attribute : cloud.attributes) {
+    std::reverse(attribute.values.begin(), attribute.values.end());
   }
-  run(cloud, 2000, "two.ply", {.keep_scans = true});
-  test::expect_closed_manifold(mesh("two.ply"));
+  options.output = path("reversed.ply");
+  reconstruct(cloud, options);
+  EXPECT_TRUE(bytes("tiles.ply") == bytes("reversed.ply"));
+  options.output = path("left.ply"), options.keep_scans = true;
+  EXPECT_EQ(reconstruct(given, options).report.scans.scans, 0U);
 }
 
 TEST_F(TileReconstructOptions, refuses_what_no_surface_goes_with) {

@@ -15,7 +15,6 @@
 #include "rholm/error.h"
 #include "shape/points/local_shape.h"
 #include "shape/points/normals.h"
-#include "shape/points/scan_labels.h"
 
 namespace rholm {
 namespace {
@@ -117,13 +116,6 @@ void TileCloud::sort() {
   stages_.once("distribute",
                [&] { distribute(source_, survey_, plan_, store_, {}, stages_.context()); });
   stages_.each("sort", n_, [&](std::size_t tile) { sort_points(store_, tile); });
-  if (!options_.keep_scans && has_column("scan")) {
-    stages_.once("sort", [&] {
-      if (store_.has("scans")) return;
-      refuse_scans();
-      write_values(store_, "scans", std::vector<std::uint8_t>{1});
-    });
-  }
   report_.points = survey_.points + survey_.not_finite + survey_.dropped + survey_.far_strays;
   report_.outliers = survey_.far_strays;
   spacings_ = spacings_of_sample(survey_, plan_, survey_.n_different);
@@ -148,21 +140,6 @@ void TileCloud::count_points() {
   diagonal_ = box.at(0);
   check_spread(points_, diagonal_);
   if (box.at(1) != 0) refuse_one_line(points_);
-}
-
-// Scans are brought together by all their points.
-void TileCloud::refuse_scans() const {
-  std::vector<double> different;
-  for (std::size_t tile = 0; tile < n_; ++tile) {
-    PointCloud cloud = read_points(store_, tile);
-    std::erase_if(cloud.attributes, [](const Attribute& a) { return a.name != "scan"; });
-    if (!add_scans(cloud.attributes.front().values, different)) return;
-  }
-  if (different.size() < 2) return;
-  throw Error(ErrorCode::kUnsupported,
-              fmt::format("the points are {} scans, which are brought together in one piece only "
-                          "(of at most --tile-points); --keep-scans takes them as they are",
-                          different.size()));
 }
 
 void TileCloud::remove_strays() {

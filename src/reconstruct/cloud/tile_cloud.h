@@ -62,7 +62,6 @@ class TileCloud {
   std::shared_ptr<const TileScene> scene(std::size_t tile, double halo, bool keep) const;
   void find_survey(std::uint64_t points_per_tile);
   void sort();
-  void refuse_scans() const;
   void remove_strays();
   void look_at_shape();
   void orient();

@@ -12,8 +12,8 @@
 #include "shape/points/plane_fit.h"
 #include "shape/points/point_tree.h"
 #include "shape/points/sampling_gaps.h"
-#include "shape/points/scan_labels.h"
 #include "shape/points/scan_motions.h"
+#include "shape/points/scan_poses.h"
 #include "shape/points/sensors.h"
 #include "shape/rigid_motion.h"
 
@@ -50,26 +50,6 @@ struct Scan {
   double spacing = 0;  // of these points
   double height = 0;   // of the points over their planes, median
 };
-
-// Which scan each point belongs to, 0 ... n - 1 by the attribute's values; nothing without an
-// attribute of few whole numbers.
-struct ScanLabels {
-  std::vector<std::uint32_t> of;
-  std::size_t n = 0;
-};
-
-std::optional<ScanLabels> labels_of(const PointCloud& cloud) {
-  const Attribute* scan = find_attribute(cloud.attributes, "scan");
-  if (scan == nullptr) return std::nullopt;
-  std::vector<double> different;
-  if (!add_scans(scan->values, different)) return std::nullopt;
-  ScanLabels labels{.of = std::vector<std::uint32_t>(scan->values.size()), .n = different.size()};
-  for (std::size_t i = 0; i < labels.of.size(); ++i) {
-    labels.of[i] = static_cast<std::uint32_t>(
-        std::lower_bound(different.begin(), different.end(), scan->values[i]) - different.begin());
-  }
-  return labels;
-}
 
 double spacing_of(const PointTree& tree) {
   const std::size_t n = tree.size(), seeds = std::min<std::size_t>(n, 1000);
@@ -132,21 +112,10 @@ void plant(Scan& scan, const Context& context) {
   scan.spacing = spacing_of(*scan.tree);
 }
 
-// Where a motion of many steps has brought a scan.
-struct Pose {
-  Vec3 origin, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // images of the middle and of the axes
-
-  void move(const RigidMotion& motion) {
-    origin = motion.point(origin);
-    x = motion.direction(x), y = motion.direction(y), z = motion.direction(z);
-  }
-  Vec3 direction(const Vec3& v) const { return v.x * x + v.y * y + v.z * z; }
-};
-
 // The scans that can be moved, in their present places.
 struct Scans {
   std::vector<Scan> scans;
-  std::vector<Pose> poses;
+  std::vector<ScanPose> poses;
   Vec3 middle;
   double radius = 0;
   double spacing = 0;  // of all points
@@ -313,56 +282,67 @@ void find_sides(Scans& scans, const Context& context) {
   }
 }
 
-// The points, their normals and sensors go with their scans.
-void move_points(const ScanLabels& labels, const Scans& scans, PointCloud& cloud,
-                 ScanAlignment& result) {
+}  // namespace
+
+double ScanPoses::move(PointCloud& cloud) const {
+  const Attribute* const scan = find_attribute(cloud.attributes, "scan");
+  if (poses.empty() || scan == nullptr) return 0;
   std::vector<Vec3> sensors = sensors_of(cloud);
   double squares = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const Pose& pose = scans.poses[labels.of[i]];
-    const auto moved = [&](const Vec3& p) {
-      return pose.origin + pose.direction(p - scans.middle);
-    };
+    const auto label = std::lower_bound(labels.begin(), labels.end(), scan->values[i]);
+    if (label == labels.end() || *label != scan->values[i]) continue;
+    const ScanPose& pose = poses[static_cast<std::size_t>(label - labels.begin())];
+    const auto moved = [&](const Vec3& p) { return pose.origin + pose.direction(p - middle); };
     const Vec3 at = moved(cloud.points[i]);
     squares += dot(at - cloud.points[i], at - cloud.points[i]);
     cloud.points[i] = at;
     if (!cloud.normals.empty()) cloud.normals[i] = pose.direction(cloud.normals[i]);
     if (!sensors.empty()) sensors[i] = moved(sensors[i]);
   }
-  result.moved = std::sqrt(squares / static_cast<double>(cloud.points.size()));
   if (!sensors.empty()) set_sensors(cloud, sensors);
+  return squares;
 }
 
-}  // namespace
-
-ScanAlignment align_scans(PointCloud& cloud, const Context& context) {
-  validate(cloud);
-  ScanAlignment result;
-  const std::optional<ScanLabels> labels = labels_of(cloud);
-  if (!labels) return result;
-  result.scans = labels->n;
-  if (labels->n < 2) return result;
+ScanPoses find_scan_poses(const PointCloud& cloud, const Context& context) {
+  ScanPoses result;
+  const Attribute* const scan = find_attribute(cloud.attributes, "scan");
+  if (scan == nullptr || !add_scans(scan->values, result.labels)) return {};
+  const std::size_t n = result.alignment.scans = result.labels.size();
+  if (n < 2) return result;
   Scans scans;
-  scans.scans.resize(labels->n);
+  scans.scans.resize(n);
   for (std::uint32_t i = 0; i < cloud.points.size(); ++i) {
-    scans.scans[labels->of[i]].members.push_back(i);
+    const auto label =
+        std::lower_bound(result.labels.begin(), result.labels.end(), scan->values[i]);
+    scans.scans[static_cast<std::size_t>(label - result.labels.begin())].members.push_back(i);
     scans.middle += cloud.points[i] / static_cast<double>(cloud.points.size());
   }
   double squares = 0;
   for (const Vec3& p : cloud.points) squares += dot(p - scans.middle, p - scans.middle);
   scans.radius = std::sqrt(squares / static_cast<double>(cloud.points.size()));
-  scans.poses.assign(labels->n, {.origin = scans.middle});
+  scans.poses.assign(n, {.origin = scans.middle});
   scans.spacing = spacing_of(PointTree(cloud.points, context));
   const std::vector<Vec3> sensors = sensors_of(cloud);
   scans.sided = !cloud.normals.empty() || !sensors.empty();
-  for (Scan& scan : scans.scans) {
-    if (scan.members.size() < kFewest) continue;
-    choose_points(cloud, sensors, scan, context);
-    if (!scan.points.empty()) plant(scan, context);
+  for (Scan& some : scans.scans) {
+    if (some.members.size() < kFewest) continue;
+    choose_points(cloud, sensors, some, context);
+    if (!some.points.empty()) plant(some, context);
   }
   if (!scans.sided) find_sides(scans, context);
-  bring_together(scans, result, context);
-  if (result.pairs > 0) move_points(*labels, scans, cloud, result);
+  bring_together(scans, result.alignment, context);
+  result.middle = scans.middle;
+  if (result.alignment.pairs > 0) result.poses = std::move(scans.poses);
+  return result;
+}
+
+ScanAlignment align_scans(PointCloud& cloud, const Context& context) {
+  validate(cloud);
+  const ScanPoses poses = find_scan_poses(cloud, context);
+  ScanAlignment result = poses.alignment;
+  if (poses.poses.empty()) return result;
+  result.moved = std::sqrt(poses.move(cloud) / static_cast<double>(cloud.points.size()));
   return result;
 }
 
