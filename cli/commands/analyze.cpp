@@ -1,6 +1,5 @@
 // rholm analyze: from a mesh to its coefficients.
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,15 +32,11 @@ using Run = AnalyzeRun;
 
 EncodeOptions encode_options(const Options& options) {
   EncodeOptions wanted;
+  wanted.analyze = options.analyze.values;
   wanted.analyze.method = parse_name<Method>(options.method);
-  if (options.degree) wanted.analyze.degree = *options.degree;
-  if (!options.engine.empty()) wanted.analyze.engine = parse_name<Engine>(options.engine);
-  if (options.precision) wanted.analyze.precision = *options.precision;
   wanted.tolerance = options.tolerance.parsed();
   wanted.errors = !options.no_errors;
-  wanted.chart.center = parse_center_option(options.center);
-  wanted.chart.center.rays = options.rays;
-  wanted.chart.allow_signed = options.allow_signed;
+  wanted.chart = chart_options(options.chart, options.center);
   wanted.weld_tolerance = options.weld;
   return wanted;
 }
@@ -66,7 +61,7 @@ const MemoryOfMesh& paired_mesh(const Options& options) {
 }
 
 double memory_of_grid(const Options& options) {
-  const double n = options.degree.value_or(0) + 1.0;
+  const double n = degree_of(options).value_or(0) + 1.0;
   return kSmallMesh + kMemoryOfCoefficient * n * n;
 }
 
@@ -226,8 +221,7 @@ void check_reached(const Options& options, const Encoded& encoded) {
   throw Error(ErrorCode::kNotConverged,
               fmt::format("the wanted precision of {} was not reached in what was written: the "
                           "error is {}; --engine direct is slower and exact",
-                          text_of(options.precision.value_or(AnalyzeOptions{}.precision)),
-                          text_of(fast->error)));
+                          text_of(options.analyze.values.precision), text_of(fast->error)));
 }
 
 constexpr std::string_view kMonteCarlo = "monte-carlo-";  // before the places of the points
@@ -236,21 +230,22 @@ int run(const Options& options, const AnalyzeBy& by, Session& session) {
   by.check_input(options.input);
   options.memory.keep(session);
   if (options.atlas) return analyze_atlas(options, session);
-  if (!options.fit.empty() || !options.extension.empty() || options.max_numbers ||
+  if (!options.fit.empty() || !options.patches.names.empty() || !options.caps.names.empty() ||
       !options.columns.empty()) {
     throw UsageError("--fit, --extension, --max-numbers and --columns go with --atlas");
   }
-  if (options.degree && options.tolerance.tolerance) {
+  const bool has_degree = degree_of(options).has_value();
+  if (has_degree && options.tolerance.tolerance) {
     throw UsageError("--degree L or --tolerance E: only one of the two can be kept");
   }
-  if (!options.degree && !options.tolerance.tolerance) {
+  if (!has_degree && !options.tolerance.tolerance) {
     throw UsageError("--degree L or --tolerance E: one of the two is needed");
   }
   if (options.method.starts_with(kMonteCarlo)) {
     const std::string places = options.method.substr(kMonteCarlo.size());
     return analyze_by_monte_carlo(options, parse_name<SamplePlaces>(places), session);
   }
-  if (options.samples || options.most_samples || options.deviation) {
+  if (is_given_to_monte_carlo(options)) {
     throw UsageError(
         "--samples, --deviation and --most-samples go with the methods "
         "monte-carlo-edge and monte-carlo-triangle");
@@ -287,106 +282,72 @@ int run(const Options& options, const AnalyzeBy& by, Session& session) {
   return 0;
 }
 
-std::vector<Option> transform_options(Options& o) {
-  return {
-      {.name = "method",
-       .value = "METHOD",
-       .help = "edge (the default): the radius, over edges and faces; gauge: 1/radius, over "
-               "edges alone; curl: the radius over edges alone, slow; area: the radius by "
-               "plain cubature, for comparison; monte-carlo-edge, monte-carlo-triangle: by "
-               "random points, with a deviation of each coefficient",
-       .target = &o.method,
-       .choices = {"edge", "gauge", "curl", "area", "monte-carlo-edge", "monte-carlo-triangle"}},
-      {.name = "engine",
-       .help = "fast (the default): sums on an oversampled grid, as exact as --precision says; "
-               "direct: term by term, slow; curl, area and Monte Carlo are always direct",
-       .target = &o.engine,
-       .choices = {"fast", "direct"}},
-      center_option(o.center),
-      {.name = "signed",
-       .help = "accept a surface that is not star-shaped: the signed sum of its radii, to compare "
-               "such sums or as a descriptor; it does not give back the body, --atlas does",
-       .target = &o.allow_signed},
-      {.name = "precision",
-       .value = "P",
-       .help = "wanted relative error of the coefficients, 1e-14 ... 1e-1; 1e-8 by default, "
-               "finer where a tolerance asks for it",
-       .target = &o.precision,
-       .min = 1e-14,
-       .max = 1e-1},
-      {.name = "no-errors",
-       .help = "do not measure and predict the errors of the surface",
-       .target = &o.no_errors}};
+// The methods of a transform, and those by random points.
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const char* name : names_of(Method{}).names) names.emplace_back(name);
+  for (const char* name : names_of(SamplePlaces{}).names) {
+    names.push_back(std::string(kMonteCarlo) + name);
+  }
+  return names;
 }
 
-std::vector<Option> monte_carlo_options(Options& o) {
-  return {{.name = "samples",
-           .value = "N",
-           .help = "Monte Carlo: points on each edge or triangle, even",
-           .target = &o.samples,
-           .min = 2,
-           .max = 1 << 30},
-          {.name = "deviation",
-           .value = "S",
-           .help = "Monte Carlo: points are added until the relative deviation of the "
-                   "coefficients is at most S; 0.01 by default",
-           .target = &o.deviation,
-           .min = 1e-8,
-           .max = 1},
-          {.name = "most-samples",
-           .value = "N",
-           .help = "Monte Carlo: where to stop without the wanted deviation, exit code 4; 4096 "
-                   "by default",
-           .target = &o.most_samples,
-           .min = 2,
-           .max = 1 << 30},
-          {.name = "seed",
-           .value = "S",
-           .help = "Monte Carlo: same seed, same points; 1 by default",
-           .target = &o.seed}};
+std::vector<Option> transform_options(Options& o) {
+  return {{.name = "method",
+           .value = "METHOD",
+           .help = "edge (the default): the radius, over edges and faces; gauge: 1/radius, over "
+                   "edges alone; curl: the radius over edges alone, slow; area: the radius by "
+                   "plain cubature, for comparison; monte-carlo-edge, monte-carlo-triangle: by "
+                   "random points, with a deviation of each coefficient",
+           .target = &o.method,
+           .choices = method_names()},
+          field_option_of(o.analyze, "engine"),
+          center_option(o.center),
+          field_option_of(o.chart, "signed"),
+          field_option_of(o.analyze, "precision"),
+          {.name = "no-errors",
+           .help = "do not measure and predict the errors of the surface",
+           .target = &o.no_errors}};
+}
+
+std::vector<Option> atlas_options(Options& o) {
+  return {{.name = "atlas",
+           .help = "any shape, star-shaped or not, also points with normals: as few large caps "
+                   "that keep --tolerance, the rms distance between the surfaces",
+           .target = &o.atlas},
+          {.name = "fit",
+           .help = "of an atlas. least-squares: the default; integral: the paper's way, to compare "
+                   "with: patches by a kd-tree, integrals over their points to --degree",
+           .target = &o.fit,
+           .choices = {"least-squares", "integral"}},
+          field_option_of(o.patches, "extension", "with --fit integral, "),
+          field_option_of(o.caps, "max_numbers", "of an atlas: ")};
+}
+
+// Without the default: this, or a tolerance, has to be given.
+Option degree_option(Options& o) {
+  Option option = field_option_of(o.analyze, "degree");
+  option.help.resize(option.help.rfind("; "));
+  return option;
 }
 
 std::vector<Option> option_list(Options& o) {
+  const std::string random = "Monte Carlo: ";
   std::vector<Option> list = {{.name = "SHAPE",
                                .help = "file of a closed mesh, or - for standard input",
                                .target = &o.input,
                                .required = true,
                                .offer = Offer::kShapes},
-                              {.name = "degree",
-                               .value = "L",
-                               .help = "the highest degree; there are (L+1)^2 coefficients",
-                               .target = &o.degree,
-                               .min = 0,
-                               .max = kMaxDegree}};
+                              degree_option(o)};
   append(list, tolerance_options(o.tolerance));
-  append(
-      list,
-      {{.name = "atlas",
-        .help = "any shape, star-shaped or not, also points with normals: as few large caps that "
-                "keep --tolerance, the rms distance between the surfaces",
-        .target = &o.atlas},
-       {.name = "fit",
-        .help = "of an atlas. least-squares: the default; integral: the paper's way, to compare "
-                "with: patches by a kd-tree, integrals over their points to --degree",
-        .target = &o.fit,
-        .choices = {"least-squares", "integral"}},
-       {.name = "extension",
-        .help = "with --fit integral, what a cap is beyond its points: zero, as the paper has it, "
-                "or the sphere it lies on",
-        .target = &o.extension,
-        .choices = {"zero", "sphere"}},
-       {.name = "max-numbers",
-        .value = "N",
-        .help = "of an atlas: the numbers that the model may take, coefficients and nine for each "
-                "cap; by default as many as the shape has coordinates",
-        .target = &o.max_numbers,
-        .min = 1,
-        .max = std::numeric_limits<int>::max()}});
+  append(list, atlas_options(o));
   append(list, transform_options(o));
-  append(list, monte_carlo_options(o));
   append(list,
-         {rays_option(o.rays), weld_option(o.weld), length_unit_option(o.length_unit),
-          columns_option(o.columns),
+         {field_option_of(o.monte_carlo, "samples", random),
+          field_option_of(o.monte_carlo, "deviation", random),
+          field_option_of(o.monte_carlo, "most_samples", random),
+          field_option_of(o.monte_carlo, "seed", random), field_option_of(o.chart.center, "rays"),
+          weld_option(o.weld), length_unit_option(o.length_unit), columns_option(o.columns),
           output_option(o.output, fmt::format("file of coefficients: {}; - for standard output",
                                               coefficients_extensions())),
           format_option(o.format, coefficients_format_names())});

@@ -26,31 +26,32 @@ void check_options(const AnalyzeCommandOptions& o) {
     if (given) throw UsageError(fmt::format("{} does not go with --atlas", name));
   };
   if (by_integrals(o)) {
-    if (!o.degree || o.tolerance.tolerance) {
+    const std::optional<int> degree = degree_of(o);
+    if (!degree || o.tolerance.tolerance) {
       throw UsageError(
           "--fit integral needs the degree of the caps, --degree L, and no --tolerance");
     }
-    if (*o.degree > kMaxCapDegree) {
+    if (*degree > kMaxCapDegree) {
       throw UsageError(fmt::format("--degree of a cap is 0 ... {}", kMaxCapDegree));
     }
     refuse(o.tolerance.rest.has("max_degree"), "--max-degree and --fit integral");
-    refuse(o.max_numbers.has_value(), "--max-numbers and --fit integral");
+    refuse(o.caps.has("max_numbers"), "--max-numbers and --fit integral");
   } else {
     if (!o.tolerance.tolerance) throw UsageError("--atlas needs --tolerance E");
-    refuse(o.degree.has_value(), "--degree");
-    if (!o.extension.empty()) throw UsageError("--extension goes with --fit integral");
+    refuse(o.analyze.has("degree"), "--degree");
+    if (o.patches.has("extension")) throw UsageError("--extension goes with --fit integral");
   }
   refuse(o.method != "edge", "--method");
-  refuse(!o.engine.empty(), "--engine");
+  refuse(o.analyze.has("engine"), "--engine");
   refuse(o.center != "auto", "--center");
-  refuse(o.allow_signed, "--signed");
-  refuse(o.precision.has_value(), "--precision");
+  refuse(o.chart.allow_signed, "--signed");
+  refuse(o.analyze.has("precision"), "--precision");
   const Given<Tolerance>& tolerance = o.tolerance.rest;
   refuse(tolerance.values.norm == ErrorNorm::kMax, "--norm max");
   refuse(tolerance.has("measure") && tolerance.values.measure == ErrorMeasure::kRadius,
          "--measure radius");
   refuse(tolerance.values.unit == ToleranceUnit::kRadius, "--unit radius");
-  refuse(o.samples || o.deviation || o.most_samples, "Monte Carlo");
+  refuse(is_given_to_monte_carlo(o), "Monte Carlo");
   const int max_degree = tolerance.values.max_degree;
   if (tolerance.has("max_degree") && (max_degree < 2 || max_degree > kMaxCapDegree)) {
     throw UsageError(fmt::format("--max-degree of a cap is 2 ... {}", kMaxCapDegree));
@@ -72,12 +73,11 @@ Mesh prepared_mesh(const AnalyzeCommandOptions& o, ShapeFile file, Session& sess
 }
 
 Compressed compress_shape(const AnalyzeCommandOptions& o, ShapeFile file, Session& session) {
-  CompressOptions options;
+  CompressOptions options = o.caps.values;
   options.tolerance = *o.tolerance.tolerance;
-  options.seed = o.seed;
+  options.seed = o.monte_carlo.values.seed;
   const Given<Tolerance>& tolerance = o.tolerance.rest;
   if (tolerance.has("max_degree")) options.max_degree = tolerance.values.max_degree;
-  options.max_numbers = static_cast<std::size_t>(o.max_numbers.value_or(0));
   const bool relative = tolerance.values.unit == ToleranceUnit::kDiagonal;
   if (const auto* cloud = std::get_if<PointCloud>(&file.shape)) {
     if (relative) options.tolerance *= bounds(cloud->points).diagonal();
@@ -110,9 +110,8 @@ Compressed compress_shape(const AnalyzeCommandOptions& o, ShapeFile file, Sessio
 
 // The paper's way: what is made does not meet anything in particular.
 AtlasModel integrate_shape(const AnalyzeCommandOptions& o, ShapeFile file, Session& session) {
-  PatchAtlasOptions options;
-  options.degree = *o.degree;
-  if (!o.extension.empty()) options.extension = parse_name<CapExtension>(o.extension);
+  PatchAtlasOptions options = o.patches.values;
+  options.degree = o.analyze.values.degree;
   if (const auto* cloud = std::get_if<PointCloud>(&file.shape)) {
     return patch_atlas(*cloud, options, session.context()).model;
   }

@@ -9,6 +9,7 @@
 #include "cli/files/outputs.h"
 #include "cli/files/prepare.h"
 #include "cli/grammar/parse.h"
+#include "cli/terminal/field_json.h"
 #include "cli/terminal/json_text.h"
 #include "rholm/error.h"
 #include "rholm/star.h"
@@ -17,19 +18,21 @@ namespace rholm::cli {
 namespace {
 
 MonteCarloOptions monte_carlo_options(const AnalyzeCommandOptions& options, SamplePlaces places) {
-  if (!options.degree) throw UsageError("Monte Carlo needs --degree: it has no --tolerance");
-  if (options.engine == "fast" || options.precision) {
+  const std::optional<int> degree = degree_of(options);
+  if (!degree) throw UsageError("Monte Carlo needs --degree: it has no --tolerance");
+  const Given<AnalyzeOptions>& transform = options.analyze;
+  if ((transform.has("engine") && transform.values.engine == Engine::kFast) ||
+      transform.has("precision")) {
     throw UsageError(
         "Monte Carlo is direct and has a --deviation, no --engine fast, no --precision");
   }
-  if (options.samples && (options.deviation || options.most_samples)) {
+  const Given<MonteCarloOptions>& given = options.monte_carlo;
+  if (given.has("samples") && (given.has("deviation") || given.has("most_samples"))) {
     throw UsageError("--samples is a fixed number: without --deviation and --most-samples");
   }
-  MonteCarloOptions wanted{.degree = *options.degree, .places = places};
-  if (options.samples) wanted.samples = static_cast<std::size_t>(*options.samples);
-  if (options.most_samples) wanted.most_samples = static_cast<std::size_t>(*options.most_samples);
-  if (options.deviation) wanted.deviation = *options.deviation;
-  wanted.seed = options.seed;
+  MonteCarloOptions wanted = given.values;
+  wanted.degree = *degree;
+  wanted.places = places;
   return wanted;
 }
 
@@ -41,7 +44,7 @@ Json json_of_run(const AnalyzeCommandOptions& options, const MonteCarlo& found,
   json["degree"] = found.expansion.coefficients.degree();
   json["method"] = found.expansion.method;
   json["function"] = to_string(found.expansion.function);
-  add_star_report(star, json);
+  json.update(json_of_fields(star));
   json["places"] = found.places;
   json["samples"] = found.samples;
   json["rounds"] = found.rounds;
@@ -76,13 +79,11 @@ int analyze_by_monte_carlo(const AnalyzeCommandOptions& options, SamplePlaces pl
       coefficients_output(options.output, options.format, options.json);
   const Convention convention = options.convention.output_convention();
   check_writable(options.output);
-  CenterOptions center = parse_center_option(options.center);
-  center.rays = options.rays;
 
   const Prepared prepared = prepare(read_mesh(options.input, session), options.weld);
   if (prepared.flipped) session.note(kFlipped);
   const StarChart chart = make_star_chart(
-      prepared.mesh, {.center = center, .allow_signed = options.allow_signed}, session.context());
+      prepared.mesh, chart_options(options.chart, options.center), session.context());
   MonteCarlo found = monte_carlo(chart, wanted, session.context());
   found.expansion.unit = options.length_unit;
   write_coefficients_output(found.expansion, output, convention, session);
@@ -92,7 +93,7 @@ int analyze_by_monte_carlo(const AnalyzeCommandOptions& options, SamplePlaces pl
   } else {
     session.note(
         fmt::format("{}: degree {} by {}, {} points on each of {} {}; relative deviation {}",
-                    options.output, *options.degree, options.method, found.samples, found.places,
+                    options.output, wanted.degree, options.method, found.samples, found.places,
                     places == SamplePlaces::kEdges ? "edges" : "faces", text_of_deviation(found)));
   }
   if (!found.reached) {

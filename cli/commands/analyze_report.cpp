@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/terminal/field_json.h"
+
 namespace rholm::cli {
 
 std::uint64_t peak_memory_bytes() {
@@ -58,15 +60,17 @@ Json analyze_json(const AnalyzeCommandOptions& options, const AnalyzeRun& run) {
   json["degree"] = analysis.expansion.coefficients.degree();
   json["method"] = analysis.expansion.method;
   json["function"] = to_string(analysis.expansion.function);
-  json["precision"] = options.precision.value_or(AnalyzeOptions{}.precision);
-  add_star_report(encoded.star, json);
-  json["signed"] = options.allow_signed;
+  json["precision"] = options.analyze.values.precision;
+  json.update(json_of_fields(encoded.star));
+  json["signed"] = options.chart.allow_signed;
   json["signed_sum"] = analysis.expansion.signed_sum;
   json["counts"] = {{"vertices", encoded.vertices},
                     {"faces", encoded.faces},
                     {"edges", encoded.edges},
                     {"nodes", sources_of(analysis)}};
-  json["engine"] = analysis.fast ? "fast" : options.engine.empty() ? "direct" : options.engine;
+  json["engine"] = analysis.fast || options.analyze.has("engine")
+                       ? to_string(options.analyze.values.engine)
+                       : "direct";
   if (analysis.fast) {
     json["fast"] = json_of(*analysis.fast);
   } else {

@@ -8,7 +8,9 @@
 #include "cli/files/paths.h"
 #include "cli/files/prepare.h"
 #include "cli/grammar/parse.h"
+#include "cli/options/field_options.h"
 #include "cli/terminal/exit_code.h"
+#include "cli/terminal/field_json.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/error.h"
@@ -22,14 +24,13 @@ namespace {
 struct Options {
   std::string input;
   std::string center = "auto";
-  int rays = 100'000;
+  ChartOptions chart;  // the rays
   double weld = 0;
   bool json = false;
 };
 
 int run(const Options& options, Session& session) {
-  CenterOptions wanted = parse_center_option(options.center);
-  wanted.rays = options.rays;
+  const CenterOptions wanted = chart_options(options.chart, options.center).center;
   const Prepared prepared = prepare(read_mesh(options.input, session), options.weld);
   if (prepared.flipped) session.note(kFlipped);
   const StarReport report = find_center(prepared.mesh, wanted, session.context());
@@ -39,7 +40,7 @@ int run(const Options& options, Session& session) {
     Json json;
     json["file"] = options.input;
     json["kind"] = to_string(wanted.kind);
-    add_star_report(report, json);
+    json.update(json_of_fields(report));
     json["flipped"] = prepared.flipped;
     json["duplicate_faces"] = duplicates;
     json["diagonal"] = prepared.diagonal;
@@ -78,7 +79,7 @@ Command center_command() {
                        .required = true,
                        .offer = Offer::kShapes},
                       center_option(options->center),
-                      rays_option(options->rays),
+                      field_option_of(options->chart.center, "rays"),
                       weld_option(options->weld),
                       json_option(options->json)},
           .examples = {"rholm center bumpy.ply", "rholm center bumpy.ply --center cosine --json"},

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/terminal/field_json.h"
 #include "cli/terminal/json_text.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
@@ -90,54 +91,23 @@ void judge_normals(const ReconstructReport& r) {
 }  // namespace
 
 Json json_of(const ReconstructReport& r, bool confidence) {
-  Json json = {{"points", r.points},
-               {"dropped_points", r.dropped_points},
-               {"outliers", r.outliers},
-               {"computed_normals", r.computed_normals},
-               {"unsure", r.unsure},
-               {"turned_normals", r.turned_normals},
-               {"mended_normals", r.mended_normals},
-               {"crooked_normals", r.crooked_normals},
-               {"contradicting_normals", r.contradicting_normals},
-               {"inward_normals", r.inward_normals},
-               {"crossing_length", r.crossing_length},
-               {"points_off_surface", r.points_off_surface},
-               {"spacing", r.spacing},
-               {"noise", r.noise},
-               {"normal_noise_degrees", r.normal_noise_degrees},
-               {"neighbours", r.neighbours},
-               {"caps", r.caps},
-               {"coefficients", r.coefficients},
-               {"step", r.step},
-               {"holes", r.holes},
-               {"smooth_holes", r.smooth_holes},
-               {"cut_handles", r.cut_handles},
-               {"dropped_components", r.dropped_components},
-               {"vertices", r.vertices},
-               {"faces", r.triangles},
-               {"full_faces", r.faces},
-               {"simplify_error", r.simplify_error},
-               {"area", r.area},
-               {"closed_area", r.closed_area},
-               {"points_area", r.points_area},
-               {"volume", r.volume},
-               {"diagonal", r.bounds.diagonal()},
-               {"foreseen_memory", r.memory}};
+  Json json = json_of_fields(r);
+  json["full_faces"] = r.faces;
+  json["faces"] = r.triangles;
+  json["diagonal"] = r.bounds.diagonal();
+  json["foreseen_memory"] = r.memory;
+  for (const char* key : {"memory", "stored", "bounds", "times", "warnings", "contradictions",
+                          "crossings", "places_off_surface"}) {
+    json.erase(key);
+  }
+  if (r.scans.scans <= 1) json.erase("scans");
   if (r.tiles > 1) {
-    json["tiles"] = r.tiles;
     json["stored_bytes"] = r.stored;
+  } else {
+    json.erase("tiles");
   }
-  if (r.scans.scans > 1) {
-    json["scans"] = {{"scans", r.scans.scans},
-                     {"pairs", r.scans.pairs},
-                     {"distance_before", r.scans.distance_before},
-                     {"distance", r.scans.distance},
-                     {"moved", r.scans.moved}};
-  }
-  if (confidence) {
-    json["unseen_area"] = r.unseen_area;
-    json["thin_area"] = r.thin_area;
-    json["unsure_area"] = r.unsure_area;
+  if (!confidence) {
+    for (const char* key : {"unseen_area", "thin_area", "unsure_area"}) json.erase(key);
   }
   for (const auto& [name, time] : r.times) {
     json["stages"][name] = {{"wall_seconds", time.wall}, {"cpu_seconds", time.cpu}};

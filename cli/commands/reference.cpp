@@ -16,6 +16,7 @@
 #include "cli/terminal/session.h"
 #include "rholm/align.h"
 #include "rholm/analyze.h"
+#include "rholm/coefficients_io.h"
 #include "rholm/compare.h"
 #include "rholm/compress.h"
 #include "rholm/descriptors.h"
@@ -31,6 +32,7 @@
 #include "rholm/render.h"
 #include "rholm/repair.h"
 #include "rholm/report.h"
+#include "rholm/shape_io.h"
 #include "rholm/simplify.h"
 #include "rholm/smooth.h"
 #include "rholm/star.h"
@@ -235,6 +237,18 @@ std::string patch_section() {
       "smooth`.");
 }
 
+std::string patch_update_section() {
+  return field_section<PatchUpdate>(
+      "How far smoothing goes",
+      "`PatchUpdate` in C++, an argument of `rholm.smooth` in Python; `rholm smooth --strength`.");
+}
+
+std::string truncation_section() {
+  return field_section<TruncationOptions>(
+      "Options of truncation errors",
+      "`TruncationOptions` in C++ and arguments of `rholm.truncation_errors` in Python.");
+}
+
 std::string transfer_update_section() {
   return field_section<TransferUpdate>(
       "How detail is laid",
@@ -296,6 +310,45 @@ std::string tolerance_section() {
       "the program has `--tolerance` in `rholm analyze` and `rholm report`.");
 }
 
+std::string encode_section() {
+  return field_section<EncodeOptions>(
+      "Options of the way from a mesh to coefficients",
+      "`EncodeOptions` in C++, with the lists of its parts here; arguments of `rholm.expand` in "
+      "Python and options of `rholm analyze`, which has `--no-errors`.");
+}
+
+std::string center_section() {
+  return field_section<CenterOptions>(
+             "Options of the centre",
+             "`CenterOptions` in C++; `center` and `rays` of `rholm.find_center` in Python, "
+             "`--center` and `--rays` of `rholm center`.") +
+         "\n" +
+         field_section<ChartOptions>(
+             "Options of a chart",
+             "`ChartOptions` in C++, arguments of `rholm.make_star_chart` in Python.");
+}
+
+std::string file_section() {
+  return field_section<ShapeReadOptions>(
+             "Options of reading shapes",
+             "`ShapeReadOptions` in C++, arguments of `rholm.read_shape` in Python.") +
+         "\n" +
+         field_section<ShapeWriteOptions>(
+             "Options of writing shapes",
+             "`ShapeWriteOptions` in C++, arguments of `rholm.write_shape` in Python.") +
+         "\n" +
+         field_section<Convention>(
+             "Conventions of coefficients",
+             "`Convention` in C++, arguments of what reads and writes coefficients in Python. The "
+             "program has `--input-normalization` and `--input-csphase`, too.") +
+         "\n" +
+         field_section<CoefficientsReadOptions>("Options of reading coefficients",
+                                                "`CoefficientsReadOptions` in C++.") +
+         "\n" +
+         field_section<CoefficientsWriteOptions>("Options of writing coefficients",
+                                                 "`CoefficientsWriteOptions` in C++.");
+}
+
 // The fields of a result, as rows with its name.
 template <HasFields Result>
 void add_result(const char* name, std::vector<std::vector<std::string>>& rows) {
@@ -310,6 +363,10 @@ std::string result_section() {
   add_result<FastReport>("FastReport", rows);
   add_result<TruncationErrors>("TruncationErrors", rows);
   add_result<ToleranceReport>("ToleranceReport", rows);
+  add_result<Analysis>("Analysis", rows);
+  add_result<Encoded>("Encoded", rows);
+  add_result<ReconstructReport>("ReconstructReport", rows);
+  add_result<TileForecast>("TileForecast", rows);
   add_result<Comparison>("Comparison", rows);
   add_result<Distances>("Distances", rows);
   add_result<Alignment>("Alignment", rows);
@@ -343,12 +400,17 @@ constexpr ReferenceSection kSections[] = {window_section,
                                           command_section<AlignOptions, kAlignName>,
                                           sample_section,
                                           analyze_section,
+                                          encode_section,
+                                          center_section,
+                                          file_section,
                                           tolerance_section,
+                                          truncation_section,
                                           command_section<RepairOptions, kRepairName>,
                                           compress_section,
                                           patch_atlas_section,
                                           atlas_mesh_section,
                                           patch_section,
+                                          patch_update_section,
                                           command_section<TransferOptions, kTransferName>,
                                           transfer_update_section,
                                           monte_carlo_section,

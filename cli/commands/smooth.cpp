@@ -25,7 +25,7 @@ struct Options {
   std::string input;
   std::vector<std::string> regions;
   PatchOptions patch;
-  double strength = 1;
+  PatchUpdate update;
   std::string output, format;
   InputConvention convention;
   bool ascii = false, json = false;
@@ -54,7 +54,7 @@ void print_report(const Options& options, const Patch& patch, const Moved& moved
     print_json({{"file", options.input},
                 {"output", options.output},
                 {"wavelength", patch.wavelength},
-                {"strength", options.strength},
+                {"strength", options.update.strength},
                 {"fitting", to_string(options.patch.fitting)},
                 {"repair", options.patch.repair},
                 {"vertices", patch.vertices.size()},
@@ -84,7 +84,7 @@ int run(const Options& options, Session& session) {
   Mesh mesh = read_surface(options.input, session, options.convention);
   const double diagonal = bounds(mesh.vertices).diagonal();
   const Patch patch = analyze_patch(mesh, regions, options.patch, session.context());
-  const std::vector<Vec3> positions = update(patch, {.strength = options.strength});
+  const std::vector<Vec3> positions = update(patch, options.update);
   apply(patch, positions, mesh);
   stop_if_interrupted();
   write_shape_output(mesh, options.output, {format, options.ascii}, session);
@@ -109,12 +109,7 @@ std::vector<Option> edit_options(Options& o) {
        .offer = Offer::kShapesAndCoefficients},
       region_option("region", "where: ball, vertex, box, property or color, see above", o.regions),
       wavelength,
-      {.name = "strength",
-       .value = "S",
-       .help = "1 (default) takes the detail away, 0.5 half of it, -1 doubles it",
-       .target = &o.strength,
-       .min = -10,
-       .max = 1},
+      field_option_of(o.update, "strength"),
       field_option_of(o.patch, "fitting"),
       field_option_of(o.patch, "repair"),
       field_option_of(o.patch, "transition")};

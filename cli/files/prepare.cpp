@@ -1,38 +1,34 @@
 #include "cli/files/prepare.h"
 
+#include <string_view>
 #include <utility>
 
 #include "cli/grammar/values.h"
+#include "cli/options/field_options.h"
 #include "rholm/coefficients_io.h"
+#include "rholm/model.h"
 #include "rholm/outward.h"
 #include "rholm/topology.h"
 
 namespace rholm::cli {
 
 Option weld_option(double& tolerance) {
-  return {.name = "weld",
-          .value = "T",
-          .help =
-              "make vertices one whose distance is at most T, in the shape's unit; 0 (the "
-              "default) joins identical ones",
-          .target = &tolerance,
-          .min = 0};
+  Option option;
+  for_each_field<EncodeOptions>([&](auto, const FieldInfo& info) {
+    if (info.name == std::string_view("weld")) option = field_option(info, tolerance);
+  });
+  return option;
 }
 
 Option center_option(std::string& center) {
-  return {
-      .name = "center",
-      .value = "slope|kernel|cosine|none|centroid|volume|X,Y,Z",
-      .help =
-          "slope, or auto (the default): where the radius has the least slope, on the line through "
-          "kernel and the centroid of the solid, well within the points that see the whole "
-          "surface; "
-          "kernel: in the middle of these points; cosine: where the surface is seen least aslant; "
-          "none: the file's origin; "
-          "centroid: of the surface; volume: of the solid, or as slope where not all is seen "
-          "from there",
-      .target = &center,
-      .check = [](const std::string&, const std::string& text) { parse_center_option(text); }};
+  Option option;
+  for_each_field<CenterOptions>([&](auto, const FieldInfo& info) {
+    if (info.name == std::string_view("center")) option = option_of(info, "");
+  });
+  option.value = "slope|kernel|cosine|none|centroid|volume|X,Y,Z";
+  option.target = &center;
+  option.check = [](const std::string&, const std::string& text) { parse_center_option(text); };
+  return option;
 }
 
 Option length_unit_option(std::string& unit) {
@@ -51,15 +47,11 @@ CenterOptions parse_center_option(const std::string& text) {
   return options;
 }
 
-Option rays_option(int& rays) {
-  return {.name = "rays",
-          .value = "N",
-          .help =
-              "directions that are tried to see how often they meet the surface; 100000 by "
-              "default, 0 tries none",
-          .target = &rays,
-          .min = 0,
-          .max = 100'000'000};
+ChartOptions chart_options(ChartOptions options, const std::string& center) {
+  const int rays = options.center.rays;
+  options.center = parse_center_option(center);
+  options.center.rays = rays;
+  return options;
 }
 
 Prepared prepare(const Mesh& mesh, double weld_tolerance) {

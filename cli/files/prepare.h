@@ -10,10 +10,11 @@ namespace rholm::cli {
 
 // "--weld T".
 Option weld_option(double& tolerance);
-// "--center KIND" and "--rays N".
+// "--center KIND".
 Option center_option(std::string& center);
-Option rays_option(int& rays);
 CenterOptions parse_center_option(const std::string& text);  // throws UsageError
+// With that centre.
+ChartOptions chart_options(ChartOptions options, const std::string& center);
 // "--length-unit NAME".
 Option length_unit_option(std::string& unit);
 

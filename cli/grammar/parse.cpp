@@ -156,6 +156,10 @@ double number_within(const Option& option, const std::string& text) {
   refuse(option, text, limits);
 }
 
+std::uint64_t whole_within(const Option& option, const std::string& text) {
+  return whole_number<std::uint64_t>(option, text);
+}
+
 void parse(const Command& command, std::span<const std::string> words, CommonOptions& common) {
   CLI::App app(command.summary, command.name);
   app.set_help_flag();  // --help is answered before the parser is asked

@@ -2,13 +2,39 @@
 
 #include <fmt/format.h>
 
+#include "cli/options/field_options.h"
+
 namespace rholm::cli {
 namespace {
 
-const std::vector<std::string> kNormalizations = {"4pi", "orthonormal", "schmidt"};
-const std::vector<std::string> kPhases = {"1", "-1"};
-
 int phase_of(const std::string& text) { return text == "-1" ? -1 : 1; }
+
+// Makes the options of both fields of Convention. Their values are texts, which may be empty;
+// `where` goes into the help.
+std::vector<Option> options_of(const std::string& prefix, std::string& normalization,
+                               std::string& csphase, const std::string& where) {
+  const Convention standard;
+  std::vector<Option> options;
+  for_each_field<Convention>([&](auto member, const FieldInfo& info) {
+    using V = std::remove_cvref_t<decltype(standard.*member)>;
+    Option option = option_of(info, "");
+    option.name = prefix + option.name;
+    option.value = {};
+    option.min = option.max = {};
+    if constexpr (NamedEnum<V>) {
+      option.help += fmt::format("{}; {} by default", where, to_string(standard.*member));
+      const auto names = names_of(V{}).names;
+      option.choices.assign(names.begin(), names.end());
+      option.target = &normalization;
+    } else {
+      option.help = fmt::format("phase{}. {}; {} by default", where, option.help, standard.*member);
+      option.choices = {"1", "-1"};
+      option.target = &csphase;
+    }
+    options.push_back(std::move(option));
+  });
+  return options;
+}
 
 }  // namespace
 
@@ -17,15 +43,7 @@ Convention ConventionOptions::output_convention() const {
 }
 
 std::vector<Option> convention_options(ConventionOptions& target) {
-  ConventionOptions& o = target;
-  return {{.name = "normalization",
-           .help = "how the functions are scaled in text, JSON and NumPy files; 4pi by default",
-           .target = &o.normalization,
-           .choices = kNormalizations},
-          {.name = "csphase",
-           .help = "1 (the default): without Condon-Shortley phase; -1: with it",
-           .target = &o.csphase,
-           .choices = kPhases}};
+  return options_of("", target.normalization, target.csphase, " in text, JSON and NumPy files");
 }
 
 CoefficientsReadOptions InputConvention::reading() const {
@@ -48,16 +66,8 @@ std::vector<std::string> InputConvention::left_open(const std::vector<std::strin
 }
 
 std::vector<Option> input_convention_options(InputConvention& target) {
-  InputConvention& o = target;
-  return {{.name = "input-normalization",
-           .help = "how the functions of the input are scaled, where its file does not say; 4pi by "
-                   "default",
-           .target = &o.normalization,
-           .choices = kNormalizations},
-          {.name = "input-csphase",
-           .help = "phase of the input, where its file does not say; 1 (without) by default",
-           .target = &o.csphase,
-           .choices = kPhases}};
+  return options_of("input-", target.normalization, target.csphase,
+                    ", of an input whose file does not say");
 }
 
 std::string text_of(const Convention& convention) {

@@ -51,6 +51,12 @@ Option field_option(const FieldInfo& info, V& value) {
       if (text != "auto") value = number_within(limits, text);
     };
     return option;
+  } else if constexpr (std::is_same_v<V, std::optional<std::size_t>>) {
+    Option option = option_of(info, "");
+    option.target = [&value, limits = option](const std::string&, const std::string& text) {
+      value = whole_within(limits, text);
+    };
+    return option;
   } else if constexpr (std::is_same_v<V, std::optional<Vec3>> || std::is_same_v<V, Vec3>) {
     Option option = option_of(info, "");
     option.target = [&value](const std::string& name, const std::string& text) {
@@ -95,20 +101,24 @@ struct Given {
   bool has(const std::string& field) const { return names.contains(field); }
 };
 
-// The same for values of which it counts whether they were given; `given` outlives the options.
+// Makes one option, which is counted when it is given.
+template <HasFields Options, typename V>
+Option given_option(const FieldInfo& info, V& value, Given<Options>& given) {
+  Option option = field_option(info, value);
+  if (!option.is_switch()) {
+    option.check = [&given, name = std::string(info.name)](const std::string&, const std::string&) {
+      given.names.insert(name);
+    };
+  }
+  return option;
+}
+
+// Makes the options of all fields and counts which of them are given; `given` outlives them.
 template <HasFields Options>
 std::vector<Option> field_options(Given<Options>& given) {
   std::vector<Option> options;
   for_each_field<Options>([&](auto member, const FieldInfo& info) {
-    if (!info.in_program) return;
-    Option option = field_option(info, given.values.*member);
-    const std::string name = info.name;
-    if (!option.is_switch()) {
-      option.check = [&given, name](const std::string&, const std::string&) {
-        given.names.insert(name);
-      };
-    }
-    options.push_back(std::move(option));
+    if (info.in_program) options.push_back(given_option(info, given.values.*member, given));
   });
   return options;
 }
@@ -129,14 +139,27 @@ std::string given_text(const Given<Options>& given) {
   return text;
 }
 
-// Of one field, for commands that take some of the options of a struct.
+// Makes the option of one field, for commands that take some of the options of a struct. `about`
+// stands before its help.
 template <HasFields Options>
-Option field_option_of(Options& values, const std::string& name) {
+Option field_option_of(Options& values, const std::string& name, const std::string& about = "") {
   std::optional<Option> found;
   for_each_field<Options>([&](auto member, const FieldInfo& info) {
     if (info.name == name) found = field_option(info, values.*member);
   });
   if (!found) throw std::logic_error("no field: " + name);
+  found->help = about + found->help;
+  return *found;
+}
+template <HasFields Options>
+Option field_option_of(Given<Options>& given, const std::string& name,
+                       const std::string& about = "") {
+  std::optional<Option> found;
+  for_each_field<Options>([&](auto member, const FieldInfo& info) {
+    if (info.name == name) found = given_option(info, given.values.*member, given);
+  });
+  if (!found) throw std::logic_error("no field: " + name);
+  found->help = about + found->help;
   return *found;
 }
 

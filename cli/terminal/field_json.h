@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -41,12 +42,23 @@ Json json_of_value(const V& value) {
   }
 }
 
+// The key of a field in JSON, where triangles are called faces.
+inline std::string key_of(const FieldInfo& info) {
+  std::string key = info.name;
+  constexpr std::string_view kOurs = "triangles";
+  if (const std::size_t at = key.find(kOurs); at != std::string::npos) {
+    key.replace(at, kOurs.size(), "faces");
+  }
+  return key;
+}
+
 // {"field": value, ...} in the order of the list.
 template <HasFields T>
 Json json_of_fields(const T& result) {
   Json json = Json::object();
-  for_each_field<T>(
-      [&](auto member, const FieldInfo& info) { json[info.name] = json_of_value(result.*member); });
+  for_each_field<T>([&](auto member, const FieldInfo& info) {
+    json[key_of(info)] = json_of_value(result.*member);
+  });
   return json;
 }
 

@@ -118,19 +118,6 @@ std::string counted(std::size_t n, const std::string& one, const std::string& ma
   return fmt::format("{} {}", n, n == 1 ? one : many.empty() ? one + "s" : many);
 }
 
-void add_star_report(const StarReport& report, Json& json) {
-  json["center"] = json_of(report.center);
-  json["min_d"] = report.min_d;
-  json["min_cos_gamma"] = report.min_cos_gamma;
-  json["star_shaped"] = report.star_shaped;
-  json["bad_faces"] = report.bad_triangles;
-  json["rays"] = report.rays;
-  json["once_share"] = report.once_share;
-  json["multiple_share"] = report.multiple_share;
-  json["missed_share"] = report.missed_share;
-  json["center_fell_back"] = report.center_fell_back;
-}
-
 std::string star_report_text(const StarReport& report, double diagonal) {
   std::string text = line("centre", text_of(report.center));
   if (report.center_fell_back) {

@@ -45,8 +45,7 @@ std::string text_of(const std::vector<Attribute>& attributes);  // "red (uint8),
 // "1 vertex", "2 vertices"; `many` by default with an s.
 std::string counted(std::size_t n, const std::string& one, const std::string& many = {});
 
-// The figures of the star check, common to center, analyze.
-void add_star_report(const StarReport& report, Json& json);
+// The figures of the star check.
 std::string star_report_text(const StarReport& report, double diagonal);
 
 }  // namespace rholm::cli

@@ -94,18 +94,20 @@ template <typename Visitor>
 void visit_fields(FieldsOf<AnalyzeOptions>, const Visitor& field) {
   using O = AnalyzeOptions;
   field(&O::degree, {.name = "degree",
-                     .help = "of the coefficients",
+                     .help = "the highest degree; there are (L+1)^2 coefficients",
                      .value = "L",
                      .least = 0,
-                     .most = kMaxDegree});
+                     .most = kMaxDegree,
+                     .in_python = false});
   field(&O::method,
         {.name = "method",
          .help = "which function is expanded (gauge: 1/r, the others r), and by which integrals"});
   field(&O::engine, {.name = "engine",
-                     .help = "how sums are done: fast, to the precision; direct, term by term"});
+                     .help = "how sums are done: fast, on an oversampled grid, to the precision; "
+                             "direct, term by term, slow; curl and area are always direct"});
   field(&O::precision, {.name = "precision",
                         .help = "wanted error of the coefficients, l2 relative to the norm of the "
-                                "function without its mean",
+                                "function without its mean, finer where a tolerance asks for it",
                         .value = "E",
                         .least = 1e-14,
                         .most = 0.1});
@@ -132,6 +134,26 @@ struct Analysis {
   // is not the norm.
   std::optional<double> truncation_rms, truncation_rms_doubt;
 };
+
+// Its list (fields.h), without the expansion.
+template <typename Visitor>
+void visit_fields(FieldsOf<Analysis>, const Visitor& field) {
+  using A = Analysis;
+  field(&A::edge_nodes, {.name = "edge_nodes", .help = "quadrature nodes on edges"});
+  field(&A::face_nodes, {.name = "face_nodes", .help = "quadrature nodes on faces"});
+  field(&A::closure_residual,
+        {.name = "closure_residual",
+         .help = "zero for a closed, consistently oriented mesh; None with the fast engine"});
+  field(&A::fast, {.name = "fast", .help = "of the fast engine, or None"});
+  field(&A::precision, {.name = "precision", .help = "that the coefficients were wanted with"});
+  field(&A::times, {.name = "times", .help = "stages: (wall, cpu) in seconds"});
+  field(&A::truncation_rms,
+        {.name = "truncation_rms",
+         .help = "truncation error over solid angle, in the unit of the function, or None"});
+  field(&A::truncation_rms_doubt,
+        {.name = "truncation_rms_doubt",
+         .help = "how far it is at most from that of exact coefficients"});
+}
 
 // The coefficients of the surface by the method that is asked for. Throws InvalidInput for a degree
 // or precision out of range, a centre on a vertex, or (gauge) a face seen edge on.

@@ -176,6 +176,18 @@ struct Convention {
   friend bool operator==(const Convention&, const Convention&) = default;
 };
 
+// Its list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<Convention>, const Visitor& field) {
+  using C = Convention;
+  field(&C::normalization, {.name = "normalization", .help = "how the functions are scaled"});
+  field(&C::csphase, {.name = "csphase",
+                      .help = "1: without Condon-Shortley phase; -1: with it",
+                      .value = "1|-1",
+                      .least = -1,
+                      .most = 1});
+}
+
 // Coefficients as numbers of another convention, and back. Both throw InvalidInput for a csphase
 // other than 1 or -1.
 Coefficients to_convention(const Coefficients& internal, const Convention& convention);

@@ -10,6 +10,7 @@
 
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
+#include "rholm/fields.h"
 
 namespace rholm {
 
@@ -31,6 +32,17 @@ struct CoefficientsReadOptions {
   Convention convention = {};  // of files that say none
   bool override_file = false;  // of all files, whatever they say
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<CoefficientsReadOptions>, const Visitor& field) {
+  using O = CoefficientsReadOptions;
+  field(&O::convention,
+        {.name = "convention", .help = "of files that say none", .in_program = false});
+  field(&O::override_file, {.name = "override_file",
+                            .help = "the convention is that of all files, whatever they say",
+                            .in_program = false});
+}
 
 // What was read, and what of it the file said.
 struct CoefficientsFile {
@@ -61,6 +73,17 @@ struct CoefficientsWriteOptions {
   std::optional<CoefficientsFormat> format = {};  // by default from the extension
   Convention convention = {};                     // of the numbers; the file says it if it can
 };
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<CoefficientsWriteOptions>, const Visitor& field) {
+  using O = CoefficientsWriteOptions;
+  field(&O::format,
+        {.name = "format", .help = "format of the output, instead of the one its extension names"});
+  field(&O::convention, {.name = "convention",
+                         .help = "of the numbers; the file says it if it can",
+                         .in_program = false});
+}
+
 // Numbers are written with the shortest digits that read back the same. "-" is standard output.
 void write_coefficients(const Expansion& expansion, const std::filesystem::path& path,
                         const CoefficientsWriteOptions& options = {});

@@ -32,6 +32,32 @@ struct EncodeOptions {
   double weld_tolerance = 0;  // in the shape's unit; 0 welds bit-identical vertices
 };
 
+// Their list (fields.h), with the lists of their parts.
+template <typename Visitor>
+void visit_fields(FieldsOf<EncodeOptions>, const Visitor& field) {
+  using O = EncodeOptions;
+  field(&O::analyze, {.name = "analyze",
+                      .help = "degree, method, precision",
+                      .in_program = false,
+                      .in_python = false});
+  field(&O::tolerance, {.name = "tolerance",
+                        .help = "the smallest degree that keeps it, instead of a given one",
+                        .in_program = false,
+                        .in_python = false});
+  field(&O::errors, {.name = "errors",
+                     .help = "whether the errors of the surface are measured and predicted",
+                     .in_program = false});
+  field(&O::chart, {.name = "chart",
+                    .help = "the centre, and whether others than star-shaped are taken",
+                    .in_program = false,
+                    .in_python = false});
+  field(&O::weld_tolerance, {.name = "weld",
+                             .help = "make vertices one whose distance is at most this, in the "
+                                     "unit of the shape; 0 joins identical ones",
+                             .value = "T",
+                             .least = 0});
+}
+
 // How a tolerance was kept: see ToleranceAnalysis.
 struct ToleranceReport {
   double allowed = 0, reached = 0;  // errors, in the mesh's unit
@@ -64,6 +90,23 @@ struct Encoded {
   // star-shaped.
   StageTimes times;
 };
+
+// Its list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<Encoded>, const Visitor& field) {
+  using E = Encoded;
+  field(&E::analysis, {.name = "analysis", .help = "how the coefficients were found"});
+  field(&E::tolerance, {.name = "tolerance", .help = "how the tolerance was kept, or None"});
+  field(&E::star, {.name = "star", .help = "the centre, and how well it sees the surface"});
+  field(&E::diagonal, {.name = "diagonal", .help = "of the bounding box"});
+  field(&E::vertices, {.name = "vertices", .help = "after welding, where that was needed"});
+  field(&E::faces, {.name = "faces", .help = "likewise"});
+  field(&E::edges, {.name = "edges", .help = "likewise"});
+  field(&E::merged_vertices, {.name = "merged_vertices", .help = "by welding"});
+  field(&E::collapsed_triangles, {.name = "collapsed_triangles", .help = "by welding"});
+  field(&E::flipped, {.name = "flipped", .help = "whether the mesh was inside out"});
+  field(&E::times, {.name = "times", .help = "stages: (wall, cpu) in seconds"});
+}
 
 // Welds, turns right side out, checks, finds the centre, transforms: a mesh that needs neither of
 // the first is worked through where it lies. Throws InvalidInput for options out of range, and what

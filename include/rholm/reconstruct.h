@@ -40,6 +40,20 @@ struct TileForecast {
   std::uint64_t stored = 0;   // between the steps, in a folder or in memory
   std::uint64_t written = 0;  // the surface as a file
 };
+
+// Its list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<TileForecast>, const Visitor& field) {
+  using F = TileForecast;
+  field(&F::points, {.name = "points", .help = "that are finite, and no far strays"});
+  field(&F::tiles, {.name = "tiles", .help = "that space is cut into"});
+  field(&F::memory, {.name = "memory", .help = "bytes, beside what is stored"});
+  field(&F::stored,
+        {.name = "stored",
+         .help = "bytes between the steps, in a folder, or in memory if there is room for them"});
+  field(&F::written, {.name = "written", .help = "bytes of the surface as a file"});
+}
+
 // About; attributes of the points are not counted. Throws InvalidInput for tile_points that
 // ReconstructOptions cannot have.
 TileForecast foresee_tiles(std::uint64_t points, std::uint64_t tile_points = kTilePoints);
@@ -248,6 +262,99 @@ struct ReconstructReport {
   std::uint64_t coefficients = 0;             // of all caps
   std::vector<std::string> warnings = {};     // of the file that the points were read from
 };
+
+// Its list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<ReconstructReport>, const Visitor& field) {
+  using R = ReconstructReport;
+  field(&R::points, {.name = "points", .help = "number of points given"});
+  field(&R::dropped_points, {.name = "dropped_points",
+                             .help = "not finite, at the place of another, without a normal"});
+  field(&R::outliers, {.name = "outliers", .help = "points removed"});
+  field(&R::computed_normals, {.name = "computed_normals",
+                               .help = "whether the points had none, or given ones were replaced"});
+  field(&R::scans, {.name = "scans", .help = "what became of scans, if there are any"});
+  field(&R::unsure, {.name = "unsure",
+                     .help = "share of the points the sign of whose computed normal is unsure"});
+  field(&R::turned_normals,
+        {.name = "turned_normals", .help = "whether all pointed into the solid, and were turned"});
+  field(&R::mended_normals,
+        {.name = "mended_normals",
+         .help = "given normals that contradicted those around them, and were turned"});
+  field(&R::crooked_normals, {.name = "crooked_normals",
+                              .help = "share of given normals more than 45 degrees off the "
+                                      "surface; above 0.25 all are computed instead"});
+  field(
+      &R::contradicting_normals,
+      {.name = "contradicting_normals",
+       .help =
+           "points whose normals contradict those around them, where turning does not help: above "
+           "half the square root of the number of points the surface should not be trusted"});
+  field(&R::contradictions,
+        {.name = "contradictions", .help = "the first three of these points, n x 3"});
+  field(&R::crossing_length,
+        {.name = "crossing_length",
+         .help = "length of the lines along which sheets of the points cross, in diagonals of the "
+                 "points: above 0.12 the surface should not be trusted"});
+  field(&R::crossings,
+        {.name = "crossings", .help = "the first three points near these lines, n x 3"});
+  field(&R::points_off_surface,
+        {.name = "points_off_surface",
+         .help = "share of the points that fill what lies between the walls of the surface, or "
+                 "around it: above 0.5 the surface should not be trusted"});
+  field(&R::places_off_surface,
+        {.name = "places_off_surface", .help = "up to three of these points, n x 3"});
+  field(&R::inward_normals,
+        {.name = "inward_normals",
+         .help = "share of the points at which the winding number contradicts the given normal: "
+                 "above 0.1 the surface should not be trusted"});
+  field(&R::spacing,
+        {.name = "spacing", .help = "median distance between neighbours, as if on a square grid"});
+  field(&R::noise, {.name = "noise", .help = "standard deviation along the normal"});
+  field(&R::normal_noise_degrees,
+        {.name = "normal_noise_degrees", .help = "of the normals against the surface"});
+  field(&R::neighbours, {.name = "neighbours", .help = "points of a typical cap"});
+  field(&R::caps, {.name = "caps", .help = "of the atlas"});
+  field(&R::step, {.name = "step", .help = "edge of the grid's cubes"});
+  field(&R::holes, {.name = "holes", .help = "places without points that were closed, or cut out"});
+  field(&R::smooth_holes,
+        {.name = "smooth_holes", .help = "of those closed, by a surface that continues the rim"});
+  field(&R::cut_handles,
+        {.name = "cut_handles",
+         .help = "bridges and tunnels of the surface that were smaller than points can tell"});
+  field(&R::dropped_components,
+        {.name = "dropped_components", .help = "parts of the surface that were too small"});
+  field(&R::faces, {.name = "faces", .help = "of the surface before it was simplified"});
+  field(&R::simplify_error, {.name = "simplify_error", .help = "by simplify()"});
+  field(&R::area, {.name = "area", .help = "of the surface"});
+  field(&R::closed_area, {.name = "closed_area", .help = "of it, what closes holes"});
+  field(&R::points_area, {.name = "points_area",
+                          .help = "that the points stand for, by the circles of their neighbours"});
+  field(&R::volume, {.name = "volume",
+                     .help = "signed, of the surface: negative if its normals point inwards"});
+  field(&R::unseen_area, {.name = "unseen_area",
+                          .help = "of the surface, if confidence is asked for: share of the area "
+                                  "without data nearer than three spacings"});
+  field(&R::thin_area, {.name = "thin_area",
+                        .help = "of the surface, if confidence is asked for: share of the area "
+                                "thinner than one and a half spacings"});
+  field(&R::unsure_area, {.name = "unsure_area",
+                          .help = "of the surface, if confidence is asked for: share of the area "
+                                  "with a confidence below 1/2"});
+  field(&R::memory, {.name = "memory", .help = "foreseen, bytes"});
+  field(&R::times, {.name = "times", .help = "stages: (wall, cpu) in seconds"});
+  field(&R::bounds,
+        {.name = "bounds",
+         .help = "the box of the points that are finite; of several tiles without far strays"});
+  field(&R::tiles, {.name = "tiles", .help = "number that space was cut into"});
+  field(&R::stored,
+        {.name = "stored", .help = "bytes between the steps of several tiles, at most at a time"});
+  field(&R::vertices, {.name = "vertices", .help = "number of them, of the surface"});
+  field(&R::triangles, {.name = "triangles", .help = "number of them, of the surface"});
+  field(&R::coefficients, {.name = "coefficients", .help = "number of those of all caps"});
+  field(&R::warnings,
+        {.name = "warnings", .help = "of the file that the points were read from, list of str"});
+}
 
 // Adds n points to a report that the reader of their file dropped before (ShapeFile::dropped).
 void add_dropped(std::size_t n, ReconstructReport& report);

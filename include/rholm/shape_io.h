@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 
 namespace rholm {
@@ -59,6 +60,20 @@ struct ShapeReadOptions {
   // any other word is the name of an attribute. Empty: the header and the values decide.
   std::string columns = {};
 };
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<ShapeReadOptions>, const Visitor& field) {
+  using O = ShapeReadOptions;
+  field(&O::attributes, {.name = "attributes",
+                         .help = "whether attributes of vertices or points are read",
+                         .in_program = false});
+  field(&O::columns,
+        {.name = "columns",
+         .help = "what the columns of a text table of points are, as in x,y,z,r,g,b,nx,ny,nz,-: "
+                 "also a (alpha), or lat,lon,radius (degrees north and east); - passes over a "
+                 "column, any other word names an attribute",
+         .value = "LIST"});
+}
 // Throws InvalidInput unless `columns` can stand in ShapeReadOptions.
 void check_columns(const std::string& columns);
 
@@ -84,6 +99,15 @@ struct ShapeWriteOptions {
   std::optional<ShapeFormat> format = {};  // by default from the extension
   bool ascii = false;                      // PLY and STL: text instead of binary little endian
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<ShapeWriteOptions>, const Visitor& field) {
+  using O = ShapeWriteOptions;
+  field(&O::format,
+        {.name = "format", .help = "format of the output, instead of the one its extension names"});
+  field(&O::ascii, {.name = "ascii", .help = "text instead of binary, where the format has both"});
+}
 
 // Writes to a temporary file beside `path` that replaces it when complete; "-" is standard
 // output and needs options.format. Coordinates are double where the format allows it (text with

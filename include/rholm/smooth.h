@@ -88,6 +88,24 @@ struct PatchUpdate {
   double wavelength = 0;  // by default the analysis'; longer ones up to longest_wavelength()
   double strength = 1;    // 0 leaves all as it is, 1 takes the detail away, -1 doubles it
 };
+
+// Its list (fields.h). The bounds of the strength are chosen: the program takes no others.
+template <typename Visitor>
+void visit_fields(FieldsOf<PatchUpdate>, const Visitor& field) {
+  using U = PatchUpdate;
+  field(&U::wavelength, {.name = "wavelength",
+                         .help = "detail finer than this goes; 0: that of the analysis",
+                         .value = "W",
+                         .least = 0,
+                         .in_program = false,
+                         .in_python = false});
+  field(&U::strength, {.name = "strength",
+                       .help = "1 takes the detail away, 0.5 half of it, -1 doubles it",
+                       .value = "S",
+                       .least = -10,
+                       .most = 1});
+}
+
 // That of the lowest degree that is fitted.
 double longest_wavelength(const Patch& patch);
 

@@ -35,7 +35,32 @@ struct CenterOptions {
 // "auto", "kernel", "slope", "cosine", "none", "centroid", "volume" or "X,Y,Z". Throws
 // InvalidInput.
 CenterOptions parse_center(const std::string& text);
-const char* to_string(CenterKind kind);  // these names; "given" for a point
+EnumNames names_of(CenterKind kind);  // these names; "given" for a point
+
+// The list of CenterOptions (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<CenterOptions>, const Visitor& field) {
+  using O = CenterOptions;
+  field(&O::kind, {.name = "center",
+                   .help = "slope, or auto: where the radius has the least slope, on the line "
+                           "through kernel and the centroid of the solid, well within the points "
+                           "that see the whole surface; kernel: in the middle of these points; "
+                           "cosine: where the surface is seen least aslant; none: the file's "
+                           "origin; centroid: of the surface; volume: of the solid, or as slope "
+                           "where not all is seen from there",
+                   .in_program = false,
+                   .in_python = false});
+  field(&O::point, {.name = "point",
+                    .help = "of the kind given, which the program and Python write in its place",
+                    .in_program = false,
+                    .in_python = false});
+  field(&O::rays, {.name = "rays",
+                   .help = "directions that are tried to see how often they meet the surface; 0 "
+                           "tries none",
+                   .value = "N",
+                   .least = 0,
+                   .most = 100'000'000});
+}
 
 // How a mesh is seen from a centre.
 struct StarReport {
@@ -100,6 +125,21 @@ struct ChartOptions {
   CenterOptions center = {};  // sought, or given
   bool allow_signed = false;  // accept a surface that is not star-shaped: the signed sum
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<ChartOptions>, const Visitor& field) {
+  using O = ChartOptions;
+  field(&O::center, {.name = "center",
+                     .help = "of the expansion, sought or given",
+                     .in_program = false,
+                     .in_python = false});
+  field(&O::allow_signed,
+        {.name = "signed",
+         .help = "accept a surface that is not star-shaped: the signed sum of its radii, to "
+                 "compare such sums or as a descriptor; it does not give back the body, an atlas "
+                 "of caps does"});
+}
 
 // Pairs the edges, finds the centre, checks, and moves the centre to the origin. `mesh` welded and
 // outward. Throws InvalidInput if it is not closed and consistently oriented, NotStarShaped with

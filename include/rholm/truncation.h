@@ -28,6 +28,21 @@ struct TruncationOptions {
   bool predict = true;  // the largest errors in closed form; about 300 ns per triangle
 };
 
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<TruncationOptions>, const Visitor& field) {
+  using O = TruncationOptions;
+  field(&O::precision, {.name = "precision",
+                        .help = "how exact the coefficients are; by default as the expansion says",
+                        .value = "E",
+                        .least = 1e-14,
+                        .most = 0.1,
+                        .in_program = false});
+  field(&O::predict, {.name = "predict",
+                      .help = "whether the largest errors are predicted in closed form, too",
+                      .in_program = false});
+}
+
 // All that can be known of a star-shaped closed mesh where it lies. `expansion` is that of the mesh
 // about its centre, of the radius or the gauge. The rms is exact by Parseval where the coefficients
 // are exact enough for that (then rms_is_exact), else measured. Throws InvalidInput as validate()
@@ -75,7 +90,8 @@ void visit_fields(FieldsOf<Tolerance>, const Visitor& field) {
                     .value = "E",
                     .least = 0,
                     .above = true,
-                    .in_program = false});
+                    .in_program = false,
+                    .in_python = false});
   field(&O::unit, {.name = "unit",
                    .help = "of the tolerance: absolute, the shape's own; diagonal, of its bounding "
                            "box; radius, its mean over directions"});
@@ -84,7 +100,8 @@ void visit_fields(FieldsOf<Tolerance>, const Visitor& field) {
   field(&O::measure,
         {.name = "measure",
          .help = "of the tolerance: radius, along rays from the centre; distance, between the "
-                 "surfaces, which unit diagonal takes where nothing is said"});
+                 "surfaces, which unit diagonal takes where nothing is said",
+         .in_python = false});
   field(&O::max_degree, {.name = "max_degree",
                          .help = "the largest degree that is tried for a tolerance",
                          .value = "L",

@@ -10,16 +10,16 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import FloatArray, triple
 from ._coefficients import Function, array_of
-from ._encode import Method, Unit, _center_of, as_expansion, tolerance_of
-from ._errors import InvalidInputError
+from ._encode import as_expansion, center_options, transform_options
 from ._expansion import Expansion
-from ._options import options_of, takes
+from ._options import given_of, options_of, takes
 from ._run import Progress, caller
 from ._shapes import Mesh, MeshLike, outward_mesh
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+    from ._encode import TransformKeywords
     from ._keywords import MonteCarloKeywords
 
 
@@ -66,9 +66,9 @@ def make_star_chart(
     center, rays, signed, threads, progress
         As in `expand`.
     """
-    name, point = _center_of(center)
+    wanted = _core.ChartOptions(center=center_options(center, rays=rays), signed=signed)
     with caller(threads, progress) as how:
-        return StarChart(_core.make_star_chart(outward_mesh(mesh)._core, name, point, rays, signed, how))
+        return StarChart(_core.make_star_chart(outward_mesh(mesh)._core, wanted, how))
 
 
 def find_center(
@@ -83,9 +83,9 @@ def find_center(
     center, rays, threads, progress
         As in `expand`.
     """
-    name, point = _center_of(center)
+    wanted = center_options(center, rays=rays)
     with caller(threads, progress) as how:
-        return _core.find_center(outward_mesh(mesh)._core, name, point, rays, how)
+        return _core.find_center(outward_mesh(mesh)._core, wanted, how)
 
 
 def check_star(
@@ -118,20 +118,16 @@ class Analyzed(NamedTuple):
     """How a tolerance was kept."""
 
 
+@takes(_core.AnalyzeOptions, _core.Tolerance)
 def analyze(
     chart: StarChart,
     degree: int | None = None,
     *,
     tolerance: float | None = None,
-    unit: Unit = "absolute",
-    norm: Literal["rms", "max"] = "rms",
     measure: Literal["radius", "distance"] | None = None,
-    max_degree: int = 1024,
-    method: Method = "edge",
-    engine: Literal["fast", "direct"] = "fast",
-    precision: float = 1e-8,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[TransformKeywords],
 ) -> Analyzed:
     """Coefficients of a chart by the method that is asked for: a step of `expand`.
 
@@ -139,19 +135,18 @@ def analyze(
     ----------
     chart : StarChart
         Of `make_star_chart`.
-    degree, tolerance, unit, norm, measure, max_degree, method, engine, precision, threads, progress
+    degree, tolerance, measure, threads, progress
         As in `expand`.
+    {options}
     """
-    if degree is not None and tolerance is not None:
-        raise InvalidInputError("degree and tolerance exclude one another: give one of them")
-    options = _core.AnalyzeOptions(degree=degree, method=method, engine=engine, precision=precision)
+    parts = given_of(_core.AnalyzeOptions, _core.Tolerance, given={**options}, function="analyze")
+    wanted, allowed = transform_options(degree, tolerance, measure, *parts)
     report = None
     with caller(threads, progress) as how:
-        if tolerance is None:
-            analysis = _core.analyze(_chart_core(chart), options, how)
+        if allowed is None:
+            analysis = _core.analyze(_chart_core(chart), wanted, how)
         else:
-            wanted = tolerance_of(tolerance, unit, norm, measure, max_degree)
-            analysis, report = _core.analyze_to_tolerance(_chart_core(chart), wanted, options, how)
+            analysis, report = _core.analyze_to_tolerance(_chart_core(chart), allowed, wanted, how)
     return Analyzed(Expansion._of(analysis.expansion), analysis, report)
 
 

@@ -1252,81 +1252,6 @@ def seen_center(arg0: Expansion, arg1: Sequence[float] | numpy.typing.NDArray[nu
 
 def recentered(arg0: Expansion, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64], arg2: Caller, /) -> Expansion: ...
 
-class StarReport:
-    """How a mesh is seen from a centre."""
-
-    def __repr__(self) -> str: ...
-
-    def __getstate__(self) -> dict: ...
-
-    def __setstate__(self, arg: object, /) -> None: ...
-
-    def __eq__(self, arg: object, /) -> bool: ...
-
-    def __hash__(self) -> int: ...
-
-    def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
-
-    @property
-    def center(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """In the coordinates of the mesh, (3,)."""
-
-    @property
-    def min_d(self) -> float:
-        """Distance of the nearest face plane; negative if a face turns its back."""
-
-    @property
-    def min_cos_gamma(self) -> float:
-        """Over all corners of all triangles."""
-
-    @property
-    def bad_triangles(self) -> int:
-        """Triangles that turn their backs."""
-
-    @property
-    def star_shaped(self) -> bool:
-        """No such triangle, and every direction covered once."""
-
-    @property
-    def rays(self) -> int:
-        """Directions tried."""
-
-    @property
-    def once_share(self) -> float:
-        """Part of them that meet the surface once."""
-
-    @property
-    def multiple_share(self) -> float:
-        """Part that meet it more than once."""
-
-    @property
-    def missed_share(self) -> float:
-        """Part that never meet it."""
-
-    @property
-    def center_fell_back(self) -> bool:
-        """Whether no point sees all faces, and the centre is the best guess."""
-
-def find_center(arg0: Mesh, arg1: str, arg2: Sequence[float] | numpy.typing.NDArray[numpy.float64] | None, arg3: int, arg4: Caller, /) -> StarReport: ...
-
-def check_star(arg0: Mesh, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64], arg2: int, arg3: Caller, /) -> StarReport: ...
-
-class StarChart:
-    """A mesh seen from a centre."""
-
-    def __getstate__(self) -> tuple: ...
-
-    def __setstate__(self, arg: object, /) -> None: ...
-
-    @property
-    def mesh(self) -> Mesh: ...
-
-    @property
-    def report(self) -> StarReport: ...
-
-def make_star_chart(arg0: Mesh, arg1: str, arg2: Sequence[float] | numpy.typing.NDArray[numpy.float64] | None, arg3: int, arg4: bool, arg5: Caller, /) -> StarChart: ...
-
 class AnalyzeOptions:
     """Which function is expanded, and how."""
 
@@ -1399,6 +1324,56 @@ class Tolerance:
 
     FIELDS: tuple = ...
 
+class CenterOptions:
+    """Where the centre is sought."""
+
+    def __init__(self, **fields: Any) -> None: ...
+
+    def __repr__(self) -> str: ...
+
+    @property
+    def center(self) -> str: ...
+
+    @center.setter
+    def center(self, arg: str, /) -> None: ...
+
+    @property
+    def point(self) -> numpy.typing.NDArray[numpy.float64]: ...
+
+    @point.setter
+    def point(self, arg: Sequence[float] | numpy.typing.NDArray[numpy.float64] | None, /) -> None: ...
+
+    @property
+    def rays(self) -> int: ...
+
+    @rays.setter
+    def rays(self, arg: int | None, /) -> None: ...
+
+    FIELDS: tuple = ...
+
+def parse_center(arg: str, /) -> CenterOptions: ...
+
+class ChartOptions:
+    """Which centre, and which surfaces."""
+
+    def __init__(self, **fields: Any) -> None: ...
+
+    def __repr__(self) -> str: ...
+
+    @property
+    def center(self) -> CenterOptions: ...
+
+    @center.setter
+    def center(self, arg: CenterOptions | None, /) -> None: ...
+
+    @property
+    def signed(self) -> bool: ...
+
+    @signed.setter
+    def signed(self, arg: bool | None, /) -> None: ...
+
+    FIELDS: tuple = ...
+
 class EncodeOptions:
     """What is wanted of a model."""
 
@@ -1425,12 +1400,93 @@ class EncodeOptions:
     def errors(self, arg: bool | None, /) -> None: ...
 
     @property
-    def weld_tolerance(self) -> float: ...
+    def chart(self) -> ChartOptions: ...
 
-    @weld_tolerance.setter
-    def weld_tolerance(self, arg: float | None, /) -> None: ...
+    @chart.setter
+    def chart(self, arg: ChartOptions | None, /) -> None: ...
 
-    def set_chart(self, arg0: str, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64] | None, arg2: int, arg3: bool, /) -> None: ...
+    @property
+    def weld(self) -> float: ...
+
+    @weld.setter
+    def weld(self, arg: float | None, /) -> None: ...
+
+    FIELDS: tuple = ...
+
+class StarReport:
+    """How a mesh is seen from a centre."""
+
+    def __repr__(self) -> str: ...
+
+    def __getstate__(self) -> dict: ...
+
+    def __setstate__(self, arg: object, /) -> None: ...
+
+    def __eq__(self, arg: object, /) -> bool: ...
+
+    def __hash__(self) -> int: ...
+
+    def to_dict(self) -> dict:
+        """All fields by name; records within it are dicts, too."""
+
+    @property
+    def center(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
+        """In the coordinates of the mesh, (3,)."""
+
+    @property
+    def min_d(self) -> float:
+        """Distance of the nearest face plane; negative if a face turns its back."""
+
+    @property
+    def min_cos_gamma(self) -> float:
+        """Over all corners of all triangles."""
+
+    @property
+    def bad_triangles(self) -> int:
+        """Triangles that turn their backs."""
+
+    @property
+    def star_shaped(self) -> bool:
+        """No such triangle, and every direction covered once."""
+
+    @property
+    def rays(self) -> int:
+        """Directions tried."""
+
+    @property
+    def once_share(self) -> float:
+        """Part of them that meet the surface once."""
+
+    @property
+    def multiple_share(self) -> float:
+        """Part that meet it more than once."""
+
+    @property
+    def missed_share(self) -> float:
+        """Part that never meet it."""
+
+    @property
+    def center_fell_back(self) -> bool:
+        """Whether no point sees all faces, and the centre is the best guess."""
+
+def find_center(arg0: Mesh, arg1: CenterOptions, arg2: Caller, /) -> StarReport: ...
+
+def check_star(arg0: Mesh, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64], arg2: int, arg3: Caller, /) -> StarReport: ...
+
+class StarChart:
+    """A mesh seen from a centre."""
+
+    def __getstate__(self) -> tuple: ...
+
+    def __setstate__(self, arg: object, /) -> None: ...
+
+    @property
+    def mesh(self) -> Mesh: ...
+
+    @property
+    def report(self) -> StarReport: ...
+
+def make_star_chart(arg0: Mesh, arg1: ChartOptions, arg2: Caller, /) -> StarChart: ...
 
 class FastReport:
     """How the fast engine did it."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy.typing as npt
 
@@ -13,78 +13,59 @@ from ._coefficients import Function, Normalization, core_of, from_convention
 from ._errors import InvalidInputError
 from ._expansion import Expansion
 from ._interop import foreign_mesh
+from ._options import given_of, takes
 from ._run import Progress, caller
 from ._shapes import MeshLike, as_mesh, name_of
 
-Method = Literal["edge", "gauge", "curl", "area"]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import AnalyzeKeywords, CenterKeywords, ChartKeywords, EncodeKeywords, ToleranceKeywords
+
+    class TransformKeywords(AnalyzeKeywords, ToleranceKeywords, total=False):
+        """How a function is expanded, to what tolerance."""
+
+    class ExpandKeywords(TransformKeywords, CenterKeywords, ChartKeywords, EncodeKeywords, total=False):
+        """What is wanted of a model, and what may be done to the mesh."""
 
 
-Unit = Literal["absolute", "diagonal", "radius"]
-
-
-def _center_of(center: Any) -> tuple[str, tuple[float, float, float] | None]:
+def center_options(center: Any, **rays: Any) -> _core.CenterOptions:
+    """Of the name of a kind of centre, or a point."""
     if isinstance(center, str):
-        return center, None
-    return "", triple(center, "center")
-
-
-def tolerance_of(
-    error: float, unit: Unit, norm: str, measure: str | None, max_degree: int
-) -> _core.Tolerance:
-    """As `expand` takes it."""
-    if measure is None:
-        measure = "distance" if unit == "diagonal" else "radius"
-    return _core.Tolerance(error=error, unit=unit, norm=norm, measure=measure, max_degree=max_degree)
-
-
-def encode_options(
-    degree: int | None,
-    tolerance: float | None,
-    unit: Unit,
-    norm: str,
-    measure: str | None,
-    max_degree: int,
-    method: str,
-    engine: str,
-    precision: float,
-    center: Any,
-    rays: int,
-    signed: bool,
-    errors: bool,
-    weld: float,
-) -> _core.EncodeOptions:
-    """As `expand` takes them."""
-    if degree is not None and tolerance is not None:
-        raise InvalidInputError("degree and tolerance exclude one another: give one of them")
-    analyze = _core.AnalyzeOptions(degree=degree, method=method, engine=engine, precision=precision)
-    options = _core.EncodeOptions(analyze=analyze, errors=errors, weld_tolerance=weld)
-    if tolerance is not None:
-        options.tolerance = tolerance_of(tolerance, unit, norm, measure, max_degree)
-    name, point = _center_of(center)
-    options.set_chart(name, point, rays, signed)
+        options = _core.parse_center(center)
+    else:
+        options = _core.CenterOptions(center="given", point=triple(center, "center"))
+    for name, value in rays.items():
+        setattr(options, name, value)
     return options
 
 
+def transform_options(
+    degree: int | None, tolerance: float | None, measure: str | None, analyze: Any, allowed: Any
+) -> tuple[_core.AnalyzeOptions, _core.Tolerance | None]:
+    """As `expand` and `analyze` take them; the last two are what is given of the classes of options."""
+    if degree is not None and tolerance is not None:
+        raise InvalidInputError("degree and tolerance exclude one another: give one of them")
+    wanted = _core.AnalyzeOptions(degree=degree, **analyze)
+    if tolerance is None:
+        return wanted, None
+    kept = _core.Tolerance(error=tolerance, **allowed)
+    kept.measure = measure or ("distance" if kept.unit == "diagonal" else "radius")
+    return wanted, kept
+
+
+@takes(_core.AnalyzeOptions, _core.Tolerance, _core.CenterOptions, _core.ChartOptions, _core.EncodeOptions)
 def expand(
     shape: MeshLike,
     degree: int | None = None,
     *,
     tolerance: float | None = None,
-    unit: Unit = "absolute",
-    norm: Literal["rms", "max"] = "rms",
     measure: Literal["radius", "distance"] | None = None,
-    max_degree: int = 1024,
-    method: Method = "edge",
-    engine: Literal["fast", "direct"] = "fast",
-    precision: float = 1e-8,
     center: Any = "auto",
-    rays: int = 100_000,
-    signed: bool = False,
-    errors: bool = True,
-    weld: float = 0.0,
     length_unit: str = "",
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[ExpandKeywords],
 ) -> Expansion:
     """Spherical-harmonic coefficients of a closed mesh.
 
@@ -99,37 +80,16 @@ def expand(
         L, by default 64.
     tolerance : float, optional
         The smallest degree that keeps this error, instead.
-    unit : {"absolute", "diagonal", "radius"}
-        Of the tolerance: the mesh's own, of its bounding box's diagonal, of its mean radius.
-    norm : {"rms", "max"}
-        Of all errors of the tolerance.
     measure : {"radius", "distance"}, optional
         Of each error: along rays from the centre, or between the surfaces. By default the radius,
         with ``unit="diagonal"`` the distance.
-    max_degree : int
-        Where the search for a tolerance ends.
-    method : {"edge", "gauge", "curl", "area"}
-        Which function is expanded (gauge: 1/r, the others r) and by which integrals.
-    engine : {"fast", "direct"}
-        Of the sums; direct ones are the oracle.
-    precision : float
-        Wanted error of the coefficients, 1e-14 ... 1e-1: l2 relative to the norm of the function
-        without its mean.
     center : {"auto", "kernel", "slope", "cosine", "none", "centroid", "volume"} or array_like, (3,)
         Where the centre is. "auto", "slope": where the radius has the least slope, on the line
         through "kernel" and the centroid of the solid, well within the points that see the whole
         surface; "kernel": in the middle of these points; "cosine": where the surface is seen least
         aslant; "none": the origin; "centroid": of the surface; "volume": of the solid, or as
         "slope" where not all is seen from there.
-    rays : int
-        Directions tried by the check for a star shape; 0 leaves them out.
-    signed : bool
-        Whether a surface that is not star-shaped is taken: by the signed sum of its radii, a
-        descriptor that does not give back the body. `compress` makes a model that does.
-    errors : bool
-        Whether truncation errors are measured and predicted.
-    weld : float
-        Tolerance of welding, in the mesh's unit; 0 joins identical vertices.
+    {options}
     length_unit : str
         Of the vertices: "km", "mm", ...
     threads, progress
@@ -161,27 +121,18 @@ def expand(
     >>> round(s.volume / (4 / 3 * 3.14159265 * 6), 2)
     1.0
     """
-    options = encode_options(
-        degree,
-        tolerance,
-        unit,
-        norm,
-        measure,
-        max_degree,
-        method,
-        engine,
-        precision,
-        center,
-        rays,
-        signed,
-        errors,
-        weld,
+    kinds = (_core.AnalyzeOptions, _core.Tolerance, _core.CenterOptions, _core.ChartOptions)
+    analyze, allowed, rays, signed, rest = given_of(
+        *kinds, _core.EncodeOptions, given={**options}, function="expand"
     )
+    wanted = _core.EncodeOptions(**rest)
+    wanted.analyze, wanted.tolerance = transform_options(degree, tolerance, measure, analyze, allowed)
+    wanted.chart = _core.ChartOptions(center=center_options(center, **rays), **signed)
     with caller(threads, progress) as how:
         if isinstance(shape, (str, os.PathLike)):
-            encoded, _ = _core.encode_file(os.fspath(shape), options, how)
+            encoded, _ = _core.encode_file(os.fspath(shape), wanted, how)
         else:
-            encoded = _core.encode(*_mesh_arrays(shape), options, how)
+            encoded = _core.encode(*_mesh_arrays(shape), wanted, how)
     expansion = Expansion._of(encoded.analysis.expansion, encoded, shape, name_of(shape))
     return expansion.with_unit(length_unit) if length_unit else expansion
 

@@ -70,7 +70,6 @@ class AlignKeywords(TypedDict, total=False):
 class AnalyzeKeywords(TypedDict, total=False):
     """Which function is expanded, and how."""
 
-    degree: int
     method: Literal["edge", "gauge", "curl", "area"]
     engine: Literal["fast", "direct"]
     precision: float
@@ -79,11 +78,28 @@ class AnalyzeKeywords(TypedDict, total=False):
 class ToleranceKeywords(TypedDict, total=False):
     """The largest error that is allowed."""
 
-    error: float
     unit: Literal["absolute", "diagonal", "radius"]
     norm: Literal["rms", "max"]
-    measure: Literal["radius", "distance"]
     max_degree: int
+
+
+class CenterKeywords(TypedDict, total=False):
+    """Where the centre is sought."""
+
+    rays: int
+
+
+class ChartKeywords(TypedDict, total=False):
+    """Which centre, and which surfaces."""
+
+    signed: bool
+
+
+class EncodeKeywords(TypedDict, total=False):
+    """What is wanted of a model."""
+
+    errors: bool
+    weld: float
 
 
 class MonteCarloKeywords(TypedDict, total=False):

@@ -67,6 +67,17 @@ def options_of(kind: Any, given: dict[str, Any], function: str, **own: Any) -> A
     return kind(**{name: _converted(fields[name], value) for name, value in {**given, **own}.items()})
 
 
+def given_of(*kinds: Any, given: dict[str, Any], function: str) -> list[dict[str, Any]]:
+    """What each class of options has of the keyword arguments of a function; TypeError for others."""
+    parts = []
+    for kind in kinds:
+        names = [field["name"] for field in keywords_of(kind) if field["name"] in given]
+        parts.append({name: given.pop(name) for name in names})
+    for name in given:
+        raise TypeError(f"{function}() got an unexpected keyword argument {name!r}")
+    return parts
+
+
 #: Of each kind of field: the type of the argument as it is written in Python, and in docstrings.
 _TYPES = {
     "bool": ("bool", "bool"),

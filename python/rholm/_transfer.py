@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from . import _core
 from ._arrays import FloatArray, IndexArray, read_only
 from ._edit import RegionLike, _with_region, _without_region
-from ._options import options_of, takes
+from ._options import given_of, options_of, takes
 from ._run import Progress, caller
 from ._shapes import Mesh, MeshLike, as_mesh
 
@@ -313,9 +313,9 @@ def transfer(
     threads, progress
         See `rholm.caller`.
     """
-    sliders = {field["name"] for field in _core.TransferUpdate.FIELDS}
-    moved = {name: value for name, value in options.items() if name in sliders}
-    kept = {name: value for name, value in options.items() if name not in sliders}
+    kept, moved = given_of(
+        _core.TransferOptions, _core.TransferUpdate, given={**options}, function="transfer"
+    )
     wanted = options_of(_core.TransferOptions, kept, "transfer", find_angle=moved.get("angle") is None)
     editor = _analyzed(source, source_region, target, target_region, wanted, threads, progress)
     editor.set(**{"height": 1.0, **moved})

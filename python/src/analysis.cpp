@@ -54,25 +54,11 @@ MeshView view_of_arrays(const AnyVertices& vertices, const AnyTriangles& triangl
           .triangle_stride = stride_of(triangles, sizeof(std::uint32_t))};
 }
 
-// Made of "auto", "none", ... or a point.
-CenterOptions center_of(const std::string& text, const std::optional<Vec3>& point, int rays) {
-  CenterOptions options =
-      point ? CenterOptions{.kind = CenterKind::kGiven, .point = *point} : parse_center(text);
-  options.rays = rays;
-  return options;
-}
-
 void bind_star(nb::module_& m) {
   Record<StarReport>(m, "StarReport", "How a mesh is seen from a centre.").fields();
-  m.def(
-      "find_center",
-      [](const Mesh& mesh, const std::string& center, const std::optional<Vec3>& point, int rays,
-         const Caller& caller) {
-        const CenterOptions options = center_of(center, point, rays);
-        return caller.run(
-            [&](const Context& context) { return find_center(mesh, options, context); });
-      },
-      nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg());
+  m.def("find_center", [](const Mesh& mesh, const CenterOptions& options, const Caller& caller) {
+    return caller.run([&](const Context& context) { return find_center(mesh, options, context); });
+  });
   m.def("check_star", [](const Mesh& mesh, const Vec3& center, int rays, const Caller& caller) {
     return caller.run(
         [&](const Context& context) { return check_star(mesh, center, rays, context); });
@@ -86,65 +72,31 @@ void bind_star(nb::module_& m) {
       });
   chart_class.def_prop_ro("mesh", [](const StarChart& chart) { return chart.mesh; })
       .def_ro("report", &StarChart::report);
-  m.def(
-      "make_star_chart",
-      [](const Mesh& mesh, const std::string& center, const std::optional<Vec3>& point, int rays,
-         bool allow_signed, const Caller& caller) {
-        const ChartOptions options{center_of(center, point, rays), allow_signed};
-        return caller.run(
-            [&](const Context& context) { return make_star_chart(mesh, options, context); });
-      },
-      nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg(), nb::arg());
+  m.def("make_star_chart", [](const Mesh& mesh, const ChartOptions& options, const Caller& caller) {
+    return caller.run(
+        [&](const Context& context) { return make_star_chart(mesh, options, context); });
+  });
 }
 
 void bind_options(nb::module_& m) {
   Options<AnalyzeOptions>(m, "AnalyzeOptions", "Which function is expanded, and how.").fields();
   Options<Tolerance>(m, "Tolerance", "The largest error that is allowed.").fields();
-  Options<EncodeOptions>(m, "EncodeOptions", "What is wanted of a model.")
-      .field("analyze", &EncodeOptions::analyze)
-      .field("tolerance", &EncodeOptions::tolerance)
-      .field("errors", &EncodeOptions::errors)
-      .field("weld_tolerance", &EncodeOptions::weld_tolerance)
-      .type()
-      .def(
-          "set_chart",
-          [](EncodeOptions& options, const std::string& center, const std::optional<Vec3>& point,
-             int rays, bool allow_signed) {
-            options.chart = {center_of(center, point, rays), allow_signed};
-          },
-          nb::arg(), nb::arg().none(), nb::arg(), nb::arg());
+  Options<CenterOptions>(m, "CenterOptions", "Where the centre is sought.").fields();
+  m.def("parse_center", &parse_center);
+  Options<ChartOptions>(m, "ChartOptions", "Which centre, and which surfaces.").fields();
+  Options<EncodeOptions>(m, "EncodeOptions", "What is wanted of a model.").fields();
 }
 
 void bind_results(nb::module_& m) {
   Record<FastReport>(m, "FastReport", "How the fast engine did it.").fields();
   Record<Analysis>(m, "Analysis", "How coefficients were found.")
-      .field("edge_nodes", &Analysis::edge_nodes, "Quadrature nodes on edges.")
-      .field("face_nodes", &Analysis::face_nodes, "Quadrature nodes on faces.")
-      .field("closure_residual", &Analysis::closure_residual,
-             "Zero for a closed, consistently oriented mesh; None with the fast engine.")
-      .field("fast", &Analysis::fast, "Of the fast engine, or None.")
-      .field("precision", &Analysis::precision, "That the coefficients were wanted with.")
-      .field("times", &Analysis::times, "Stages: (wall, cpu) in seconds.")
-      .field("truncation_rms", &Analysis::truncation_rms,
-             "Truncation error over solid angle, in the unit of the function, or None.")
-      .field("truncation_rms_doubt", &Analysis::truncation_rms_doubt,
-             "How far it is at most from that of exact coefficients.")
+      .fields()
       .hidden("expansion", [](Analysis& a) -> Expansion& { return a.expansion; })
       .type()
       .def_prop_ro("expansion", [](const Analysis& a) { return a.expansion; });
   Record<ToleranceReport>(m, "ToleranceReport", "How a tolerance was kept.").fields();
   Record<Encoded>(m, "Encoded", "What was found out on the way from a mesh to an expansion.")
-      .field("analysis", &Encoded::analysis, "How the coefficients were found.")
-      .field("tolerance", &Encoded::tolerance, "How the tolerance was kept, or None.")
-      .field("star", &Encoded::star, "The centre, and how well it sees the surface.")
-      .field("diagonal", &Encoded::diagonal, "Of the bounding box.")
-      .field("vertices", &Encoded::vertices, "After welding, where that was needed.")
-      .field("faces", &Encoded::faces, "Likewise.")
-      .field("edges", &Encoded::edges, "Likewise.")
-      .field("merged_vertices", &Encoded::merged_vertices, "By welding.")
-      .field("collapsed_triangles", &Encoded::collapsed_triangles, "By welding.")
-      .field("flipped", &Encoded::flipped, "Whether the mesh was inside out.")
-      .field("times", &Encoded::times, "Stages: (wall, cpu) in seconds.");
+      .fields();
 }
 
 void bind_encode(nb::module_& m) {
@@ -234,8 +186,8 @@ void bind_monte_carlo(nb::module_& m) {
 }  // namespace
 
 void bind_analysis(nb::module_& m) {
-  bind_star(m);
   bind_options(m);
+  bind_star(m);
   bind_results(m);
   bind_encode(m);
   bind_norms(m);

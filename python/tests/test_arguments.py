@@ -122,9 +122,14 @@ def test_every_choice_is_one_of_the_library(bumpy):
         assert rholm.from_array(s.coeffs, function=function).function == function
     for normalization in rholm._coefficients.Normalization.__args__:
         assert s.to_array(normalization).shape == (2, 5, 5)
-    for method in rholm._encode.Method.__args__:
+    choices = {
+        field["name"]: field["choices"]
+        for kind in (rholm._core.AnalyzeOptions, rholm._core.Tolerance)
+        for field in kind.FIELDS
+    }
+    for method in choices["method"]:
         assert rholm.expand(bumpy, 2, method=method).degree == 2
-    for unit in rholm._encode.Unit.__args__:
+    for unit in choices["unit"]:
         assert rholm.expand(bumpy, tolerance=0.5, unit=unit).degree >= 0
     for kind in rholm._sums.GridKind.__args__:
         assert rholm.synthesize_grid(s, kind).ndim == 2

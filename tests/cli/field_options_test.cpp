@@ -10,6 +10,7 @@
 #include "base/field_text.h"
 #include "cli/grammar/help.h"
 #include "cli/terminal/session.h"
+#include "rholm/monte_carlo.h"
 #include "support/made_up_options.h"
 
 namespace rholm::cli {
@@ -58,6 +59,38 @@ TEST(field_options, set_the_fields) {
   EXPECT_EQ(text_of_fields(values),
             "size 0.25 share_of_all 0.5 count 4 flag true colour red place 1,2,3 inner none");
   EXPECT_EQ(text_of_fields(parsed({"--share-of-all", "auto"})), text_of_fields(Outer{}));
+}
+
+TEST(field_options, of_one_field_say_whether_it_was_given) {
+  Given<Outer> given;
+  CommonOptions common;
+  Command command;
+  command.name = "made-up";
+  command.options = {field_option_of(given, "count", "of a thing: "),
+                     field_option_of(given, "colour")};
+  EXPECT_EQ(command.options[0].help, "of a thing: how many; 3 by default");
+  const std::vector<std::string> words = {"--count", "3"};
+  parse(command, words, common);
+  EXPECT_TRUE(given.has("count"));
+  EXPECT_FALSE(given.has("colour"));
+  EXPECT_THROW(field_option_of(given, "height"), std::logic_error);
+}
+
+TEST(field_options, that_may_be_missing_take_whole_numbers) {
+  MonteCarloOptions values;
+  CommonOptions common;
+  Command command;
+  command.name = "made-up";
+  command.options = {field_option_of(values, "samples")};
+  const auto parsed_as = [&](const std::string& text) {
+    const std::vector<std::string> words = {"--samples", text};
+    parse(command, words, common);
+    return values.samples;
+  };
+  EXPECT_EQ(parsed_as("8"), 8U);
+  for (const char* wrong : {"1", "8.5", "many", "2000000000"}) {
+    EXPECT_THROW(parsed_as(wrong), UsageError) << wrong;
+  }
 }
 
 TEST(field_options, refuse_what_is_out_of_bounds) {

@@ -90,6 +90,7 @@ it("options without a place of their own are those of the program", async () => 
   await page.getByLabel("Blend").selectOption("smooth");
   await least.fill("");
   await least.press("Enter");
+  await choose("surface");
 });
 
 it("a surface is simplified", async () => {

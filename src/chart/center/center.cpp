@@ -12,15 +12,8 @@
 namespace rholm {
 namespace {
 
-struct NamedKind {
-  std::string_view name;
-  CenterKind kind;
-};
-constexpr NamedKind kNamedKinds[] = {
-    {"auto", CenterKind::kAuto},    {"kernel", CenterKind::kKernel},
-    {"slope", CenterKind::kSlope},  {"cosine", CenterKind::kCosine},
-    {"none", CenterKind::kNone},    {"centroid", CenterKind::kCentroid},
-    {"volume", CenterKind::kVolume}};
+constexpr const char* kKinds[] = {"auto", "kernel",   "slope",  "cosine",
+                                  "none", "centroid", "volume", "given"};
 
 // Three finite numbers with commas between them; false if the text is something else.
 bool parse_point(std::string_view text, Vec3& point) {
@@ -45,9 +38,9 @@ bool parse_point(std::string_view text, Vec3& point) {
 
 CenterOptions parse_center(const std::string& text) {
   CenterOptions options;
-  for (const NamedKind& named : kNamedKinds) {
-    if (text == named.name) {
-      options.kind = named.kind;
+  for (int kind = 0; kind < static_cast<int>(CenterKind::kGiven); ++kind) {
+    if (text == kKinds[kind]) {
+      options.kind = static_cast<CenterKind>(kind);
       return options;
     }
   }
@@ -61,12 +54,7 @@ CenterOptions parse_center(const std::string& text) {
   return options;
 }
 
-const char* to_string(CenterKind kind) {
-  for (const NamedKind& named : kNamedKinds) {
-    if (named.kind == kind) return named.name.data();
-  }
-  return "given";
-}
+EnumNames names_of(CenterKind) { return {"kind of centre", kKinds}; }
 
 namespace {
 
