@@ -39,10 +39,13 @@ class RanksRun:
     def __init__(self, words, ranks, folder, wrap=(), environment=None):
         self.folder, self.ranks = Path(folder), ranks
         self.out, self.err = tempfile.TemporaryFile(), tempfile.TemporaryFile()
+        # Open MPI's mpiexec fails where another one has just made the folder that all of a user share.
+        self.session = tempfile.TemporaryDirectory(prefix="mpi-", ignore_cleanup_errors=True)
         self.process = subprocess.Popen(
             [*wrap, MPIEXEC, "-n", str(ranks), *[str(w) for w in words]], cwd=folder, stdout=self.out,
             stderr=self.err, stdin=subprocess.DEVNULL, start_new_session=True,
-            env={**os.environ, **ENVIRONMENT, **(environment or {})})
+            env={**os.environ, **ENVIRONMENT, "OMPI_MCA_orte_tmpdir_base": self.session.name,
+                 **(environment or {})})
         self.program = os.path.basename(str(words[0]))
 
     def pids(self):
@@ -114,6 +117,7 @@ class RanksRun:
                 stream.seek(0)
                 setattr(self, name, stream.read().decode("utf-8", "replace"))
                 stream.close()
+            self.session.cleanup()
         return self.code
 
     def __str__(self):
