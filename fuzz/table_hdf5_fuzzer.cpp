@@ -1,4 +1,4 @@
-#include "model/batch/table_bytes.h"
+#include "model/batch/table_parts.h"
 #include "rholm/error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

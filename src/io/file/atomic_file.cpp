@@ -2,9 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/stat.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -14,6 +12,8 @@
 #include <mutex>
 #include <optional>
 #include <utility>
+
+#include <sys/stat.h>
 
 #include "base/cancel.h"
 #include "base/parallel.h"
@@ -276,6 +276,12 @@ void discard_unfinished_files() noexcept {
     if (const char* name = slot.exchange(nullptr)) ::unlink(name);
   }
   errno = error;
+}
+
+void write_file(const std::filesystem::path& path, std::span<const char> bytes) {
+  AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
 }
 
 }  // namespace rholm

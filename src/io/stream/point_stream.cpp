@@ -1,25 +1,85 @@
 #include "rholm/point_stream.h"
-#include "base/plain_text.h"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <limits>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "base/parallel.h"
+#include "base/plain_text.h"
+#include "io/file/input_file.h"
 #include "io/ply/ply_body.h"
 #include "io/ply/ply_header.h"
 #include "io/ply/ply_vertices.h"
 #include "io/shapes/plate_table.h"
 #include "io/shapes/shape_formats.h"
 #include "io/shapes/shape_source.h"
+#include "io/shapes/xyz.h"
 #include "io/shapes/xyz_columns.h"
-#include "io/shapes/xyz_reader.h"
-#include "io/stream/byte_window.h"
+#include "rholm/context.h"
 #include "rholm/error.h"
 
 namespace rholm {
 namespace {
+
+// A file from its begin to its end through a window.
+
+class ByteWindow {
+ public:
+  // "-" is standard input. Throws Io.
+  explicit ByteWindow(const std::filesystem::path& path) : file_(path) {}
+
+  const std::string& name() const { return file_.name(); }
+  // What is in the window, after reading on until that is n bytes or the end. Throws Io, Cancelled.
+  std::span<const char> at_least(std::size_t n, const Context& context);
+  std::span<const char> bytes() const { return {bytes_.data() + first_, last_ - first_}; }
+  // Moves the window's begin on.
+  void pass(std::size_t n) {
+    first_ += n;
+    passed_ += n;
+  }
+  bool ended() const { return ended_; }
+  std::uint64_t passed() const { return passed_; }
+  std::uint64_t size() const { return file_.size(); }  // 0 for pipes and devices
+
+ private:
+  InputFile file_;
+  std::uint64_t passed_ = 0;
+  bool ended_ = false;
+  std::vector<char> bytes_;
+  std::size_t first_ = 0, last_ = 0;  // of the window in these
+};
+
+std::span<const char> ByteWindow::at_least(std::size_t n, const Context& context) {
+  constexpr std::size_t kLeastRoom = std::size_t{1} << 16;  // what a pipe holds by default
+  while (last_ - first_ < n && !ended_) {
+    if (first_ > 0) {
+      std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(first_),
+                bytes_.begin() + static_cast<std::ptrdiff_t>(last_), bytes_.begin());
+      last_ -= first_;
+      first_ = 0;
+    }
+    if (bytes_.size() < std::max(n, last_ + kLeastRoom)) {
+      // Grows as bytes come: what is asked for may be more than there is.
+      bytes_.resize(std::min(std::max(n, last_ + kLeastRoom), 2 * last_ + kLeastRoom));
+    }
+    const InputFile::Piece piece = file_.read(std::span(bytes_).subspan(last_));
+    last_ += piece.size;
+    ended_ = piece.ended;
+    report_progress(context, "read",
+                    size() == 0 ? 0
+                                : std::min(1.0, static_cast<double>(passed_ + last_) /
+                                                    static_cast<double>(size())));
+  }
+  return bytes();
+}
 
 constexpr std::size_t kMostHeader = std::size_t{1}
                                     << 20;  // bytes of a PLY; chosen: any that makes sense

@@ -3,7 +3,7 @@
 // text_table.h tells how rows are cut into cells, xyz_columns.h what the columns are. The first
 // line may be the number of points (PWN, PTS). In a PWN file normals follow the position in each
 // row, or as lines of their own after all positions.
-#include "io/shapes/xyz_reader.h"
+#include "io/shapes/xyz.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +13,7 @@
 #include "io/file/number_text.h"
 #include "io/shapes/plate_table.h"
 #include "io/shapes/shape_source.h"
+#include "io/shapes/shape_writers.h"
 #include "io/shapes/xyz_columns.h"
 #include "rholm/error.h"
 
@@ -172,6 +173,31 @@ bool may_be_xyz(std::span<const char> bytes) {
   const TellingRows telling = telling_rows(bytes, true, header);
   return std::count_if(telling.texts.begin(), telling.texts.end(),
                        [&](std::size_t texts) { return texts < telling.rows; }) >= 3;
+}
+
+void put_xyz_header(bool names, OutputBuffer& out) {
+  if (names) out.text("# x y z nx ny nz\n");
+}
+
+void put_xyz_rows(const ShapeView& shape, OutputBuffer& out) {
+  const NormalRange normals(shape);
+  shape.points.visit([&](std::size_t i, const Vec3& point) {
+    put_vector(point, normals.empty() ? '\n' : ' ', out);
+    if (!normals.empty()) put_vector(normals[i], '\n', out);
+    out.rows(1);
+  });
+}
+
+std::vector<std::string> format_xyz(const ShapeView& shape, const ShapeWriting&,
+                                    OutputBuffer& out) {
+  const NormalRange normals(shape);
+  XyzNames names;
+  if (!normals.empty()) {
+    shape.points.visit([&](std::size_t i, const Vec3& p) { names.add(p, normals[i]); });
+  }
+  put_xyz_header(!normals.empty() && names.are_needed(), out);
+  put_xyz_rows(shape, out);
+  return {};
 }
 
 }  // namespace rholm
