@@ -8,11 +8,20 @@
 #include <array>
 #include <vector>
 
-#include "harmonic/motion/symmetric3.h"
 #include "rholm/context.h"
 #include "rholm/rotate.h"
+#include "rholm/vec3.h"
 
 namespace rholm {
+
+// Eigenvectors of a symmetric 3 x 3 matrix.
+struct Eigen3 {
+  std::array<double, 3> values;  // descending
+  std::array<Vec3, 3> vectors;   // orthonormal, right-handed
+};
+
+// Of the matrix with rows[i][k]; only i <= k is read. By Jacobi's rotations.
+Eigen3 eigen_of_symmetric(const std::array<std::array<double, 3>, 3>& rows);
 
 // L_k f, k = x, y, z.
 std::array<Coefficients, 3> rotation_derivatives(const Coefficients& f);

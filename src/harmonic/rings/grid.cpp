@@ -2,19 +2,140 @@
 
 #include <algorithm>
 #include <complex>
+#include <cstddef>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "base/aligned_array.h"
 #include "harmonic/fft/fft.h"
 #include "harmonic/rings/ring_pairs.h"
-#include "harmonic/rings/ring_resample.h"
 #include "harmonic/rings/ring_rules.h"
 #include "harmonic/rings/ring_sums.h"
 #include "rholm/error.h"
 
 namespace rholm {
 namespace {
+
+// Integrals over the colatitude of functions on equiangular rings, as sums over few other rings.
+//
+// The terms F(theta) of order m of a function of degree D continue over the poles as a
+// trigonometric polynomial of degree D, F(-theta) = (-1)^m F(theta), which n rings determine. It is
+// evaluated on N >= D + L + 1 rings, where Fejer's rule is exact for F Pt_lm, l <= L; multiplied by
+// its weights; and what is left of that beyond the frequencies of Pt_lm, which is orthogonal to it,
+// is taken off: L + 1 rings then give the same sums as the N.
+class RingResampler {
+ public:
+  // Of an equiangular grid, for degrees up to L <= exact_degree(grid).
+  RingResampler(const Grid& grid, int degree);
+
+  // theta_q = (q + 1/2) pi / n_rings().
+  std::size_t n_rings() const { return to_.rings; }
+
+  struct Work {
+    explicit Work(const RingResampler& resampler);
+    AlignedArray<std::complex<double>> in, out;
+  };
+  // values[i], i < n_theta, becomes values[q], q < n_rings(): int F Pt sin dtheta is the sum of
+  // values[q] Pt_lm(theta_q). `values` has room for the longer of the two.
+  void run(int m, std::complex<double>* values, Work& work) const;
+
+ private:
+  // Rings and their mirror images beyond the poles: 2 pi j / length + offset.
+  struct Circle {
+    std::size_t rings, length;
+    double offset;
+    ComplexFft<double> fft;
+  };
+  // Frequencies |k| <= top, from one circle to another; the results are in work.out.
+  struct Move {
+    std::vector<std::complex<double>> factor;  // k = 0 ... top
+  };
+  static Move make_move(const Circle& from, const Circle& to, std::size_t top, double scale);
+  static void apply(const Move& move, const Circle& from, const Circle& to, Work& work);
+
+  bool poles_;
+  Circle from_, middle_, to_;
+  Move up_, down_;
+  std::vector<double> weights_;
+};
+
+using Complex = std::complex<double>;
+
+double half_step(std::size_t rings) { return std::numbers::pi / (2 * static_cast<double>(rings)); }
+
+RingResampler::RingResampler(const Grid& grid, int degree)
+    : poles_(grid.kind == GridKind::kEquiangularWithPoles),
+      from_([&] {
+        const std::size_t n = static_cast<std::size_t>(grid.n_theta);
+        const std::size_t length = poles_ ? 2 * (n - 1) : 2 * n;
+        return Circle{n, length, poles_ ? 0.0 : half_step(n), ComplexFft<double>(length)};
+      }()),
+      middle_([&] {
+        const std::size_t n =
+            smooth_length(static_cast<std::size_t>(grid.n_theta) + degree + std::size_t{1});
+        return Circle{n, 2 * n, half_step(n), ComplexFft<double>(2 * n)};
+      }()),
+      to_([&] {
+        const std::size_t n = smooth_length(degree + std::size_t{1});
+        return Circle{n, 2 * n, half_step(n), ComplexFft<double>(2 * n)};
+      }()),
+      up_(make_move(from_, middle_, from_.rings - (poles_ ? 2 : 1), 1)),
+      down_(make_move(middle_, to_, static_cast<std::size_t>(degree),
+                      static_cast<double>(middle_.rings) / static_cast<double>(to_.rings))),
+      weights_(fejer_ring_rule(middle_.rings).weights) {}
+
+RingResampler::Work::Work(const RingResampler& resampler)
+    : in(std::max({resampler.from_.length, resampler.middle_.length, resampler.to_.length})),
+      out(in.size()) {}
+
+RingResampler::Move RingResampler::make_move(const Circle& from, const Circle& to, std::size_t top,
+                                             double scale) {
+  Move move;
+  for (std::size_t k = 0; k <= top; ++k) {
+    move.factor.push_back(std::polar(scale / static_cast<double>(from.length),
+                                     static_cast<double>(k) * (to.offset - from.offset)));
+  }
+  return move;
+}
+
+void RingResampler::apply(const Move& move, const Circle& from, const Circle& to, Work& work) {
+  from.fft.forward(work.in.data(), work.out.data());
+  std::fill(work.in.data(), work.in.data() + to.length, Complex{});
+  // Frequency k at -k: the transform back is the transform forth.
+  work.in[0] = work.out[0] * move.factor[0];
+  for (std::size_t k = 1; k < move.factor.size(); ++k) {
+    work.in[to.length - k] = work.out[k] * move.factor[k];
+    work.in[k] = work.out[from.length - k] * std::conj(move.factor[k]);
+  }
+  to.fft.forward(work.in.data(), work.out.data());
+}
+
+void RingResampler::run(int m, Complex* values, Work& work) const {
+  const double sign = m % 2 == 0 ? 1 : -1;
+  Complex* in = work.in.data();
+  if (poles_) {
+    // Odd orders vanish at the poles.
+    for (std::size_t i = 0; i < from_.rings; ++i) {
+      const bool pole = i == 0 || i + 1 == from_.rings;
+      in[i] = pole && m % 2 == 1 ? Complex{} : values[i];
+      if (!pole) in[from_.length - i] = sign * values[i];
+    }
+  } else {
+    for (std::size_t i = 0; i < from_.rings; ++i) {
+      in[i] = values[i];
+      in[from_.length - 1 - i] = sign * values[i];
+    }
+  }
+  apply(up_, from_, middle_, work);
+  for (std::size_t i = 0; i < middle_.rings; ++i) {
+    in[i] = work.out[i] * weights_[i];
+    in[middle_.length - 1 - i] = work.out[middle_.length - 1 - i] * weights_[i];
+  }
+  apply(down_, middle_, to_, work);
+  std::copy(work.out.data(), work.out.data() + to_.rings, values);
+}
 
 constexpr std::size_t kOrdersPerTask = 8;  // chosen: a cache line of Coefficients
 constexpr double kFourierPart = 0.3;       // of the time, measured, for the progress

@@ -8,8 +8,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "harmonic/rings/ring_scratch.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "harmonic/rings/ring_kernels.cpp"
 #include <hwy/foreach_target.h>

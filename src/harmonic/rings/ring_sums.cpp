@@ -6,7 +6,6 @@
 
 #include "harmonic/legendre/legendre_kernels.h"
 #include "harmonic/rings/ring_kernels.h"
-#include "harmonic/rings/ring_scratch.h"
 
 namespace rholm {
 

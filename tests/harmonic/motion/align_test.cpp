@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "harmonic/motion/align_newton.h"
-#include "harmonic/motion/symmetric3.h"
 #include "rholm/error.h"
 #include "rholm/grid.h"
 #include "rholm/harmonic.h"
