@@ -9,7 +9,6 @@
 #include "base/cancel.h"
 #include "base/poison.h"
 #include "chart/cap/cap_frame.h"
-#include "chart/cap/dilation.h"
 
 namespace rholm {
 namespace {

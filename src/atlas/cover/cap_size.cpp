@@ -9,7 +9,6 @@
 #include "atlas/cover/cap_seed.h"
 #include "base/parallel.h"
 #include "chart/cap/cap_frame.h"
-#include "chart/cap/dilation.h"
 
 namespace rholm {
 namespace {

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "chart/cap/cap_frame.h"
-#include "chart/cap/dilation.h"
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
 #include "shape/points/plane_fit.h"

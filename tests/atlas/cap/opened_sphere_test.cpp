@@ -97,7 +97,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "chart/cap/cap_frame.h"
-#include "chart/cap/dilation.h"
 #include "support/random_data.h"
 #include "support/targets.h"
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "chart/cap/dilation.h"
 #include "support/random_data.h"
 
 namespace rholm {

@@ -1,5 +1,5 @@
 // Expected values: tan(theta'/2) = a tan(theta/2), and the derivative of it.
-#include "chart/cap/dilation.h"
+#include "chart/cap/cap_frame.h"
 
 #include <gtest/gtest.h>
 
