@@ -12,7 +12,7 @@
 #include "shape/points/normals.h"
 #include "shape/points/plane_fit.h"
 #include "shape/points/point_rank.h"
-#include "shape/points/symmetric6.h"
+#include "shape/points/symmetric.h"
 
 namespace rholm {
 namespace {

@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "shape/points/symmetric3.h"
-#include "shape/points/symmetric6.h"
+#include "shape/points/symmetric.h"
 
 namespace rholm {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "shape/points/plane_fit.h"
-#include "shape/points/symmetric3.h"
+#include "shape/points/symmetric.h"
 
 namespace rholm {
 namespace {

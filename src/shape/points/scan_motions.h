@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rholm/vec3.h"
-#include "shape/points/symmetric6.h"
+#include "shape/points/symmetric.h"
 #include "shape/rigid_motion.h"
 
 namespace rholm {

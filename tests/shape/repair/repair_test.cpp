@@ -11,7 +11,7 @@
 #include "base/random.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
-#include "shape/repair/hole_triangles.h"
+#include "shape/repair/hole_closing.h"
 #include "shape/repair/sheets.h"
 #include "support/random_data.h"
 #include "support/test_meshes.h"

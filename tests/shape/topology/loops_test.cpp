@@ -9,9 +9,8 @@
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
 #include "shape/topology/cut_graph.h"
-#include "shape/topology/cut_loop.h"
+#include "shape/topology/loops.h"
 #include "shape/topology/mates.h"
-#include "shape/topology/short_loops.h"
 #include "support/random_data.h"
 
 namespace rholm {
