@@ -1,16 +1,18 @@
 #include "surface/holes/close_grid.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "base/parallel.h"
 #include "rholm/error.h"
+#include "rholm/surface_rules.h"
 #include "surface/grid/node_masks.h"
 #include "surface/holes/open_cubes.h"
 
@@ -246,6 +248,11 @@ NodeValues winding_values(const WindingNumbers& winding, double step) {
     std::transform(w.begin(), w.end(), values.begin(),
                    [step](double number) { return winding_value(number, step); });
   };
+}
+
+EnumNames names_of(HolePolicy) {
+  static constexpr std::array kNames = {"fill", "keep"};
+  return {"hole policy", kNames};
 }
 
 }  // namespace rholm

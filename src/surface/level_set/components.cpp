@@ -98,41 +98,6 @@ bool has_area(const Mesh& mesh) {
   });
 }
 
-// As the public function; `renumbered` is empty if nothing was dropped.
-DroppedComponents drop(Mesh& mesh, double least_share, std::vector<std::uint32_t>& renumbered,
-                       const Context& context) {
-  DroppedComponents result;
-  SharedSets sets = connected_vertices(mesh, context);
-  const std::vector<std::uint32_t> first = first_members(sets, context);
-  const std::size_t n = first.size();
-  if (n == 1 && has_area(mesh)) return {.components = 1};
-  const std::vector<std::uint32_t> component = number_components(sets, first, context);
-  const std::vector<Component> measures = measure(mesh, component, first, context);
-  const std::vector<char> stays =
-      large_components(std::vector<ComponentSize>(measures.begin(), measures.end()), least_share);
-  double area = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    result.components += measures[i].area > 0;
-    result.dropped += measures[i].area > 0 && !stays[i];
-    result.dropped_area += stays[i] ? 0 : measures[i].area;
-    area += measures[i].area;
-  }
-  if (area > 0) result.dropped_area /= area;
-  if (std::find(stays.begin(), stays.end(), 0) == stays.end()) return result;
-  renumbered = renumber(component, stays);
-  std::erase_if(mesh.triangles, [&](const Triangle& t) { return !stays[component[t[0]]]; });
-  parallel_for(mesh.triangles.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      for (std::uint32_t& v : mesh.triangles[t]) v = renumbered[v];
-    }
-  });
-  parallel_for(1 + mesh.attributes.size(), 1, context, {}, [&](std::size_t i, std::size_t) {
-    if (i == 0) return keep(mesh.vertices, renumbered);
-    keep(mesh.attributes[i - 1].values, renumbered);
-  });
-  return result;
-}
-
 }  // namespace
 
 std::vector<char> large_components(std::span<const ComponentSize> sizes, double least_share) {
@@ -172,16 +137,35 @@ std::vector<std::uint32_t> first_members(const SharedSets& sets, const Context& 
 }
 
 DroppedComponents drop_small_components(Mesh& mesh, double least_share, const Context& context) {
-  std::vector<std::uint32_t> renumbered;
-  return drop(mesh, least_share, renumbered, context);
-}
-
-DroppedComponents drop_small_components(ExtractedSurface& surface, double least_share) {
-  std::vector<std::uint32_t> renumbered;
-  const DroppedComponents result = drop(surface.mesh, least_share, renumbered, {.threads = 1});
-  if (renumbered.empty()) return result;
-  keep(surface.filled, renumbered);
-  for (std::uint32_t& first : surface.first_vertex) first = renumbered[first];
+  DroppedComponents result;
+  SharedSets sets = connected_vertices(mesh, context);
+  const std::vector<std::uint32_t> first = first_members(sets, context);
+  const std::size_t n = first.size();
+  if (n == 1 && has_area(mesh)) return {.components = 1};
+  const std::vector<std::uint32_t> component = number_components(sets, first, context);
+  const std::vector<Component> measures = measure(mesh, component, first, context);
+  const std::vector<char> stays =
+      large_components(std::vector<ComponentSize>(measures.begin(), measures.end()), least_share);
+  double area = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    result.components += measures[i].area > 0;
+    result.dropped += measures[i].area > 0 && !stays[i];
+    result.dropped_area += stays[i] ? 0 : measures[i].area;
+    area += measures[i].area;
+  }
+  if (area > 0) result.dropped_area /= area;
+  if (std::find(stays.begin(), stays.end(), 0) == stays.end()) return result;
+  const std::vector<std::uint32_t> renumbered = renumber(component, stays);
+  std::erase_if(mesh.triangles, [&](const Triangle& t) { return !stays[component[t[0]]]; });
+  parallel_for(mesh.triangles.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      for (std::uint32_t& v : mesh.triangles[t]) v = renumbered[v];
+    }
+  });
+  parallel_for(1 + mesh.attributes.size(), 1, context, {}, [&](std::size_t i, std::size_t) {
+    if (i == 0) return keep(mesh.vertices, renumbered);
+    keep(mesh.attributes[i - 1].values, renumbered);
+  });
   return result;
 }
 

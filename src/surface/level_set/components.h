@@ -9,7 +9,6 @@
 #include "base/shared_sets.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
-#include "surface/level_set/extract.h"
 
 namespace rholm {
 
@@ -40,6 +39,5 @@ struct DroppedComponents {
 // volume. 0 drops nothing. What is left keeps its order, vertices in no triangle go.
 DroppedComponents drop_small_components(Mesh& mesh, double least_share,
                                         const Context& context = {});
-DroppedComponents drop_small_components(ExtractedSurface& surface, double least_share);
 
 }  // namespace rholm
