@@ -1,4 +1,4 @@
-// The paper's own route from a star chart to its coefficients, and plain cubature. Layer: paper.
+// The paper's own route from a star chart to its coefficients. Layer: paper.
 #pragma once
 
 #include "rholm/context.h"
@@ -7,8 +7,6 @@
 namespace rholm {
 
 MethodResult curl_method(const StarGeometry& geometry, const MethodOptions& options,
-                         const Context& context);
-MethodResult area_method(const StarGeometry& geometry, const MethodOptions& options,
                          const Context& context);
 
 }  // namespace rholm
