@@ -8,7 +8,7 @@
 #include "base/plain_text.h"
 #include "io/file/number_text.h"
 #include "model/batch/csv.h"
-#include "model/batch/table_names.h"
+#include "model/batch/table_parts.h"
 #include "rholm/batch.h"
 #include "rholm/error.h"
 

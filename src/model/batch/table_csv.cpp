@@ -7,10 +7,8 @@
 
 #include "base/plain_text.h"
 #include "io/file/number_text.h"
-#include "model/batch/cell_text.h"
 #include "model/batch/csv.h"
-#include "model/batch/table_bytes.h"
-#include "model/batch/table_names.h"
+#include "model/batch/table_parts.h"
 #include "rholm/error.h"
 
 namespace rholm {

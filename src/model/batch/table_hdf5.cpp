@@ -8,8 +8,7 @@
 #include "io/file/atomic_file.h"
 #include "io/hdf5/hdf5_values.h"
 #include "io/hdf5/hdf5_writer.h"
-#include "model/batch/table_bytes.h"
-#include "model/batch/table_names.h"
+#include "model/batch/table_parts.h"
 #include "rholm/error.h"
 #include "rholm/version.h"
 

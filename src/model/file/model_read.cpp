@@ -1,13 +1,13 @@
 // The model file, read. Layout: docs/model-file.md.
 #include "model/file/model_read.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "base/crc32.h"
 #include "base/plain_text.h"
@@ -181,6 +181,18 @@ Expansion parse_model(std::span<const char> bytes, const std::string& name) {
 Expansion read_model(const std::filesystem::path& path) {
   const Bytes bytes = read_bytes(path);
   return parse_model(bytes.view(), path == "-" ? "standard input" : path.string());
+}
+
+CoefficientsFile read_any_coefficients(const std::filesystem::path& path,
+                                       const CoefficientsReadOptions& options,
+                                       const Context& context) {
+  const Bytes bytes = read_bytes(path, context);
+  const std::string name = path == "-" ? "standard input" : path.string();
+  if (!looks_like_model(bytes.view())) return parse_coefficients(bytes.view(), name, options);
+  CoefficientsFile file;
+  file.expansion = parse_model(bytes.view(), name);
+  file.convention = {Normalization::kOrthonormal, 1};
+  return file;
 }
 
 }  // namespace rholm

@@ -1,5 +1,5 @@
 // The search for an aim, on outcomes that are known.
-#include "model/atlas/atlas_aims.h"
+#include "model/atlas/atlas_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include "model/batch/csv.h"
 #include "model/batch/journal_bytes.h"
 #include "model/batch/row_bytes.h"
-#include "model/batch/table_bytes.h"
+#include "model/batch/table_parts.h"
 #include "rholm/batch.h"
 #include "rholm/error.h"
 
