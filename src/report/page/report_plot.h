@@ -1,4 +1,5 @@
-// Plots of a report as SVG elements inside of the page, which has their colours (report_style.h).
+// Plots of a report as SVG elements inside of the page, which has their colours
+// (report_markup.cpp).
 #pragma once
 
 #include <string>

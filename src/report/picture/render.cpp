@@ -2,24 +2,60 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <numbers>
 #include <utility>
+#include <vector>
 
 #include "base/check_fields.h"
 #include "base/parallel.h"
 #include "base/refuse.h"
-#include "report/picture/balls.h"
 #include "report/picture/canvas.h"
 #include "report/picture/render_views.h"
 #include "report/picture/scale_bar.h"
 #include "report/picture/shade.h"
 #include "report/picture/shared_light.h"
 #include "report/picture/view.h"
+#include "rholm/context.h"
 #include "rholm/topology.h"
+#include "rholm/vec3.h"
 #include "shape/face.h"
+#include "shape/points/point_tree.h"
 
 namespace rholm {
 namespace {
+
+// How large points are drawn.
+
+constexpr std::size_t kProbes = 1000;  // points that are asked; the median is good to some 2 %
+constexpr std::size_t kNeighbors = 8;  // of each, as a square on a grid has
+
+// Of the diagonal: few points stay points. Chosen by eye.
+constexpr double kLargest = 0.03;
+
+// The usual distance of neighbours, as if they lay on a square grid; the same bits for any number
+// of threads. Points of the order of 1 about the origin, at least one.
+double ball_radius(const std::vector<Vec3>& points, const Context& context) {
+  const double diagonal = bounds(points).diagonal();
+  const double largest = diagonal > 0 ? kLargest * diagonal : kLargest;
+  if (points.size() < 2) return largest;
+  const PointTree tree(points, context);
+  const std::size_t n = tree.size(), probes = std::min(n, kProbes);
+  const std::size_t k = std::min(kNeighbors, n - 1);
+  std::vector<double> distances;
+  std::vector<Neighbor> near;
+  for (std::size_t i = 0; i < probes; ++i) {
+    tree.nearest_to(i * n / probes, k + 1, near);  // with itself
+    distances.push_back(std::sqrt(static_cast<double>(near.back().distance2)));
+  }
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(probes / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  // k points within a disc of that radius have pi r^2 / k each, the square of their distance.
+  // Balls of that radius leave exp(-pi), 4 %, of a surface uncovered by random points.
+  const double spacing = *middle * std::sqrt(std::numbers::pi / static_cast<double>(k));
+  return spacing > 0 ? std::min(spacing, largest) : largest;
+}
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMost = std::numeric_limits<double>::max();

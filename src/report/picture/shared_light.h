@@ -2,10 +2,37 @@
 #pragma once
 
 #include "base/parallel.h"
+#include "base/random.h"
 #include "report/picture/canvas.h"
-#include "report/picture/panel_picture.h"
+#include "report/picture/shade.h"
+#include "report/picture/view.h"
 
 namespace rholm {
+
+// A panel where it stands in the picture.
+struct PanelPicture {
+  const Subject& subject;
+  const View& view;
+  Lamps lamps;
+  const ColorScale& scale;
+  PlaneBox box;
+  double pixels_per_unit;
+  double center_x, center_y;  // pixels
+  int left, right, height;    // pixels
+
+  Ray ray(double x, double y) const {
+    return view.ray({0.5 * (box.min.x + box.max.x) + (x - center_x) / pixels_per_unit,
+                     0.5 * (box.min.y + box.max.y) - (y - center_y) / pixels_per_unit});
+  }
+  // Of those of a pixel, side x side, one at a random place in each of as many squares.
+  Ray ray_of_sample(int x, int y, int sample, int side) const {
+    const std::uint64_t seed = pixel_seed(x, y);
+    const auto jitter = [&](int cell, int k) {
+      return (cell + random_uniform(seed, 2 + 2 * sample + k)) / side;
+    };
+    return ray(x + jitter(sample % side, 0), y + jitter(sample / side, 1));
+  }
+};
 
 // Draws the panel into its part of the canvas, a strip of some pixels after the other; chosen: with
 // some 130 bytes each they stay near the processor. The same bits for any number of threads, and

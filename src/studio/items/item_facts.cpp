@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "rholm/atlas.h"
-#include "studio/items/errors.h"
 #include "studio/items/item.h"
+#include "studio/items/model.h"
 
 namespace rholm::studio {
 namespace {

@@ -1,8 +1,8 @@
 // An item as the page is told of it.
 #include <algorithm>
 
-#include "studio/items/errors.h"
 #include "studio/items/item.h"
+#include "studio/items/model.h"
 #include "studio/items/saved_formats.h"
 
 namespace rholm::studio {

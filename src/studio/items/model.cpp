@@ -10,6 +10,17 @@
 #include "studio/items/arrays.h"
 
 namespace rholm::studio {
+
+std::optional<double> rms_at(const Model& model, int degree) {
+  const Expansion& expansion = model.expansion;
+  if (model.beyond) {
+    if (const auto& rms = model.beyond->rms[static_cast<std::size_t>(degree)]) return rms;
+  }
+  const bool whole = degree == expansion.coefficients.degree();
+  if (!whole || !expansion.errors || expansion.function != RadialFunction::kRadius) return {};
+  return expansion.errors->rms;
+}
+
 namespace {
 
 // As `rholm synthesize` does by default: two vertices a coefficient, 10 4^4 + 2 ... 10 4^7 + 2.

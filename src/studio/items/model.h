@@ -57,4 +57,8 @@ struct QuickSurface {
 };
 QuickSurface quick_surface(const Model& model, const Look& look, const Context& context = {});
 
+// The rms error of the radius, cut off at a degree: by the norm, or as it was measured, which is
+// known of all degrees together only. None where nobody knows it.
+std::optional<double> rms_at(const Model& model, int degree);
+
 }  // namespace rholm::studio

@@ -11,7 +11,6 @@
 
 #include "report/picture/canvas.h"
 #include "report/picture/color.h"
-#include "report/picture/panel_picture.h"
 #include "report/picture/shade.h"
 #include "report/picture/shared_light.h"
 #include "report/picture/view.h"
