@@ -1,29 +1,14 @@
 #include "rholm/large_mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <filesystem>
-#include <functional>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
 
-#include "base/cancel.h"
 #include "base/parallel.h"
-#include "io/ply/mapped_rows.h"
+#include "io/ply/mapped_polygons.h"
 #include "io/shapes/face_list.h"
 #include "io/shapes/shape_source.h"
 #include "io/shapes/shape_writers.h"
-#include "rholm/context.h"
 #include "rholm/error.h"
-#include "rholm/mapped_mesh.h"
-#include "rholm/mesh.h"
-#include "rholm/polygon.h"
 #include "shape/face.h"
 #include "shape/measure.h"
 #include "shape/topology/closed.h"
@@ -31,151 +16,6 @@
 
 namespace rholm {
 namespace {
-
-// A mesh in a binary PLY whose faces have any number of corners, where it lies.
-class MappedPolygons {
- public:
-  // Vertices, and no triangles.
-  const MappedMesh& vertices() const { return vertices_; }
-  std::size_t n_triangles() const { return n_triangles_; }
-  std::size_t skipped() const { return skipped_; }  // faces with fewer than three corners
-
-  // The triangles of all faces, as FaceList has them; what was visited is released.
-  void visit(const std::function<void(const Triangle&)>& visit) const;
-
- private:
-  friend std::optional<MappedPolygons> map_polygons(const std::filesystem::path&, const Context&);
-  MappedPolygons(MappedMesh vertices, std::uint64_t n_faces)
-      : vertices_(std::move(vertices)), n_faces_(n_faces) {}
-  bool survey(std::size_t bytes);
-
-  MappedMesh vertices_;
-  std::uint64_t n_faces_;
-  std::size_t n_triangles_ = 0, skipped_ = 0;
-};
-
-constexpr std::size_t kMostCorners = 255;  // the length is a byte
-
-// The corners of a face.
-struct Corners {
-  std::array<std::uint32_t, kMostCorners> index;
-  std::size_t n = 0;
-
-  std::span<const std::uint32_t> all() const { return std::span(index).first(n); }
-};
-
-std::size_t bytes_of(std::size_t corners) { return 1 + 4 * corners; }
-
-void take(const std::byte* face, Corners& corners) {
-  corners.n = std::to_integer<std::size_t>(*face);
-  std::memcpy(corners.index.data(), face + 1, 4 * corners.n);
-}
-
-// As FaceList: corners of polygons that are equal to the one before go.
-void clean(Corners& corners) {
-  if (corners.n <= 3) return;
-  const auto begin = corners.index.begin();
-  auto end = std::unique(begin, begin + static_cast<std::ptrdiff_t>(corners.n));
-  while (end > begin + 1 && *(end - 1) == *begin) --end;
-  corners.n = static_cast<std::size_t>(end - begin);
-}
-
-// Cuts polygons into triangles, with their corners alone.
-class Cutter {
- public:
-  explicit Cutter(const MeshView& mesh) : mesh_(mesh) {}
-
-  void visit(const Corners& corners, const std::function<void(const Triangle&)>& visit) {
-    places_.clear();
-    numbers_.clear();
-    triangles_.clear();
-    for (const std::uint32_t corner : corners.all()) {
-      numbers_.push_back(static_cast<std::uint32_t>(places_.size()));
-      places_.push_back(mesh_.vertex(corner));
-    }
-    triangulate_polygon(places_, numbers_, triangles_);
-    for (const auto& [a, b, c] : triangles_) {
-      visit({corners.index[a], corners.index[b], corners.index[c]});
-    }
-  }
-
- private:
-  const MeshView& mesh_;
-  std::vector<Vec3> places_;
-  std::vector<std::uint32_t> numbers_;
-  std::vector<Triangle> triangles_;
-};
-
-// Tells what has been passed over in blocks.
-class FaceRelease {
- public:
-  explicit FaceRelease(const MappedMesh& mesh) : mesh_(mesh) {}
-  void passed(std::size_t bytes) {
-    constexpr std::size_t kBlock = std::size_t{1} << 20;
-    if (bytes - done_ < kBlock) return;
-    mesh_.release(done_ / kFaceBytes, (bytes - done_) / kFaceBytes);
-    done_ = bytes;
-  }
-
- private:
-  const MappedMesh& mesh_;
-  std::size_t done_ = 0;
-};
-
-// Whether the faces fill the bytes, with indices in range.
-bool MappedPolygons::survey(std::size_t bytes) {
-  const MeshView& view = vertices_.view();
-  const std::byte* const faces = view.triangles - 1;
-  Corners corners;
-  FaceRelease release(vertices_);
-  CancelPoll poll;
-  std::size_t at = 0;
-  for (std::uint64_t face = 0; face < n_faces_; ++face) {
-    poll();
-    if (at == bytes) return false;
-    const std::size_t size = bytes_of(std::to_integer<std::size_t>(faces[at]));
-    if (size > bytes - at) return false;
-    take(faces + at, corners);
-    for (const std::uint32_t corner : corners.all()) {
-      if (corner >= view.n_vertices) return false;
-    }
-    clean(corners);
-    corners.n < 3 ? ++skipped_ : n_triangles_ += corners.n - 2;
-    at += size;
-    release.passed(at);
-  }
-  return at == bytes;
-}
-
-void MappedPolygons::visit(const std::function<void(const Triangle&)>& visit) const {
-  const std::byte* const faces = vertices_.view().triangles - 1;
-  Corners corners;
-  Cutter cutter(vertices_.view());
-  FaceRelease release(vertices_);
-  std::size_t at = 0;
-  for (std::uint64_t face = 0; face < n_faces_; ++face) {
-    take(faces + at, corners);
-    at += bytes_of(corners.n);
-    clean(corners);
-    if (corners.n == 3) {
-      visit({corners.index[0], corners.index[1], corners.index[2]});
-    } else if (corners.n > 3) {
-      cutter.visit(corners, visit);
-    }
-    release.passed(at);
-  }
-}
-
-// As map_mesh(), of faces with any number of corners; all of them are looked at, and a file with
-// anything wrong in its faces is none.
-std::optional<MappedPolygons> map_polygons(const std::filesystem::path& path,
-                                           const Context& context) {
-  std::optional<MappedRows> rows = map_rows(path, context);
-  if (!rows) return {};
-  MappedPolygons polygons(std::move(rows->mesh), rows->n_faces);
-  if (!polygons.survey(rows->face_bytes)) return {};
-  return polygons;
-}
 
 [[noreturn]] void refuse_face() {
   throw Error(ErrorCode::kInvalidInput, "a face is not a triangle");
