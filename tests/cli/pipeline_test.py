@@ -150,7 +150,7 @@ class Analyze(CliTest):
         self.assertTrue((self.folder / "a.h5").exists())
 
     def test_a_precision_that_is_not_reached_is_exit_code_4(self):
-        self.rholm("make", "ellipsoid", "--axes", "1,1,1e-7", "--subdivisions", "2", "-o", "flat.ply")
+        self.rholm("make", "ellipsoid", "--axes", "1,1,1e-10", "--subdivisions", "2", "-o", "flat.ply")
         result = self.rholm("analyze", "flat.ply", "--degree", "6", "-o", "flat.h5", code=4)
         self.assertIn("--engine direct", result.err)
         self.assertTrue((self.folder / "flat.h5").exists())

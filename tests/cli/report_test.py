@@ -95,7 +95,7 @@ class Report(CliTest):
             self.assertIn(words, text)
 
     def test_a_precision_that_is_not_reached_is_said_with_the_way_to_it(self):
-        self.rholm("make", "ellipsoid", "--axes", "1,1,1e-7", "--subdivisions", "2", "-o", "flat.ply")
+        self.rholm("make", "ellipsoid", "--axes", "1,1,1e-10", "--subdivisions", "2", "-o", "flat.ply")
         text = self.page("flat.ply", "--degree", "6", code=4).text()
         said = self.run_rholm("report", "flat.ply", "--degree", "6", "--size", "16", "-o", "f.html").err
         for words in (text, said):
