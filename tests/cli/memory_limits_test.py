@@ -8,7 +8,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, RHOLM, TIMEOUT, main
+from harness import CliTest, RHOLM, TIMEOUT, main, nightly
 
 MIB = 1 << 20
 GIB = 1 << 30
@@ -150,18 +150,26 @@ class Limits(CliTest):
                 self.assertEqual(code, 0, said)
                 self.assertLessEqual(used, limit * GIB + BESIDE)
 
-    @unittest.skipIf(LARGE, "the large ones")
-    def test_tiles_are_refused_with_a_limit_and_a_size_that_are_enough(self):
+    def tiles_are_refused(self, limits_of_tiles, limits):
         self.rholm("make", "sphere", "--subdivisions", "5", "-o", "mesh.ply")
         self.rholm("make", "sample", "mesh.ply", "--points", "60000", "-o", "points.ply")
         line = "reconstruct points.ply -o out.ply --tile-points 10000"
         refused = self.peak(line.split(), 0.01)
         self.assertRegex(refused[1], r"need some [\d.]+ GiB")
-        for limit in (0.006, 0.01, 0.015):
+        for limit in limits_of_tiles:
             self.assertFalse(self.check(line, limit))  # which tries what is named
-        for limit in (0.003, 0.006, 0.01, 0.02, 0.04):
+        for limit in limits:
             self.assertFalse(self.check("reconstruct points.ply -o out.ply", limit))
         self.assertTrue(self.check("reconstruct points.ply -o out.ply", 0.1))
+
+    @unittest.skipIf(LARGE, "the large ones")
+    def test_tiles_are_refused_with_a_limit_and_a_size_that_are_enough(self):
+        self.tiles_are_refused([0.01], [0.02])
+
+    @nightly
+    @unittest.skipIf(LARGE, "the large ones")
+    def test_tiles_are_refused_with_limits_and_sizes_that_are_enough(self):
+        self.tiles_are_refused([0.006, 0.01, 0.015], [0.003, 0.006, 0.01, 0.02, 0.04])
 
     @unittest.skipIf(LARGE, "the large ones")
     def test_nothing_is_refused_where_no_limit_was_said(self):
