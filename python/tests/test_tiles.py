@@ -196,9 +196,7 @@ def test_scans_are_brought_together_as_by_the_program(program, cloud, tmp_path):
     assert made.report.scans.scans == 2
     assert made.report.scans.distance < 0.3 * made.report.scans.distance_before
     made.save(tmp_path / "s.ply")
-    assert (tmp_path / "s.ply").read_bytes() == by_program(
-        program, tmp_path, "--tile-points", str(TILE)
-    )
+    assert (tmp_path / "s.ply").read_bytes() == by_program(program, tmp_path, "--tile-points", str(TILE))
 
 
 def test_what_the_forecast_raises_ends_the_run(cloud, tmp_path):
