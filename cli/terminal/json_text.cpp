@@ -78,7 +78,8 @@ Json json_of(const FastReport& fast) {
       {"error_of_top_quarter", fast.band_error},
       {"measured_share", fast.measured_share},
       {"error_doubt", measured ? Json(fast.error_doubt) : Json(nullptr)},
-      {"kinds", {{"error", kind}, {"error_of_top_quarter", kind}, {"error_doubt", "estimate"}}}};
+      {"kinds",
+       {{"error", kind}, {"error_of_top_quarter", "estimate"}, {"error_doubt", "estimate"}}}};
 }
 
 void print_json(const Json& json) {

@@ -166,7 +166,7 @@ it("parameters of windows are those of the program", async () => {
   expect(Buffer.compare(await save("npy"), bytesOf(studio, "low.npy"))).toBe(0);
   await time.fill("-1");
   await time.press("Enter");
-  await page.getByText("Time is a number from").waitFor();
+  await page.getByText("Time t is a number from").waitFor();
   expect(await time.inputValue()).toBe("0.005");
   await time.fill("");
   await time.press("Enter");

@@ -102,7 +102,9 @@ double measure(const MeshPassResult& finer, double precision, MeshPassResult& re
   const double modelled = std::max(report.error, result.least_error);
   report.measured_share = 1;
   report.error = relative(1);
-  report.band_error = relative(3 * degree / 4 + 1);
+  // Where faces are small against the waves, both readings have them alike, and what that leaves in
+  // the highest degrees with them.
+  report.band_error = std::hypot(relative(3 * degree / 4 + 1), finer.report.band_error);
   // The model of the finer reading may be wrong by as much as that of the coarser one was.
   const double wrong = modelled > 0 ? report.error / modelled : 1.0;
   report.error_doubt = finer.report.error * std::max(1.0, wrong);
