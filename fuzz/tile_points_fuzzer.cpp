@@ -1,5 +1,6 @@
 #include "reconstruct/points/tile_points.h"
 
+#include "parts/memory_store.h"
 #include "rholm/error.h"
 
 // A sorted tile whose first byte says where the index ends; the rest are rows of one chunk.
@@ -9,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t index = std::min<std::size_t>(data[0], size - 1);
   const std::vector<std::span<const std::byte>> sections = {{bytes, index},
                                                             {bytes + index, size - 1 - index}};
-  rholm::PieceStore store;
+  rholm::MemoryStore store;
   store.write(rholm::sorted_name(0), sections);
   try {
     const rholm::TilePoints points = rholm::read_points(store, 0);
