@@ -40,7 +40,7 @@ class PieceContent {
 template <class T>
 class PieceValues {
  public:
-  using value_type = T;
+  using value_type = T;  // NOLINT(readability-identifier-naming): as containers have it
 
   PieceValues(std::shared_ptr<const PieceContent> content, std::span<const T> values)
       : content_(std::move(content)), values_(values) {}
@@ -63,7 +63,7 @@ class PieceValues {
     return values_[i];
   }
   // As numbers that can be changed: a copy of those in memory.
-  operator std::vector<T>() && {  // NOLINT(google-explicit-constructor)
+  operator std::vector<T>() && {  // NOLINT(misc-explicit-constructor)
     return content_ ? std::vector<T>(begin(), end()) : std::move(read_);
   }
 

@@ -32,11 +32,12 @@ TEST(threads, work_each_part_once_and_take_in_order) {
     for (const std::size_t count : {0u, 1u, 2u, 100u}) {
       const std::thread::id caller = std::this_thread::get_id();
       std::vector<std::size_t> taken;
-      Threads(n).run({.count = count}, slow_now_and_then, [&](std::size_t part, std::string bytes) {
-        EXPECT_EQ(std::this_thread::get_id(), caller);
-        EXPECT_EQ(bytes, std::to_string(part));
-        taken.push_back(part);
-      });
+      Threads(n).run({.count = count}, slow_now_and_then,
+                     [&](std::size_t part, const std::string& bytes) {
+                       EXPECT_EQ(std::this_thread::get_id(), caller);
+                       EXPECT_EQ(bytes, std::to_string(part));
+                       taken.push_back(part);
+                     });
       std::vector<std::size_t> wanted(count);
       std::iota(wanted.begin(), wanted.end(), 0);
       EXPECT_EQ(taken, wanted);

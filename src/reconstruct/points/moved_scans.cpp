@@ -61,6 +61,7 @@ class ScanSample {
     trim();
     std::sort(rows_.begin(), rows_.end(), comes_before);
     std::vector<Vec3> places;
+    places.reserve(rows_.size());
     for (const Row& row : rows_) places.push_back(row.point);
     const FarBall ball = options.keep_outliers ? FarBall{} : find_far_ball(places);
     PointCloud cloud;

@@ -104,6 +104,7 @@ void TileSurface::find_values(std::size_t tile, const Context& context) {
   const std::vector<std::uint32_t> which = open_blocks(grid, blocks.own.size(), context);
   write_near_open(tile, grid, blocks.own.size(), which);
   std::vector<BlockCoordinates> open;
+  open.reserve(which.size());
   for (const std::uint32_t b : which) open.push_back(grid.blocks[b]);
   const std::span<const std::byte> places[] = {bytes_of(open)};
   store_.write(name_of("open", tile), places);

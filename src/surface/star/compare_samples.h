@@ -37,10 +37,10 @@ class CompareSamples {
 
   // All samples there and back, in parts: those of one way come before those of the other.
   std::size_t n_parts() const { return 2 * parts_of_way(); }
-  // The bytes of a part. Any thread.
-  std::string work(std::size_t part);
+  // The bytes of the part of that number. Any thread.
+  std::string work(std::size_t number);
   // Puts them where they belong. Throws Io for other bytes.
-  void take(std::size_t part, std::string_view bytes, SampleDistances& forth,
+  void take(std::size_t number, std::string_view bytes, SampleDistances& forth,
             SampleDistances& back) const;
 
   const CompareOptions& options() const { return options_; }
