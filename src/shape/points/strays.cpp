@@ -36,7 +36,7 @@ constexpr std::size_t kAround = 16;
 constexpr double kVolume = 0.2;
 // Limits for single points. kFar: distance to other points, over the distance to their eighth
 // neighbours. kOff: distance from the plane of the neighbours, relative to their radius. kThick:
-// squared thickness of the neighbours over their length. A sparser point in its surroundings' plane
+// squared thickness of the neighbours over their length. Sparser points in it stay.
 // is no outlier.
 constexpr double kFar = 10;
 constexpr double kOff = 0.25;
