@@ -1,5 +1,5 @@
-// Maximises t subject to n_T . c + t <= n_T . v_T over a growing pool of faces: first a sample
-// spread over all faces, then also the faces that turn out to matter.
+// Maximises t subject to n_T . c + t <= n_T . v_T over a growing pool of faces. The pool is at
+// first a sample spread over all faces; then faces that turn out to matter join it.
 //
 // A pass over all faces at the pool's optimum keeps, for each chunk of faces, the faces with the
 // smallest d_T, and a lower bound of d_T of all others. Moving the centre by delta changes no d_T

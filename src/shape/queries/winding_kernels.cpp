@@ -37,7 +37,7 @@ HWY_INLINE V Near(D d, const WindingPoint& point, const Vector3& x) {
 }
 
 // The field of a dipole is a . F(r), F(r) = r / |r|^3 = -grad 1/|r|.
-// Taylor's series of sum a . F(r + o) for r = center - x, R = |r|, and the node's forms p and q is
+// Taylor's series of sum a . F(r + o), with r = center - x, R = |r| and the forms p, q of the node:
 //   a . r / R^3   +   tr p / R^3 - 3 p(r) / R^5   +   15/2 q(r) / R^7 - 3/4 (laplacian q)(r) / R^5.
 // The second derivatives of 1/|r| are 3 r r / R^5 - 1 / R^3. On a symmetric form, the third ones
 // are -15 q(r) / R^7 + 9/6 (laplacian q)(r) / R^5.
