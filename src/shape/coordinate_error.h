@@ -13,12 +13,12 @@
 
 namespace rholm {
 
-// Returns the largest error of any vertex along each axis, in the unit of the mesh. The result is
-// the maximum of these values; the last two count only where they leave at least half of the faces
+// Returns the largest error of any vertex along each axis, in the unit of the mesh. It is the
+// maximum of these values; the last two count only if they leave at least half of the faces
 // wider:
 // - Double precision: 2^-43 times the largest coordinate on the axis.
-// - Single precision, if every coordinate is a float or a float written in decimal: the spacing of
-// floats at the largest coordinate on the axis.
+// - Single precision, if every coordinate is a float or a float written in decimal: the spacing
+//   of floats at the largest coordinate on the axis.
 // - Decimals, if every coordinate has 5 to 13 decimal digits: the unit of the last digit.
 // `mesh` has finite coordinates. Throws InvalidInput if it meets an index out of range.
 Vec3 coordinate_error(const MeshView& mesh);

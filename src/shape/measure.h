@@ -17,7 +17,7 @@ struct Sizes {
 Sizes measure_sizes(const MeshView& mesh, const UnitFrame& frame, const Context& context);
 
 // Returns true if a sum of volumes is more than rounding. Each volume has a relative rounding of a
-// few 2^-53; below 16 2^-53 of the moduli (chosen) a sum has no digit.
+// few 2^-53; below 16 2^-53 of the moduli (chosen) no digit is correct.
 inline bool has_volume(double six_volumes, double moduli) {
   return std::abs(six_volumes) > 0x1p-49 * moduli;
 }

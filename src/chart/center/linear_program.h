@@ -28,16 +28,16 @@ class LinearProgram {
  public:
   LinearProgram(double reach, double most);
   void add(const Row& row) { rows_.push_back(row); }
-  // Continues from the last basis. Returns false at the limit of steps, or if each step would make
-  // the basis singular within rounding. Then center() and top() are the values of the last good
-  // basis, and top() is still an upper bound. With `roughly`, rows may be violated by their
-  // rounding.
+  // Continues from the last basis. Returns false at the limit of steps, or if the next step
+  // would make the basis singular within rounding. Then center() and top() are the values of
+  // the last good basis, and top() is still an upper bound. With `roughly`, rows may be
+  // violated by their rounding.
   bool solve(bool roughly = false);
 
   const Vec3& center() const { return center_; }
   double top() const { return top_; }  // the largest t
-  // Rows that hold the optimum, and their weights >= 0: the sum of weight * (a, lift) is (0, 0, 0,
-  // 1).
+  // Rows that hold the optimum, and their weights. Weights are >= 0, and the sum of weight *
+  // (a, lift) is (0, 0, 0, 1).
   const std::array<std::size_t, 4>& basis() const { return basis_; }
   const std::array<double, 4>& weights() const { return weights_; }
   const std::vector<Row>& rows() const { return rows_; }

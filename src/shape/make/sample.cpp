@@ -1,5 +1,5 @@
 // Makes random points on a surface. Every point has its own stream of random numbers. So it depends
-// neither on threads nor on the amount of numbers used for other points.
+// neither on threads nor on how many numbers other points use.
 #include <algorithm>
 #include <array>
 #include <cmath>

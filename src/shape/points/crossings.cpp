@@ -19,8 +19,8 @@ namespace {
 
 // All lengths are in radii of the neighbourhood, unless stated otherwise.
 
-// Number of points looked at, over the square root of all points. Chosen: 4 of them are near the
-// shortest crossing that is refused.
+// Number of points looked at, over the square root of the number of all points. Chosen: 4 of them
+// are near the shortest crossing that is refused.
 constexpr double kSeeds = 10;
 // Largest radius of a local ball, relative to the diagonal, as in local_shape.cpp.
 constexpr double kLocal = 0.2;

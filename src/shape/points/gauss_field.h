@@ -24,7 +24,7 @@ namespace rholm {
 class GaussField {
  public:
   // `points`: coordinates of order 1, in the order of the tree. The tree is kept by reference.
-  // `areas`: weights of points in the middle of a set.
+  // `areas`: weights of the points for the middle of a set.
   GaussField(const PointTree& tree, std::span<const Vec3> points, std::span<const double> areas,
              const Context& context);
 

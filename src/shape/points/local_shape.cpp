@@ -17,8 +17,8 @@ namespace {
 constexpr double kFlat = 0.4;    // below: surely a surface
 constexpr double kThick = 0.63;  // above: surely no surface
 constexpr double kFilled = 2.4;  // between the two limits: a volume if the kurtosis is below this
-// Median width of neighbourhoods: a curve has less than kLong at one scale at least. Random points
-// of a surface have 0.7 and more.
+// Median width of neighbourhoods: a curve has less than kLong at one scale at least. Below kWide
+// they count as no surface. Random points of a surface have 0.7 and more.
 constexpr double kLong = 0.25, kWide = 0.4;
 constexpr std::size_t kSeeds = 200, kFewest = 100;
 constexpr std::size_t kFirst = 12, kMost = 16384;

@@ -15,8 +15,8 @@ namespace rholm {
 
 inline constexpr int kGraphNeighbors = 10;  // chosen: Hoppe's graph stays connected and small
 
-// Largest number of neighbours for paraboloids. If noise requires more, planes are as good and
-// edges cannot be resolved (scripts/constants, noise of 0.2 % of the diagonal: half the time).
+// Largest number of neighbours for paraboloids. With more noise they gain nothing over planes and
+// take twice the time (scripts/constants, noise of 0.2 % of the diagonal); edges are not resolved.
 inline constexpr int kMostForCurvature = 50;
 
 // Results of the fits, in the order of the tree. All points are distinct.
@@ -51,9 +51,9 @@ void keep_graph_neighbors(std::size_t i, std::size_t stride, std::span<const Nei
                           std::span<std::uint32_t> rows);
 
 // Fits again to neighbours on the same sheet. `sheet`: unit vectors that point outwards
-// and distinguish two close sheets. A fit that disagrees with its vector is replaced by
-// it. Normals point outwards. Returns residuals relative to the radius, 1 where fits
-// disagree with the vectors.
+// and distinguish two close sheets. Where a fit disagrees with the vector, the normal is
+// the vector. Normals point outwards. Returns residuals relative to the radius, 1 where a
+// fit and its vector disagree.
 std::vector<float> refit_on_sheets(const PointTree& tree, std::span<const Vec3> points,
                                    const SamplingGaps& gaps, std::span<const Vec3> sheet,
                                    LocalFits& fits, const Context& context);
@@ -64,9 +64,9 @@ std::vector<float> refit_on_sheets(const PointTree& tree, std::span<const Vec3> 
 int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
                      const Context& context);
 
-// Improves the fits of points near an edge, which have neighbours on both sides of it. Such a point
-// takes the plane, among those given by itself and a neighbour's normal, that most neighbours are
-// close to, if there is one.
+// Improves fits of points near an edge, which have neighbours on both of its sides. Such a point
+// takes a plane through itself and one side, if there is one: of the planes given by the
+// neighbours' normals, the one that most neighbours are close to.
 void refine_at_edges(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
                      LocalFits& fits, const Context& context);
 

@@ -34,7 +34,7 @@ double agreement(const Vec3& p, const Vec3& np, const Vec3& q, const Vec3& nq, d
 OrientedParts orient_along_graph(std::span<const Vec3> points, const LocalFits& fits,
                                  std::vector<Vec3>& normals);
 
-// Sum of the votes of all edges between two pieces.
+// The votes of two pieces for each other.
 struct PieceVotes {
   std::uint32_t a = 0, b = 0;  // pieces, a < b
   double sum = 0;              // of agreements; negative if one piece should be flipped

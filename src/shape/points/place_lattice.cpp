@@ -14,7 +14,7 @@ namespace {
 // single precision (point_tree.h).
 constexpr double kPlace = 0x1p-23;
 
-// Scales before normalizing, because normals in a file have any length.
+// Scales before it normalises, because normals in a file have any length.
 Vec3 unit_or_zero(const Vec3& v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (!(largest > 0) || !is_finite(v)) return {};

@@ -102,7 +102,7 @@ void Gather(const PointTree::View& tree, const float* at, float radius2, std::si
     std::uint32_t node;
     unsigned bits;
   } stack[9];
-  // A vector initializes all elements that it grows by; most results fit into this array.
+  // A vector initialises all elements that it grows by; most results fit into this array.
   constexpr std::size_t kFew = 256;
   Neighbor few[kFew];
   Neighbor* to = few;

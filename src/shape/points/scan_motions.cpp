@@ -109,7 +109,7 @@ Blocks blocks_of(std::span<const ScanPair> pairs, std::span<const ScanBody> bodi
   blocks.factors = blocks.diagonal;
   for (Matrix6& factor : blocks.factors) {
     if (factorize(factor)) continue;
-    // A set on a line does not determine turns about it; then there is no preconditioner.
+    // Points on a line do not determine turns about it; then this scan has no preconditioner.
     factor = {};
     for (int i = 0; i < kSix; ++i) factor[i][i] = 1;
   }

@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t kAreaSeeds = 2000;  // chosen: volumes to 2 % of area times size
 // The squared distance to the eighth neighbour is the area of eight points, up to a factor.
 constexpr std::size_t kDisc = 8;
-// Largest area of a point, relative to the median: it limits an outlier far from all others. Where
-// the density falls 30 times, points of the sparse end have 5.
+// Largest area of a point, in medians: it limits an outlier far from all others. Where the density
+// falls 30 times, points of the sparse end have 5 medians.
 constexpr double kMostOfMedian = 10;
 // Largest length of the mean normal of a nearly closed surface: at most a fifth of a sphere is
 // missing. It is zero for a closed surface and 0.5 for half a sphere.

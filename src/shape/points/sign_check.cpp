@@ -26,7 +26,7 @@ constexpr std::uint32_t kFewestVotes = 3;
 // Least share of the edges between two pieces that flips one. At tips thinner than the
 // spacing, few edges contradict.
 constexpr double kLeastShare = 0.34;
-// Number of edges of a point, times two: undecided edges are divided by it.
+// Twice the number of edges of a point: the divisor that converts undecided edges to points.
 constexpr double kEdgesOfPoint = 10;
 
 // Limit of the mean of the winding numbers behind and before a point, relative to 1/2, the value of
@@ -136,7 +136,7 @@ std::vector<std::uint8_t> find_closed(const std::vector<PiecePair>& pairs,
   return closed;
 }
 
-// Flips pieces to agree, in descending order of their votes.
+// Flips pieces to agree, in descending order of their contradicting edges.
 SignedSets join_pieces(std::vector<PiecePair> pairs, const std::vector<std::uint32_t>& whole,
                        const std::vector<std::uint8_t>& closed) {
   SignedSets sets(whole.size());

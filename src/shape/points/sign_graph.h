@@ -2,8 +2,8 @@
 //
 // The normal of one end is reflected in the plane that halves the edge (orient_graph.h). The ends
 // agree if the result is nearly the normal of the other end, and contradict each other if it is
-// nearly opposite. Edges count only within the surface, where no end is above the other.
-// end is above the other.
+// nearly opposite. An edge counts only if it lies within the surface: neither end is above the
+// other along their normals.
 #pragma once
 
 #include <cstddef>

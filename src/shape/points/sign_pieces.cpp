@@ -12,7 +12,7 @@
 namespace rholm {
 namespace {
 
-// Number of dependent values: a point has ten edges, and each edge two ends.
+// Number of edges per point, with dependent values: a point has ten edges, and an edge two ends.
 constexpr double kEdgesOfPoint = 5;
 
 // Numbers the pieces in the order of first points, among points reached from own points.

@@ -1,10 +1,10 @@
 // Loads corners of triangles of a MeshView as vectors of double precision. For inner loops;
 // included once for every kind of processor (Highway).
 //
-// Corners are loaded row by row, x, y, z of one vertex at a time. They are turned into vectors
-// of x, y and z in registers. This needs a third of the loads of a gather, and a quarter of the
-// time where gathers are slow. Measured on a Cascade Lake with the mitigation of gather data
-// sampling: 13 ns a triangle.
+// Corners are loaded row by row, x, y, z of one vertex at a time. They are turned into vectors of
+// x, y and z in registers. This needs a third of the loads of a gather, and a quarter of the time
+// where gathers are slow. Gathers take 13 ns a triangle on a Cascade Lake with the mitigation of
+// gather data sampling (measured).
 #if defined(RHOLM_SHAPE_CORNER_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RHOLM_SHAPE_CORNER_ROWS_INL_H_
 #undef RHOLM_SHAPE_CORNER_ROWS_INL_H_

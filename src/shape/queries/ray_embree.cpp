@@ -45,8 +45,8 @@ using Device = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
 using Scene = std::unique_ptr<RTCSceneTy, SceneDeleter>;
 using Geometry = std::unique_ptr<RTCGeometryTy, GeometryDeleter>;
 
-// Answers Embree whether to continue building. Embree's own threads, which have no scope, and
-// threads of another caller's scope ask too.
+// Answers Embree whether to continue building. Embree also asks on threads of its own, which have
+// no scope, and on threads with another caller's scope.
 bool keep_building(void* scope, double) {
   return scope != cancel_scope() || static_cast<const CancelScope*>(scope)->keep_going();
 }

@@ -64,7 +64,7 @@ void add(Form& sum, const Form& form, double factor = 1) {
   for (std::size_t k = 0; k < form.size(); ++k) sum[k] += factor * form[k];
 }
 
-// Adds moments that are moved from center + offset to the center: sum a (o + offset)
+// Adds moments that are moved from centre + offset to the centre: sum a (o + offset)
 // and sum a (o + offset)^2.
 void add_moments(WindingNode& sum, const WindingNode& part, const Vec3& offset) {
   const QuadraticForm moved = product(part.area_normal, offset);

@@ -1,4 +1,4 @@
-// The half-edges of a mesh, grouped by edge.
+// Sorts the half-edges of a mesh into groups of one edge.
 #pragma once
 
 #include <cstddef>

@@ -29,8 +29,8 @@ inline constexpr std::uint32_t kNoMate = ~std::uint32_t{0};
 std::vector<std::uint32_t> find_mates(std::size_t n_vertices,
                                       const std::vector<Triangle>& triangles);
 
-// Returns for each inner vertex a half-edge that begins there. Triangles are oriented alike. It is
-// kNoMate at borders, and where a vertex has several fans.
+// Returns for each inner vertex a half-edge that begins there; kNoMate for vertices of borders or
+// with several fans. The triangles must be oriented alike.
 std::vector<std::uint32_t> inner_outgoing(std::size_t n_vertices,
                                           const std::vector<Triangle>& triangles,
                                           const std::vector<std::uint32_t>& mates);
