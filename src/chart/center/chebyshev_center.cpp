@@ -1,15 +1,16 @@
 // Maximises t subject to n_T . c + t <= n_T . v_T over a growing pool of faces. The pool is at
 // first a sample spread over all faces; then faces that turn out to matter join it.
 //
-// A pass over all faces at the pool's optimum keeps, for each chunk of faces, the faces with the
-// smallest d_T, and a lower bound of d_T of all others. Moving the centre by delta changes no d_T
-// by more than |delta|. If the optimum of the grown pool is near enough, the bounds prove without
-// another pass that it is the optimum of all faces. Only chunks whose bound is too weak are passed
-// again.
+// A pass over all faces works at the pool's optimum. For each chunk of faces it keeps the faces
+// with the smallest d_T, and a lower bound of d_T of all others. Moving the centre by delta
+// changes no d_T by more than |delta|. If the optimum of the grown pool is near enough, the
+// bounds prove without another pass that it is the optimum of all faces. Only chunks whose bound
+// is too weak are passed again.
 //
 // The optimum need not be one point: between two parallel faces it is a whole plane. Then the faces
-// that hold it are fixed, and the smallest d_T of the others is maximised within the plane, until a
-// point is left (the nucleolus, Schmeidler 1969). For example, the centre of a box is its middle.
+// that hold it are fixed, and the smallest d_T of the others is maximised within the plane. This
+// repeats until a point is left (the nucleolus, Schmeidler 1969); the centre of a box is its
+// middle.
 //
 // A plane that rounding of its corners may turn counts as far out as it may lie. A face thinner
 // than the rounding does not count.
@@ -106,9 +107,9 @@ struct PoolOptimum {
   LinearProgram program{kReach, kMostDistance};
   Vec3 point;
   double top = kMostDistance;  // upper bound of the smallest d_T in the pool, and so in all
-  // Planes that rounding has turned against each other, for example on a flat wall in single
-  // precision, meet anywhere and may keep the program from its end. If true, each plane counts as
-  // far out as it may lie.
+  // Planes turned against each other by rounding, for example on a flat wall in single
+  // precision, meet anywhere and may keep the program from its end. If true, each plane counts
+  // as far out as it may lie.
   bool roughly = false;
   bool ended = true;  // false: rounding keeps the program from its end even with `roughly`
 

@@ -1,8 +1,8 @@
 // Solves a linear program in four unknowns whose rows arrive in rounds.
 //
 // Source: the dual simplex method with the lexicographic rule against cycling (Dantzig, Orden,
-// Wolfe 1955). The basis consists of four rows. Each step takes in the row that is violated most,
-// and inverts the basis's 4 x 4 matrix afresh, so that rounding does not build up.
+// Wolfe 1955). The basis consists of four rows. Each step takes in the row that is violated most.
+// It inverts the basis's 4 x 4 matrix afresh, so that rounding does not build up.
 #pragma once
 
 #include <array>

@@ -8,8 +8,8 @@
 // The point is sought on the line through the middle of the kernel and the centroid of the solid.
 // Both points keep every symmetry of the body, and so do all points of the line.
 //
-// A sample of the faces gives a first guess. Passes over all faces then find where the derivative
-// of the slope is zero, so that the point does not depend on the order of the faces.
+// A sample of the faces gives a first guess. Passes over all faces then find the zero of the
+// slope's derivative, so that the point does not depend on the order of the faces.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -27,8 +27,8 @@ std::optional<int> surplus_at(const LocalView& view, const Vec3& center, const V
   std::vector<Part> parts((n + grain - 1) / grain);
   parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
     Part& part = parts[begin / grain];
-    // If a direction lies on the same side of all three sides of a cone, a front face meets this
-    // direction, or a back face meets the opposite direction.
+    // A direction on the same side of all three sides of a cone meets a front face, or its opposite
+    // direction meets a back face.
     scan_lines(view, begin, end, view.frame.to_local(center), direction, [&](std::size_t triangle) {
       const auto corners = corners_from(view, triangle, center);
       const double height = dot(cross(corners[0], corners[1]), corners[2]);

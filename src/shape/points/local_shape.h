@@ -2,9 +2,9 @@
 // volume. Layer: shape.
 //
 // Neighbourhoods grow until most of them are flat: the third principal axis is short against
-// the second, and the second is not short against the first. On a clean surface they are
-// flat at once, on a noisy one as soon as they are wider than the noise, and in a volume
-// never. Neighbourhoods on a curve are long. So are neighbourhoods in rows of a scanner
+// the second, and the second is not short against the first. On a clean surface they are flat
+// at once, on a noisy one as soon as they are wider than the noise. In a volume they are
+// never flat. Neighbourhoods on a curve are long. So are neighbourhoods in rows of a scanner
 // until they reach other rows.
 #pragma once
 

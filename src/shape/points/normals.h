@@ -64,9 +64,9 @@ std::vector<float> refit_on_sheets(const PointTree& tree, std::span<const Vec3> 
 int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
                      const Context& context);
 
-// Improves fits of points near an edge, which have neighbours on both of its sides. Such a point
-// takes a plane through itself and one side, if there is one: of the planes given by the
-// neighbours' normals, the one that most neighbours are close to.
+// Improves fits of points near an edge, which have neighbours on both of its sides. Planes through
+// the point are proposed by its neighbours' normals. The point takes the plane that most neighbours
+// are close to, if it is good enough.
 void refine_at_edges(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
                      LocalFits& fits, const Context& context);
 

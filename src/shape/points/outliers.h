@@ -13,10 +13,10 @@
 namespace rholm {
 
 // Returns one flag per point, in the order of the tree, from unit normals in the same order. It is
-// 1 if the normal disagrees with the neighbours' normals, or the point lies off their planes, or it
-// is much farther from them than they are from theirs. `noise` is the standard deviation of the
-// points about the surface; distances within it do not count. Each call makes one pass: after a
-// removal, another call can find outliers that were hidden.
+// 1 if the normal disagrees with the neighbours' normals, or the point lies off their planes. It is
+// also 1 if the point is much farther from its neighbours than they are from theirs. `noise` is the
+// standard deviation of the points about the surface; distances within it do not count. Each call
+// makes one pass: after a removal, another call can find outliers that were hidden.
 std::vector<std::uint8_t> find_outliers(const PointTree& tree, std::span<const Vec3> points,
                                         std::span<const Vec3> normals, double noise,
                                         const Context& context = {});

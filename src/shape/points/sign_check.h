@@ -4,8 +4,8 @@
 // the sign of the larger. So the signs of the majority of points decide.
 //
 // Two walls nearer to each other than their points contradict each other as well. Heights
-// distinguish them. The mean height of one end over the other, over all edges between two pieces,
-// is zero for one sheet, and the distance of the walls for two.
+// distinguish them: the mean height of one end over the other, over all edges between two pieces.
+// It is zero for one sheet, and the distance of the walls for two.
 #pragma once
 
 #include <compare>

@@ -224,8 +224,8 @@ class Groups {
   std::vector<float> eighth_;  // distance to the eighth neighbour; in rows, to the row's stride
 };
 
-// Returns true if no point is far. Each outer quarter of the box, along its longest side, has more
-// points than the box of find_far_ball() leaves out, so that this box is at least half as long.
+// Returns true if no point is far: each outer quarter of the box, along its longest side, has more
+// points than find_far_ball() leaves out. Then the box of that function is at least half as long.
 bool is_compact(std::span<const Vec3> points) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Vec3 low{kInfinity, kInfinity, kInfinity}, high = -low;

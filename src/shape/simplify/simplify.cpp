@@ -27,8 +27,8 @@ namespace {
 
 constexpr std::size_t kGrain = 8192;
 // Share of vertices that may collapse in a pass: the cheapest 0.3, the cheaper half of them first.
-// Each half is in mesh order, which is some three times as fast as the order of costs, and moves
-// the surface by a hundredth more (scripts/constants).
+// Each half is in mesh order. This is some three times as fast as the order of costs, and moves the
+// surface by a hundredth more (scripts/constants).
 constexpr double kShareOfPass = 0.3;
 constexpr std::size_t kClasses = 2;
 constexpr std::size_t kMoreOfPass = 8;  // factor if none of the cheapest may collapse
