@@ -20,9 +20,9 @@ constexpr double kCleanFall = 3.3;    // see choose_neighbors
 constexpr double kCalmShare = 0.9;    // see choose_neighbors
 constexpr std::size_t kSeeds = 1000;  // chosen: the error of the mean is 3 %
 
-// Least width over length, squared as in PlaneFit, of neighbours that are not nearly on a line,
-// such as a scanner's. Narrower ones are asked again, with twice as many neighbours up to this
-// number (chosen: a millisecond for ten points).
+// Neighbours ten times as long as wide (squares in PlaneFit) are nearly on a line, such as a
+// scanner's. Then twice as many are asked for each time, up to kMostNeighbors (chosen: a
+// millisecond for ten points).
 constexpr double kLine = 0.01;
 constexpr std::size_t kMostNeighbors = 640;
 // Below this ratio there is no plane: the width is rounding.

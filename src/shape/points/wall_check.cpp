@@ -70,8 +70,8 @@ class ReachGrid {
   }
 
  private:
-  // Largest number of cubes along the longest side, and in the longest
-  // reach; for time and memory.
+  // Largest number of cubes along the longest side, and in the longest reach (both
+  // chosen for time and memory).
   static constexpr double kCubes = 128, kCubesOfReach = 4;
 
   std::array<std::int64_t, 3> cube_of(const Vec3& place) const {

@@ -10,7 +10,7 @@
 namespace rholm {
 namespace {
 
-// Largest fraction of a border that a useful tolerance may leave open (chosen).
+// Largest fraction of a border that a useful tolerance may leave open.
 constexpr double kLeftOpen = 0.1;
 // Smallest tolerance relative to the border's median edge; smaller gaps are closed by the first
 // try. Chosen: no shape has such fine detail between its vertices.
