@@ -1,6 +1,6 @@
-// Arrays in the format that the pages of web/ read: "RHOLM1\0\0", a length (u32), JSON of this
-// length, then the arrays, little-endian, each at a multiple of 8 bytes from the beginning.
-// The JSON: {"arrays": [{"name", "type": "f32" | "f64" | "u32" | "u8", "shape": [...], "offset"}],
+// Arrays in the format of the pages of web/: "RHOLM1\0\0", a length (u32), JSON of this length,
+// the arrays, little-endian, each at a multiple of 8 bytes from the beginning. The JSON is
+// {"arrays": [{"name", "type": "f32" | "f64" | "u32" | "u8", "shape": [...], "offset"}],
 // "meta": further data}.
 #pragma once
 
