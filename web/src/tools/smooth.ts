@@ -21,7 +21,7 @@ export const wavelengthShare = new Option<number>("smooth", "wavelength"); // of
 export const wavelength = computed(() => wavelengthShare.value * (item.value?.diagonal ?? 1));
 export const previewed = signal(false);
 
-// A bridge spans up to half a wavelength: it is as long as four radii.
+// A bridge spans up to half a wavelength, so its wavelength is four radii.
 const bridgeRadii = 4;
 
 function fields(): Record<string, unknown> {
@@ -44,7 +44,7 @@ const live = liveChannel("smooth", (answer, asked) => {
   previewed.value = true;
 });
 
-// The region fades over a wavelength; a bridge has no use for that.
+// The region fades over a wavelength; a bridge does not need this.
 export function followWavelength(): void {
   effect(() => {
     transition.value = action.value === "bridge" ? null : wavelength.value;
@@ -58,7 +58,7 @@ export function preview(since: number, weights = true): void {
   if (weights) showWeights(since);
 }
 
-// Undoing begins with what is painted and not kept.
+// Undoing first removes strokes that are not kept.
 export function undoStroke(): boolean {
   if (tab.value !== "smooth" || !takeBackStroke()) return false;
   if (regions.value.length > 0) preview(performance.now());
