@@ -28,10 +28,10 @@ constexpr double kRim = 0.5, kRimEdges = 4;
 // wavelength; at this width fits become undetermined in the middle.
 constexpr double kWidestBridge = 0.8;
 // A repair moves points within this distance of an outlier, in wavelengths, and fades
-// over the second length, because the flanks of a scratch deviate less than its middle.
+// over the second length. The flanks of a scratch deviate less than its middle.
 constexpr double kRepairCore = 0.25, kRepairReach = 0.25;
 // Least deviation of an outlier as a part of the wavelength, even if the fit is
-// exact (chosen: far below any detail, far above the rounding of coordinates).
+// exact. Chosen: far below any detail, far above the rounding of coordinates.
 constexpr double kLeastOutstanding = 1e-6;
 // Largest coordinate, because fourth powers of coordinates are computed.
 constexpr double kLargest = 1e70;

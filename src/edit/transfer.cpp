@@ -22,8 +22,8 @@ namespace {
 
 // A base has waves of at least this number of edges: the limit of smoothing, plus some room.
 constexpr double kFewestBaseEdges = 3;
-// Width of transitions in radii of the regions, unless waves are shorter,
-// so that surroundings such as limbs and folds are not included.
+// Width of transitions in radii of the regions, unless waves are
+// shorter. A small width excludes limbs and folds around a region.
 constexpr double kTransition = 0.25;
 // Edge length of a refined target, in edges of the source times the scale. Lines
 // on the texture's map are half an edge apart, and heights between them are cubic.
@@ -241,7 +241,7 @@ TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& targ
 TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> from,
                                   const Mesh& target, std::span<const Region> to,
                                   const TransferOptions& options, const Context& context) {
-  check_fields(options);  // before the work
+  check_fields(options);  // checked before the work
   return analyze_transfer(analyze_source(source, from, options.from_degree, context), target, to,
                           options, context);
 }

@@ -1,4 +1,4 @@
-// Work on its own thread, with the status for those who wait. Layer: studio.
+// Work on its own thread, with its status for waiting pages. Layer: studio.
 #pragma once
 
 #include <atomic>

@@ -11,7 +11,7 @@ namespace {
 // Shape to make.
 struct Making {
   std::string kind;
-  double amplitude = 0.2;  // of bumpy shapes, and points on them
+  double amplitude = 0.2;  // amplitude of bumpy shapes, and of points on them
   std::uint64_t seed = 1;
 };
 

@@ -115,7 +115,7 @@ Step compress_item(const Json& request, const Document& now, Shared& shared) {
             step["made"] = json_of(Named{made.model_file, made.model_variable});
             if (!item->unit.empty()) step["unit"] = item->unit;
             recipe.add(step);
-            made.file = made.model_file;  // for edits of the surface of a caps file
+            made.file = made.model_file;  // used by edits of the surface of a caps file
             made.variable = made.model_variable + ".mesh()";
             made.name = made.model_file;
             add(document, std::move(made), shared);

@@ -8,7 +8,7 @@
 namespace rholm::studio {
 namespace {
 
-constexpr std::size_t kMostLetters = 100;  // of a variable; chosen: files have these names, too
+constexpr std::size_t kMostLetters = 100;  // letters of a variable; chosen: files have them, too
 
 bool is_whole(const Item& item) { return item.look == whole(*item.model); }
 

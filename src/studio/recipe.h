@@ -15,14 +15,14 @@
 
 namespace rholm::studio {
 
-// Name of a thing in the lines: a file, and a Python variable.
+// Name of a result in the lines: a file, and a Python variable.
 struct Named {
   std::string file, variable;
 };
 Json json_of(const Named& named);
 
 struct Recipe {
-  std::vector<Json> steps;                 // as step_lines() takes them
+  std::vector<Json> steps;                 // in the form that step_lines() takes
   std::vector<std::string> shell, python;  // their lines
   std::set<std::string> files, variables;  // used names
 

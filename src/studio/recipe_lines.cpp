@@ -39,7 +39,7 @@ struct Reading {
     }
     return named;
   }
-  // Returns a thing that an earlier step has made.
+  // Returns the name of a result of an earlier step.
   Named used(const char* field) const {
     const Named made = named(field);
     if (!before.files.contains(made.file) || !before.has_variable(made.variable)) {

@@ -22,7 +22,7 @@ constexpr const char* kBytes = "application/octet-stream";
 // Format selected by its name or by a file extension.
 struct Wanted {
   SavedFormat format;
-  std::string ending;  // with the dot
+  std::string ending;  // includes the dot
 };
 std::optional<Wanted> wanted_format(const Item& item, const std::string& wanted) {
   for (const SavedFormat& format : saved_formats(item)) {

@@ -18,7 +18,7 @@
 namespace rholm::studio {
 namespace {
 
-constexpr std::size_t kMaxPast = 100;  // steps; chosen: more than anybody undoes
+constexpr std::size_t kMaxPast = 100;                        // steps; chosen: more than users undo
 constexpr std::size_t kMaxPastBytes = std::size_t{2} << 30;  // chosen: what a laptop can spare
 
 Json recipe_json(const Recipe& recipe) {
@@ -233,7 +233,7 @@ Response Session::step(const Json& request) {
 
 // Requires steps_, and that no job runs.
 Response Session::start(Step step) {
-  if (thread_.joinable()) thread_.join();  // of a job that has ended
+  if (thread_.joinable()) thread_.join();  // the thread of a job that has ended
   const std::lock_guard lock(mutex_);
   if (closed_) throw not_found("the session has ended");
   job_ = std::make_shared<Job>(++jobs_, step.label, [this] { tell_of_job(); });

@@ -61,7 +61,7 @@ class Session {
 
  private:
   struct Moment {
-    std::string label;  // of the step between this document and the next one
+    std::string label;  // label of the step between this document and the next one
     Document document;
   };
 
@@ -82,7 +82,7 @@ class Session {
   Scratch& scratch_;
   Shared shared_;
   Live live_;
-  std::mutex steps_;          // held by whoever changes the document without a job
+  std::mutex steps_;          // locked by threads that change the document without a job
   mutable std::mutex mutex_;  // guards all fields below
   mutable std::condition_variable changed_;
   Document now_;

@@ -16,7 +16,7 @@ namespace rholm::studio {
 namespace {
 
 constexpr std::string_view kMagic = "RHOLMSS1";
-constexpr std::size_t kHead = 24;          // bytes
+constexpr std::size_t kHead = 24;          // size in bytes
 constexpr std::size_t kMaxItems = 10000;   // a sanity limit
 constexpr std::size_t kMaxSteps = 100000;  // a sanity limit
 

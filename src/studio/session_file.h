@@ -13,7 +13,7 @@
 
 namespace rholm::studio {
 
-bool is_session_file(std::string_view bytes);  // by its first bytes
+bool is_session_file(std::string_view bytes);  // true if the first bytes match
 
 std::string session_bytes(const Document& document, Scratch& scratch);
 

@@ -224,7 +224,7 @@ double guessed_share(const ExtractedSurface& surface, const Context& context) {
 }
 
 // Sets the normals of vertices outside all supports from their triangles.
-// Such vertices are rare, so only the triangles at them are summed.
+// These vertices are rare, so only the triangles at them are summed.
 void complete_normals(Mesh& mesh, const Context& context) {
   const NormalAttributes normals = normal_attributes(mesh);
   const std::vector<std::uint32_t> missing = indices_where(

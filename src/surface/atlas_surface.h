@@ -35,7 +35,7 @@ struct AtlasSurfaceOptions {
 };
 
 struct AtlasSurface {
-  Mesh mesh;  // with normals nx, ny, nz
+  Mesh mesh;  // has normals nx, ny, nz
   std::size_t holes = 0, smooth_holes = 0;
   double guessed = 0;  // share of the closed surface's area in triangles at filled nodes
   std::size_t cut_handles = 0;

@@ -27,7 +27,7 @@ export function programPath(): string {
 
 export interface Program {
   address: string;
-  folder: string; // for files of the test
+  folder: string; // folder for files of the test
   process: ChildProcess;
 }
 
@@ -54,7 +54,7 @@ export async function startStudio(prepare?: (folder: string) => string[]): Promi
   return { ...(await startProgram(prepare)), browser: await launch() };
 }
 
-// `prepare` makes files in the folder, and returns the names of those the studio opens at its start.
+// `prepare` makes files in the folder, and returns the names of the files that the studio opens at its start.
 export async function startProgram(prepare: (folder: string) => string[] = () => []): Promise<Program> {
   const folder = mkdtempSync(join(tmpdir(), "rholm-studio-"));
   const words = ["studio", "--no-open", "--page", dist, ...prepare(folder)];

@@ -41,7 +41,7 @@ export function NumberField({ label, value, placeholder, least, most, whole, onC
 interface Props<T extends Value> {
   of: Option<T>;
   one?: Item; // lengths are parts of its diagonal
-  most?: number; // of a number without a maximum in the list
+  most?: number; // maximum of a number without one in the list
   disabled?: boolean;
   after?: (since: number) => void;
 }

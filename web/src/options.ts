@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 import type { Control, Fields, Value } from "./protocol";
 import { controls } from "./state";
 
-const chosen = signal<Readonly<Fields>>({}); // by "op.name"
+const chosen = signal<Readonly<Fields>>({}); // keys are "op.name"
 
 export function controlOf(op: string, name: string): Control | undefined {
   return controls.value[op]?.find((one) => one.name === name);

@@ -23,9 +23,9 @@ export interface ItemExpansion {
 }
 
 export interface ItemAtlas {
-  bytes: number; // of its file
+  bytes: number; // size of its file
   degree: number; // the highest degree of a cap
-  error: { rms: number; max: number } | null; // of the whole surface, measured, in the unit of lengths
+  error: { rms: number; max: number } | null; // errors of the whole surface, measured, in the unit of lengths
 }
 
 // Assumed meaning of a text table's columns; `note` says what was assumed and why.
@@ -46,14 +46,14 @@ export interface Item {
   facts: Fact[];
   vertices: number;
   faces: number;
-  diagonal: number; // of the bounding box
+  diagonal: number; // diagonal of the bounding box
   center: Vector;
   unit: string;
   closed: boolean;
   star: Star | null;
   expansion: ItemExpansion | null;
-  table?: Table | null; // of points read from a text table
-  warnings?: string[]; // of the reader of its file
+  table?: Table | null; // only for points read from a text table
+  warnings?: string[]; // warnings by the reader of its file
   normals?: boolean;
   caps?: number;
   placed?: string | null; // text on how it was aligned with another item
@@ -115,7 +115,7 @@ export interface FilterWindow {
   name: string;
   formula: string; // the gain of degree l
   help: string;
-  overshoot: number; // of a step at degree 64, in parts of its height
+  overshoot: number; // overshoot of a step at degree 64, in parts of its height
   parameters: WindowParameter[];
 }
 
@@ -135,14 +135,14 @@ export interface Control {
   default: Value; // null: the library decides
   least: number | null;
   most: number | null;
-  step: number | null; // of a slider
+  step: number | null; // step of a slider
   scale: "linear" | "log";
   unit: "" | "diagonal" | "degrees"; // "diagonal": as a part of the item's diagonal
   choices: { value: string; label: string }[];
   shown: boolean; // true: a panel shows it; false: it is under more options
 }
 
-export type Controls = Readonly<Record<string, Control[]>>; // by the op of the step
+export type Controls = Readonly<Record<string, Control[]>>; // keys are the ops of steps
 
 // Request of POST api/step or api/live; docs/studio.md lists its fields.
 export type Fields = Record<string, unknown>;

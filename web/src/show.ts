@@ -15,14 +15,14 @@ export const legend = signal<{ range: Range; label: string; unit: string } | nul
 export const layout = signal<Layout>("one");
 export const shown = signal<{ id: number; revision: number } | null>(null);
 export const markOffending = signal(true);
-export const up = signal<Up>("z"); // of the shape on the screen
+export const up = signal<Up>("z"); // upward axis of the shape on the screen
 
 let view: View | null = null;
 export const theView = (): View | null => view;
 
 const cache = new Map<string, Surface>();
 
-// Returns the surface of an item as it is now, or as it was read.
+// Returns the current surface of an item, or the surface that was read.
 export async function surfaceFor(one: Item, original = false): Promise<Surface> {
   const key = `${one.id}/${one.revision}/${original}`;
   const kept = cache.get(key);
@@ -30,7 +30,7 @@ export async function surfaceFor(one: Item, original = false): Promise<Surface> 
   const path = `item/${one.id}/surface?revision=${one.revision}${original ? "&original=1" : ""}`;
   const surface = surfaceOf(await getBinary(transport, path));
   cache.set(key, surface);
-  // Keeps four: two items, each as it is now and as it was read.
+  // Keeps four surfaces: of two items, the current one and the one that was read.
   for (const old of cache.keys()) if (cache.size > 4) cache.delete(old);
   return surface;
 }
@@ -151,7 +151,7 @@ export function hideOther(stay = false): void {
   arrange("one", false, stay);
 }
 
-let otherId: number | null = null; // of the second shape shown
+let otherId: number | null = null; // id of the second shape shown
 
 function arrange(how: Layout, another: boolean, stay = false): void {
   const fresh = another || layout.peek() !== how;

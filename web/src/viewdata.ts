@@ -8,7 +8,7 @@ import type { Vector } from "./protocol";
 
 export interface ViewData {
   title: string;
-  unit: string; // of lengths, or empty
+  unit: string; // unit of lengths, or empty
   expansion: {
     degree: number;
     function: string; // "radius", "gauge", "log radius"

@@ -8,7 +8,7 @@ interface SliderProps {
   value: number;
   min: number;
   max: number;
-  step?: number | undefined; // of the slider; whole steps also hold for typed values
+  step?: number | undefined; // step of the slider; whole steps also hold for typed values
   scale?: Scale;
   unit?: string;
   whole?: number; // base of typed percentages; without it, percentages are no numbers

@@ -40,10 +40,10 @@ void add_sunflower(const CapFrame& frame, std::size_t n, CapPoints& points);
 struct CapFitOptions {
   CapBasis basis = CapBasis::kFull;
   int degree = 3;
-  double gradient_weight = 1;  // of normals relative to values, both on the opened sphere
-  // Factor of (l (l + 1))^2, relative to the sum of the weights (method 7.4). It depends
-  // on the degree: the factor times (L (L + 1))^2 is 3e-5 here (L = 3), 5e-5 for patches
-  // of edits (1e-8, L = 8) and 9e-5 for large caps of compression (2e-9, L = 14).
+  double gradient_weight = 1;  // weight of normals relative to values, on the opened sphere
+  // Factor of (l (l + 1))^2, relative to the sum of the weights (method 7.4). It
+  // depends on the degree. Its product with (L (L + 1))^2 is 3e-5 here (L = 3),
+  // 5e-5 for patches of edits (1e-8, L = 8), 9e-5 for large caps (2e-9, L = 14).
   double penalty = 2e-7;
 };
 
@@ -72,7 +72,7 @@ struct CapSystem {
   std::size_t third = 0;   // number of points, padded
   std::size_t usable = 0;  // number of points that face away from the centre
   double weights = 0;      // sum of the weights
-  bool solvable = false;   // true if there are enough points; else there is no matrix
+  bool solvable = false;   // true if there are enough points; without them there is no matrix
   CapFitOptions options = {};
 };
 // Makes the system. scratch.matrix becomes [n + 1][n + 1] (normal_equations.h), with penalty.

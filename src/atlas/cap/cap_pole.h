@@ -9,7 +9,7 @@ namespace rholm {
 
 struct CapPole {
   double level = 1;               // r / R_0
-  double slope1 = 0, slope2 = 0;  // of log r along x and y, on the unopened sphere
+  double slope1 = 0, slope2 = 0;  // slope of log r along x and y, on the unopened sphere
 };
 CapPole cap_pole(const CapFrame& frame, CapBasis basis, int degree, std::span<const double> c);
 

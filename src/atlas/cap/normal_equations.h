@@ -18,9 +18,9 @@ namespace rholm {
 struct NormalRows {
   const double* rows = nullptr;     // readable up to a multiple of four rows: clear_beyond()
   std::size_t count = 0;            // number of rows, with the right-hand side
-  std::size_t length = 0;           // of a row, a multiple of kCapLanes
-  std::size_t stride = 0;           // from one row to the next
-  const double* weights = nullptr;  // of the products, `length` of them; nullptr: 1
+  std::size_t length = 0;           // length of a row, a multiple of kCapLanes
+  std::size_t stride = 0;           // distance from one row to the next
+  const double* weights = nullptr;  // weights of the products, `length` of them; nullptr: 1
 };
 
 // Sets the rows from `count` up to a multiple of four to zero. They are multiplied with the
@@ -40,9 +40,9 @@ constexpr std::size_t normal_diagonal(std::size_t k, std::size_t n) { return (1 
 // unknowns cost only a back substitution. The object keeps its memory for reuse.
 class NormalFactor {
  public:
-  // Factors as many leading unknowns of `matrix` (of n) as are regular, and returns their
-  // number. It stops at the first pivot that is at most `least` times its diagonal element,
-  // or not a normal number. A pivot is the rest of that element after the earlier unknowns.
+  // Factors the longest regular leading block of `matrix` (of n unknowns), and returns its size.
+  // The block ends before the first pivot that is at most `least` times its diagonal element, or
+  // not a normal number. A pivot is the diagonal element minus the part of the earlier unknowns.
   std::size_t factor(const double* matrix, std::size_t n, double least);
   std::size_t regular() const { return regular_; }
 

@@ -61,8 +61,8 @@ HWY_INLINE CapRay<V> RayTo(D d, const LaneFrame<hn::TFromD<D>>& f, const Lanes3<
 // Position where a ray meets the sphere.
 template <class V>
 struct OpenedPlace {
-  V s1, s2;            // in the stereographic plane, not opened
-  LowDirection<V> at;  // on the opened sphere, and in its plane
+  V s1, s2;            // place in the stereographic plane, not opened
+  LowDirection<V> at;  // place on the opened sphere, and in its plane
   V shrink;            // 1 / (1 + |a s|^2)
 };
 

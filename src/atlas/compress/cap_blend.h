@@ -21,8 +21,8 @@ struct CapWeights {
 
 struct Blend {
   std::vector<CapWeights> caps;
-  std::vector<double> weight, sum;  // per sample: sum of w, of w g
-  double rms = 0, max = 0;          // of the blended distance, over samples with a weight
+  std::vector<double> weight, sum;  // sum of w and sum of w g per sample
+  double rms = 0, max = 0;          // error of the blended distance, over samples with a weight
   std::size_t weightless = 0;       // number of samples without a weight
   double error(std::uint32_t sample) const { return sum[sample] / weight[sample]; }
   bool is_weightless(std::uint32_t sample) const { return !(weight[sample] > kLeastWeight); }

@@ -15,11 +15,11 @@ namespace {
 
 constexpr double kOverlap = 1.3;  // radius of the fit over radius of the support (method 7.8)
 // Angle to which the fit's rim is opened: even harmonics live on a hemisphere, which
-// the fit nearly fills. (The full basis of small caps has no such bound. Patches,
+// the fit nearly fills. (The full basis of small caps has no bound like this. Patches,
 // whose basis has some odd harmonics too, are opened to 85 degrees: patch_cover.cpp.)
 constexpr double kOpened = 88 * std::numbers::pi / 180;
 constexpr double kGradientWeight = 0.3;
-constexpr double kMiss = 4;          // tolerances; samples farther off are left to smaller caps
+constexpr double kMiss = 4;          // in tolerances; samples farther off are left to smaller caps
 constexpr double kMostMissed = 0.1;  // share of the samples within the support
 constexpr int kLeastDegree = 2;
 constexpr int kLowDegree = 7;
@@ -68,7 +68,7 @@ CapFrame gather(const SampleLevels& samples, const CandidatePlace& place, double
 
 struct Misses {
   std::size_t within = 0, missed = 0;
-  double rms = 0;  // over the samples that are not missed
+  double rms = 0;  // rms over the samples that are not missed
 };
 
 // Computes distances of the samples within the support: residuals without rim_factor().
@@ -128,7 +128,7 @@ Fitted fit_least_degree(const CapFrame& frame, const CandidateOptions& options,
   };
   // A matrix of low degree comes first: it costs a third, often suffices, and shows hopeless fits.
   int low = kLeastDegree - 1, high = 0;  // `low` fails, `high` meets the tolerance
-  Misses best;                           // of `high`
+  Misses best;                           // misses at the degree `high`
   for (const int degree : {std::min(kLowDegree, options.max_degree), options.max_degree}) {
     system = system.n > 0 ? with_degree(system, degree, scratch.fit)
                           : make_system(frame, scratch.points,

@@ -33,7 +33,7 @@ struct Candidate {
   Cap cap;  // Cap::first is not set
   std::vector<double> coefficients;
   double inside = 0;  // estimated number of the finest level's samples in its support
-  double rms = 0;     // of the covered samples
+  double rms = 0;     // rms of the covered samples
   // Covered samples of the level of the fit, by their indices in the finest level.
   std::vector<std::uint32_t> covered;
   double share = 1;  // number of finest samples that one of these represents
@@ -44,8 +44,8 @@ struct Candidate {
 struct CandidateScratch {
   PatchSearch search;
   CapPoints points, probes;
-  std::vector<std::uint32_t> indices;  // of the points, in their level
-  std::vector<double> distance2;       // of the points from the seed
+  std::vector<std::uint32_t> indices;  // indices of the points in their level
+  std::vector<double> distance2;       // squared distances of the points from the seed
   CapFitScratch fit;
   std::vector<double> coefficients, values, surface;
   std::vector<Neighbor> near;
@@ -75,11 +75,11 @@ bool make_candidate(const SampleLevels& samples, const CandidatePlace& place, do
                     const CandidateOptions& options, const Rival& rival, CandidateScratch& scratch,
                     Candidate& candidate);
 
-// Returns true if the cap's surface leaves the samples within its support: a point
-// is farther than `band` off their surface, beyond their end, or has an opposite
-// normal. Probes are about `spacing` apart, or as far as the samples if these are
-// sparser. Closer probes would find the same samples, which mark an end only 2.5
-// spacings beyond it. Voids between random samples do not count as their end.
+// Returns true if the cap's surface leaves the samples within its support. This is
+// the case if a point is farther than `band` off their surface, beyond their end, or
+// has an opposite normal. Probes are about `spacing` apart, or as far as the samples
+// if these are sparser. Closer probes would find the same samples, which mark an end
+// only 2.5 spacings beyond it. Voids between random samples are not an end.
 bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double> coefficients,
             double band, double spacing, CandidateScratch& scratch);
 

@@ -184,10 +184,10 @@ class Greedy {
   const GreedyOptions& options_;
   const Context& context_;
   GreedyCover cover_;
-  std::vector<double> radii_;        // descending
+  std::vector<double> radii_;        // supports in descending order
   std::size_t start_ = 3;            // index where climbs begin
   std::size_t open_ = 0, left_ = 0;  // number of uncovered samples, at first and now
-  std::size_t numbers_ = 0;          // of the caps chosen
+  std::size_t numbers_ = 0;          // numbers of the chosen caps
   std::uint64_t drawn_ = 0;
   std::vector<Entry> pool_;
   CandidateScratch scratch_;

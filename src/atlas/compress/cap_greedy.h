@@ -24,9 +24,9 @@ struct GreedyOptions {
 // choice is the cap with the fewest numbers per newly covered sample.
 struct GreedyCover {
   std::vector<Candidate> chosen;
-  std::vector<std::uint32_t> seeds;      // samples
-  std::vector<std::uint8_t> is_covered;  // per sample
-  double uncovered = 1;                  // share
+  std::vector<std::uint32_t> seeds;      // sample at each chosen cap's seed
+  std::vector<std::uint8_t> is_covered;  // 1 for covered samples
+  double uncovered = 1;                  // share of uncovered samples
   std::size_t foreseen = 0;              // if > 0, numbers of all caps (estimated) that ended it
 };
 // Covers the samples; flagged samples in `covered` (one flag per sample) count as covered.

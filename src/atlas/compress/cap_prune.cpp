@@ -16,9 +16,9 @@ namespace rholm {
 // Quadratic form of one cap's error over its coefficients, while some are dropped.
 // If c_i becomes zero and the others adapt, the error grows by c_i^2 / (M^-1)_ii.
 struct CapForm {
-  std::vector<double> coefficients, inverse;  // M^-1 [n][n]
+  std::vector<double> coefficients, inverse;  // inverse: M^-1 [n][n]
   std::vector<std::uint8_t> kept;
-  double error = 0;  // with all coefficients
+  double error = 0;  // error with all coefficients
   double worth = 1;  // weight of this cap's errors relative to other caps
   std::size_t n = 0;
 
@@ -48,7 +48,7 @@ struct CapShrink {
 namespace {
 
 constexpr double kShrink = 0.94;  // factor of a support whose surface leaves the samples
-constexpr int kMostShrinks = 8;   // to 0.6; surfaces that still leave are closed and dropped later
+constexpr int kMostShrinks = 8;   // shrinks to 0.6; surfaces that still leave are dropped later
 constexpr int kMostSteps = 5;     // iterations to the budget
 // The blend's rms is a power of the budget: 1/2 if caps' errors were independent, less where
 // caps outvote each other (scripts/constants). It is estimated from steps that change the
@@ -56,8 +56,8 @@ constexpr int kMostSteps = 5;     // iterations to the budget
 constexpr double kLeastPower = 0.25;
 constexpr double kTelling = 0.02;
 // A cap that would shrink below 0.7 has lost coefficients it needs; its coefficients cost
-// more from then on. Chosen by scripts/atlas-figures: half as many shrinks take 6 % more
-// numbers. Without a bound the caps at rims, for example of ears, become very small.
+// more from then on. Chosen by scripts/atlas-figures: half the number of shrinks takes 6 %
+// more numbers. Without a bound the caps at rims, for example of ears, become very small.
 constexpr int kFreeShrinks = 6;
 constexpr double kDearer = 4;
 

@@ -11,7 +11,7 @@ namespace rholm {
 
 struct PruneOptions {
   double tolerance = 0;  // rms of the blend, in the samples' unit
-  double band = 0;       // of the blend
+  double band = 0;       // band of the blend
   double stray = 0;      // supports shrink where a cap's surface is farther from all samples
   int more_degrees = 2;  // fitted before pruning, so that the best coefficients are kept
   int max_degree = 14;
@@ -21,15 +21,15 @@ struct CapForm;    // the error of one cap as a function of its coefficients
 struct CapShrink;  // how often a cap shrank
 
 struct PruneReport {
-  double rms = 0;                // of the blend
+  double rms = 0;                // rms error of the blend
   std::size_t coefficients = 0;  // number of nonzero coefficients
   double price = 0;  // squared error, summed over samples, of the last dropped coefficient
 };
 
-// Fits the coefficients of all caps again, by their shares in the blend. For each aim, sets
-// the least important ones to zero until the blend's error is the aim, if possible (see
-// rms), and fits the others again, so that caps agree where they meet. Degrees that are all
-// zero are removed; supports shrink where caps leave the samples. Refers to the samples.
+// Fits the coefficients of all caps again, by their shares in the blend. An aim is then met
+// by zeroing the least important ones until the blend's error is the aim, if possible (see
+// rms). The others are fitted again, so that caps agree where they meet. Degrees that are
+// all zero are removed; supports shrink where caps leave the samples. Refers to the samples.
 class Pruning {
  public:
   // `options.tolerance` is the scale of the caps' errors; aims are near it.
@@ -46,7 +46,7 @@ class Pruning {
   PruneOptions options_;
   Atlas atlas_;
   std::vector<CapForm> forms_;
-  std::vector<CapShrink> shrinks_;  // last state
+  std::vector<CapShrink> shrinks_;  // last shrinks of each cap
   std::vector<double> worth_;       // weight of a cap's errors relative to other caps
   // Allowed sum of squared errors, the blend's rms with it, and the exponent between both.
   double budget_ = 0, reached_ = 0, power_ = 0.5;

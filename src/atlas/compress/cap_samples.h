@@ -16,7 +16,7 @@ namespace rholm {
 // Each sample represents the same area; normals have length 1.
 struct SampleLevel {
   PointTree tree;
-  std::vector<Vec3> points, normals;  // in the order of the tree
+  std::vector<Vec3> points, normals;  // samples in the order of the tree
   std::vector<std::uint32_t> base;    // index of each sample in the finest level
   std::vector<std::uint32_t> near;    // kSampleNeighbors per sample
   double spacing = 0;                 // side of a square with the area of a sample

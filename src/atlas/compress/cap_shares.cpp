@@ -18,7 +18,7 @@ constexpr std::size_t kMostSamples = 6000;  // per fit; of more, every second, t
 constexpr double kLeastShare = 0.02;
 // Least share where the cap misses the sample: there it may be wrong, but must stay near.
 constexpr double kMissedShare = 0.003;
-constexpr double kMissed = 4;  // tolerances
+constexpr double kMissed = 4;  // in tolerances
 // Weight of a cap's own surface where samples may be missing. Chosen: ten times more costs
 // 1 % of the coefficients; with ten times less, a third of the caps leave the samples.
 constexpr double kOwnShare = 0.03;
@@ -65,7 +65,7 @@ void add_own_surface(const Cap& cap, std::span<const double> coefficients, doubl
 // Solves the equations of some coefficients alone; returns false if they are singular.
 bool solve_some(const CapSystem& system, const std::vector<std::size_t>& some,
                 CapFitScratch& scratch, std::vector<double>& solution) {
-  std::vector<std::size_t> rows = {0};  // the right-hand side
+  std::vector<std::size_t> rows = {0};  // row 0 is the right-hand side
   for (const std::size_t i : some) rows.push_back(1 + i);
   const std::size_t n = some.size(), stride = n + 1;
   std::vector<double> block(stride * stride);

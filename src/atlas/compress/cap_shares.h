@@ -31,7 +31,7 @@ double share_of_ledges(const CapShares& shares, double slope);
 
 // Determines how a fit weighs samples.
 struct ShareWeights {
-  double tolerance = 0;  // samples that a cap misses by far more are left to others
+  double tolerance = 0;  // samples that a cap misses by far more are left to other caps
   bool agree = false;    // draws caps to the blend where shares change
 };
 
@@ -46,9 +46,9 @@ void share_points(const Atlas& atlas, std::size_t index, std::span<const double>
 CapFitOptions share_fit(CapBasis basis, int degree);
 
 struct AgreeOptions {
-  double tolerance = 0;  // of ShareWeights
-  double band = 0;       // of the blend
-  bool all = false;      // also fits coefficients that are zero
+  double tolerance = 0;  // tolerance of ShareWeights
+  double band = 0;       // band of the blend
+  bool all = false;      // true: also fits coefficients that are zero
 };
 
 // Fits the coefficients of all caps at once, to samples moved towards the blend

@@ -24,7 +24,7 @@ constexpr std::size_t kBlock = 4096;
 // 0.01 and 0.02 leave more edges round or horned. Below 0.01 good
 // points of rough shapes are classed as outliers.
 constexpr double kGoodFit = 0.014;
-constexpr double kGoodNoise = 1.12;  // method 7.11
+constexpr double kGoodNoise = 1.12;  // see method 7.11
 constexpr double kGoodShare = 0.85;
 constexpr double kShrink = 0.65;
 constexpr double kAlone = 0.7;
@@ -54,7 +54,8 @@ constexpr double kTrustInPoints = 2;
 constexpr double kCovered = 0.7;
 
 // Returns true if the points of a cap fill its disc. Points along a line, or in two distant groups,
-// leave the space between open. Needles, and ridges thinner than the spacing, have such caps.
+// leave the space between open. Caps of needles, and of ridges thinner than the spacing, do not
+// fill their discs.
 bool fills_disc(const Cap& cap, std::size_t k, std::size_t inner, const CapWorker& worker) {
   const double inner2 = worker.near[std::min(inner, k - 1)].distance2;
   if (inner2 < kClose * kClose * worker.near[k - 1].distance2) return false;
@@ -70,7 +71,7 @@ bool is_trusted(const CapFit& fit, double support) {
   return fit.usable >= kGoodShare && fit.rms <= kTrusted * support;
 }
 
-// Fits a cap to the k nearest points; returns false if there is no such cap.
+// Fits a cap to the k nearest points; returns false if the fit fails.
 bool fit_nearest(const OrderedPoints& all, std::size_t seed, std::size_t k, CapSide side,
                  const CoverOptions& options, CapWorker& worker, Cap& cap) {
   const double support = std::sqrt(static_cast<double>(worker.near[k - 1].distance2));

@@ -13,7 +13,7 @@
 namespace rholm {
 
 struct CoverOptions {
-  std::size_t neighbours = 24;  // per cap, on even points; fewer where the fit is bad
+  std::size_t neighbours = 24;  // points per cap, on even points; fewer where the fit is bad
   int degree = 3;
   double noise = 0;  // standard deviation of the points along their normals
   double gradient_weight = 0.3;

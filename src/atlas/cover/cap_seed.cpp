@@ -17,7 +17,7 @@ constexpr double kSettledBy = 0.25;
 // Falls faster than the weight of large caps, which do worse with this one (cap_candidate.cpp).
 double value_weight(double d2, double support2) {
   const double rest = std::max(0.0, 1 - d2 / support2);
-  return rest * rest + 0.01;  // method 7.4
+  return rest * rest + 0.01;  // see method 7.4
 }
 
 // Returns the mean of the nearest normals that agree with the seed's own.

@@ -11,12 +11,12 @@
 
 namespace rholm {
 
-inline constexpr double kHalfAngle = 15 * std::numbers::pi / 180;  // method 7.2
+inline constexpr double kHalfAngle = 15 * std::numbers::pi / 180;  // see method 7.2
 inline constexpr double kOpened = 60 * std::numbers::pi / 180;
 
 // Memory of one thread.
 struct CapWorker {
-  Vec3 middle;                 // of the cap: its seed, or the position after settle()
+  Vec3 middle;                 // middle of the cap: its seed, or the position after settle()
   std::vector<Neighbor> near;  // points around `middle`, nearest first
   CapPoints points;
   CapFitScratch scratch;

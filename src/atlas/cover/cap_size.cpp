@@ -43,13 +43,13 @@ constexpr double kGrown = 1.15, kGrownNoisy = 1.05;
 constexpr double kNearBest = 1.1;
 // Normals count this much more than their residuals suggest; creases enlarge these (method 7.11).
 constexpr double kNormalsFavoured = 1.6;
-// Factor for normals computed from the points, which carry no further information. On
-// clean points (scripts/scan-figures) distances fall by 5 % to a half from 1.6 to 0.2, and
-// are equal with 0.1. With noise such normals average many points: 0.2 is worse by a half.
+// Factor for normals computed from the points, which carry no further information. On clean
+// points (scripts/scan-figures) distances fall by 5 % to a half from 1.6 to 0.2, and are
+// equal with 0.1. With noise these normals average many points: 0.2 is worse by a half.
 constexpr double kComputedFavoured = 0.2;
-// Median angle between clean normals and their caps above which normals count less, in
-// proportion. Such normals turn within a cap by more than it can represent. Without the rule, 61
-// of 72 inputs with true normals (scripts/scan-figures --inputs 1k,3k --seeds 1,2,3) have the
+// Median angle between clean normals and their caps above which normals count less, in proportion.
+// At larger angles the normals turn within a cap by more than it can represent. Without the rule,
+// 61 of 72 inputs with true normals (scripts/scan-figures --inputs 1k,3k --seeds 1,2,3) have the
 // right parts and handles. With it 66 have them at 10 degrees, 67 at 8, 68 at 6; 4 is no better.
 constexpr double kTurned = 6 * std::numbers::pi / 180;
 // Residuals of the smallest caps above this part of their support are noise: no shape that caps

@@ -14,7 +14,7 @@ namespace rholm {
 struct CapSize {
   std::size_t neighbours = 24;
   double noise = 0;         // standard deviation of the points along the caps' normals
-  double normal_noise = 0;  // of the normals against the caps, radians (small angles)
+  double normal_noise = 0;  // noise of normals against the caps, radians (small angles)
   double gradient_weight = 0.3;
 };
 
@@ -31,8 +31,8 @@ struct CapSizeTrial {
   double slope_error = 0;
   double rms = 0;        // median of the residuals, in lengths
   double level_rms = 0;  // the same over R_0
-  double slope_rms = 0;  // on the opened sphere
-  double support = 0;    // median
+  double slope_rms = 0;  // median slope residual on the opened sphere
+  double support = 0;    // median support
   double own = 1;        // mean share of nearby points on the seed's sheet
 };
 CapSizeTrial try_cap_size(const OrderedPoints& points, std::size_t neighbours, int degree,

@@ -21,9 +21,9 @@ struct CapContribution {
   std::vector<double> blend_weights;
   std::vector<double> heights;  // distance from the centre
   std::vector<Vec3> rays;
-  std::vector<double> lengths;  // [degree][point]
-  std::size_t stride = 0;       // from one degree to the next
-  double rejection = 0;         // of PatchFit
+  std::vector<double> lengths;  // lengths [degree][point]
+  std::size_t stride = 0;       // distance from one degree to the next in `lengths`
+  double rejection = 0;         // see PatchFit::rejection
 };
 
 void contribute(const Site& site, const PatchCap& cap, bool robust, PatchScratch& scratch,

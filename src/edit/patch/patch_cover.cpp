@@ -29,10 +29,10 @@ constexpr double kSameSide = -0.2;
 // Largest distance from the cap's sphere, in supports. It excludes ears and limbs that
 // lean over a patch. Cylinders are a quarter off if the support equals their radius.
 constexpr double kOffSphere = 0.35;
-constexpr double kGoodShare = 0.85;  // method 7.4
+constexpr double kGoodShare = 0.85;  // see method 7.4
 constexpr double kShrink = 0.75;
-constexpr double kSmallest = 0.3;      // of the first radius: degree 2
-constexpr double kFewestPoints = 1.5;  // per coefficient
+constexpr double kSmallest = 0.3;      // share of the first radius: degree 2
+constexpr double kFewestPoints = 1.5;  // points per coefficient
 
 class Gatherer {
  public:

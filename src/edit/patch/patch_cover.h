@@ -15,8 +15,8 @@ struct PatchCap {
   CapFrame frame;
   int degree = 0;
   double size = 1;                    // radius relative to a cap that did not shrink
-  std::vector<std::uint32_t> points;  // within the support, facing outwards along the axis
-  std::vector<double> blend_weights;  // of each point
+  std::vector<std::uint32_t> points;  // points within the support, facing outwards along the axis
+  std::vector<double> blend_weights;  // blend weight of each point
 };
 
 // Selected points of a surface, with normals and areas.

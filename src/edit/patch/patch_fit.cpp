@@ -87,7 +87,7 @@ void base_weights(const LocalMesh& local, const PatchCap& cap, std::size_t first
     weight = 0;
     if (first + i >= scratch.taken.size()) continue;
     const Vec3 offset = {x[i], x[m + i], x[2 * m + i]};
-    const double rim = 1.15 - std::min(1.0, dot(offset, offset) / support2);  // method 7.8
+    const double rim = 1.15 - std::min(1.0, dot(offset, offset) / support2);  // see method 7.8
     weight = local.areas[scratch.taken[first + i]] * scratch.area[first + i] * rim;
   }
 }

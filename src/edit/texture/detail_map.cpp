@@ -7,7 +7,7 @@
 namespace rholm {
 namespace {
 
-constexpr int kMostSamples = 1024;  // per side: 16 MB
+constexpr int kMostSamples = 1024;  // samples per side: 16 MB
 // Numbers of rings and angles for alignment; a parabola finds the peak between angles.
 constexpr int kRings = 48, kAngles = 720;
 

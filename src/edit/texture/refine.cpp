@@ -103,8 +103,8 @@ void split(const Triangle& t, const std::array<std::uint32_t, 3>& m, const Mesh&
                   length, kMostRefined));
 }
 
-// Throws before the work, not when memory is full. With edges up to `length` no triangle
-// is larger than the equilateral one, and there are half as many vertices as triangles.
+// Throws before the work, not when memory is full. With edges up to `length` no
+// triangle is larger than the equilateral one, and there are two triangles per vertex.
 void check_size(const Mesh& mesh, const std::vector<double>& weights, double length) {
   double area = 0;
   for (const Triangle& t : mesh.triangles) {

@@ -15,8 +15,8 @@ namespace {
 
 // Tiles end this far inside the disc, which leaves room for the fade.
 constexpr double kDisc = 0.95;
-// The fade extends this far to both sides of a seam, in lengths over which the texture's
-// height changes by its rms: w / 4.4 for waves of length w. Chosen by looking.
+// Half width of the fade across a seam, in lengths over which the texture's height
+// changes by its rms. Waves of length w have the length w / 4.4. Chosen by looking.
 constexpr double kFade = 1.2, kWidestFade = 0.05;
 // Region around the middle where three tiles may meet, as a part of the disc.
 constexpr double kCornerReach = 0.12;

@@ -88,7 +88,7 @@ void find_slopes(const TexturedPatch& textured, std::vector<DetailCorner>& corne
     const double area = ux * vy - uy * vx;
     if (!(area > 0) || !textured.whole(t)) continue;
     for (const std::uint32_t v : t) {
-      corners[v].slope.p += uh * vy - vh * uy;  // times the area
+      corners[v].slope.p += uh * vy - vh * uy;  // slope times the area
       corners[v].slope.q += vh * ux - uh * vx;
       areas[v] += area;
     }

@@ -25,8 +25,8 @@ struct TexturedPatch {
   double wavelength = 0;
   Patch patch;
   LocalMesh local;
-  std::vector<std::uint32_t> row;   // of each point in the patch; kNoRow for others
-  std::vector<Vec3> base, normals;  // of each point: position and normal of the smooth surface
+  std::vector<std::uint32_t> row;   // row of each point in the patch; kNoRow for other points
+  std::vector<Vec3> base, normals;  // position and normal of the smooth surface at each point
   PatchChart chart;
   // Returns true if all corners of a triangle of `local` are in the patch.
   bool whole(const Triangle& t) const {

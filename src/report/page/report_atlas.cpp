@@ -36,14 +36,14 @@ struct AtlasData {
   const Mesh* shape;
   const ReportOptions& options;
   AtlasSize size;
-  std::vector<DrawnLevel> levels;  // ascending, the last one with all degrees
+  std::vector<DrawnLevel> levels;  // ascending degrees, the last one with all degrees
 };
 
 std::string length_of(double value, const AtlasData& data, int digits) {
   return html::length(value, data.model.unit, digits);
 }
 
-// Returns the errors that the model stores, or else the errors measured here.
+// Returns the errors that the model stores; without them, the errors measured here.
 std::optional<AtlasErrors> errors_of(const AtlasData& data) {
   if (data.model.errors) return data.model.errors;
   const std::optional<Comparison>& c = data.levels.back().comparison;

@@ -12,8 +12,8 @@ namespace rholm::report {
 std::vector<int> drawn_limits(const Atlas& atlas);
 // Returns the number of coefficients with degrees up to a limit that are not zero.
 std::size_t coefficients_up_to(const Atlas& atlas, int degree);
-// Returns what each degree adds to r(u) - R_0: rms over the whole sphere of
-// a cap, and over the caps weighted by their area, in the unit of lengths.
+// Returns what each degree adds to r(u) - R_0, in the unit of lengths. The value is
+// the rms over the whole sphere of a cap, and over the caps weighted by their area.
 std::vector<double> cap_heights_by_degree(const Atlas& atlas);
 
 }  // namespace rholm::report

@@ -26,7 +26,7 @@ void check(const Mesh* shape, const ReportOptions& options);
 struct ShapeFigures {
   Mesh mesh;  // welded, outward, without attributes
   Inspection inspection;
-  StarReport star;  // from the model's centre
+  StarReport star;  // star-shape test from the model's centre
   // Returns true if radial errors and Parseval apply: closed, each direction meets it once.
   bool is_star() const { return inspection.closed && inspection.oriented && star.star_shaped; }
 };
@@ -44,20 +44,20 @@ struct DegreeRow {
   std::optional<double> rms;
   bool rms_is_exact = false;
   std::optional<double> rms_at_most;   // bound, set where rms is unknown but bounded
-  std::optional<double> max;           // radial
-  std::optional<double> max_distance;  // between the surfaces
+  std::optional<double> max;           // largest radial error
+  std::optional<double> max_distance;  // largest distance between the surfaces
 };
 
 struct Data {
   std::optional<ShapeFigures> shape;
-  std::vector<double> energy;              // per degree
-  RmsBeyond beyond;                        // with the errors below
-  std::vector<std::optional<double>> rms;  // RmsBeyond::figures()
-  std::vector<DegreeRow> rows;             // ascending, the last one has the model's own degree
-  std::optional<TruncationErrors> errors;  // of the model's own degree
+  std::vector<double> energy;              // energy per degree
+  RmsBeyond beyond;                        // computed with `errors`
+  std::vector<std::optional<double>> rms;  // copy of RmsBeyond::figures()
+  std::vector<DegreeRow> rows;             // ascending degrees, the last one is the model's own
+  std::optional<TruncationErrors> errors;  // errors at the model's own degree
   std::optional<SurfaceMeasures> model;    // nullopt above kHighestDrawn, or without a surface
-  double mean_radius = 0;  // of the model, over solid angle; 0 for a gauge and for a signed sum
-  double diagonal = 0;     // of the shape; 0 if unknown
+  double mean_radius = 0;  // mean over solid angle; 0 for a gauge and for a signed sum
+  double diagonal = 0;     // diagonal of the shape; 0 if unknown
 };
 
 Data find_data(const Expansion& expansion, std::optional<ShapeFigures> shape,

@@ -29,7 +29,7 @@ std::string figure_of(const Picture& picture, const std::string& alt, const std:
 std::string error_map(const ErrorMap& map, const std::string& surface, const std::string& caption,
                       const std::string& unit);
 
-// Returns a size in powers of 1000, such as "2.5 MB".
+// Returns a size in powers of 1000, for example "2.5 MB".
 std::string size_text(double bytes);
 // Returns the bytes of the mesh's arrays.
 double bytes_of(const Mesh& mesh);

@@ -164,7 +164,7 @@ std::vector<Image> cut_apart(const Image& image, std::size_t panels) {
   std::size_t top = 0, bottom = rows;
   while (top < bottom && is_white(&image.rgb[top * row], row)) ++top;
   while (bottom > top && is_white(&image.rgb[(bottom - 1) * row], row)) --bottom;
-  const std::size_t margin = rows / 25;  // as much as render() leaves at the sides
+  const std::size_t margin = rows / 25;  // same margin as render() has at the sides
   top = top > margin ? top - margin : 0;
   bottom = std::min(rows, bottom + margin);
   std::vector<Image> parts(panels);

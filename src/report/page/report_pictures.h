@@ -23,9 +23,9 @@ struct Picture {
 };
 
 struct ErrorMap {
-  std::vector<Picture> sides;  // from one side and from the opposite one; empty without a shape
-  ColorScale scale;            // of distances to the shape, in its unit
-  double largest = 0;          // at the vertices of the drawn surface
+  std::vector<Picture> sides;  // pictures from both sides; empty without a shape
+  ColorScale scale;            // scale of distances to the shape, in its unit
+  double largest = 0;          // largest distance at the vertices of the drawn surface
 };
 
 struct Pictures {

@@ -20,7 +20,7 @@ enum class Ink { kMeasured, kTail, kLargest, kDistance, kTolerance };
 const char* class_of(Ink ink);
 
 struct Series {
-  std::string label;  // markup
+  std::string label;  // as markup
   Ink ink = Ink::kMeasured;
   // Points that are not positive are left out.
   std::vector<PlotPoint> points;
@@ -29,10 +29,10 @@ struct Series {
 };
 
 struct Plot {
-  std::string id;           // of the page, letters only
+  std::string id;           // id in the page, letters only
   std::string title;        // text for screen readers
   std::string description;  // text for screen readers
-  std::string y_label;      // markup; the label of the x axis is "degree l"
+  std::string y_label;      // as markup; the label of the x axis is "degree l"
   double x_max = 1;         // degrees 1 ... x_max
   std::vector<Series> series;
 };

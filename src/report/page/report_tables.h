@@ -10,7 +10,7 @@ namespace rholm::report {
 
 // Columns: degree, number of coefficients, bytes, errors.
 std::string degree_table(const Expansion& expansion, const Data& data);
-// Returns what is known of the model's own error, and how; empty if nothing is known.
+// Returns the known errors of the model, with their sources; empty if there are none.
 std::string error_table(const Expansion& expansion, const Data& data);
 // Returns vertices, volume, centre, ... of the shape and of the model.
 std::string figure_table(const Expansion& expansion, const Data& data);

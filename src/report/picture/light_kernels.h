@@ -77,8 +77,8 @@ struct WindowSums {
 // Sums the windows of n scouts of a row, the first at its first cell.
 WindowSums sum_windows(const CellRow& row, std::size_t n, float per_half_depth);
 
-// Marks the edges among n cells of a row. A cell is an edge if one of eight around it sees
-// another object or differs in a root by > `step`, or one of the four beside is across a crease.
+// Marks the cells of a row that are edges: a crease lies before one of four cells
+// beside, or one of eight around sees another object or differs in a root by > `step`.
 std::vector<std::uint8_t> find_edges(const CellRow& row, std::size_t n, float per_half_depth,
                                      float step);
 

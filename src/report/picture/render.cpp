@@ -29,7 +29,7 @@ namespace {
 // Size of drawn points.
 
 constexpr std::size_t kProbes = 1000;  // sampled points; the median is accurate to some 2 %
-constexpr std::size_t kNeighbors = 8;  // per point, as on a square grid
+constexpr std::size_t kNeighbors = 8;  // neighbours per point, as on a square grid
 
 // Share of the diagonal, so that a small number of points stay points. Chosen by eye.
 constexpr double kLargest = 0.03;
@@ -306,7 +306,7 @@ void draw_panel(Canvas& canvas, const PanelPicture& p, std::optional<RayScene>& 
   if (!options.fine) return draw_shared(canvas, p, *scene, options, context, stage);
   const LightSamples lights =
       make_light_samples(options.samples * options.samples, options.occlusion_rays);
-  constexpr std::size_t kRows = 2;  // per chunk: some 10 ms
+  constexpr std::size_t kRows = 2;  // rows per chunk: some 10 ms
   parallel_for(static_cast<std::size_t>(p.height), kRows, context, stage,
                [&](std::size_t begin, std::size_t end) {
                  for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
@@ -349,7 +349,7 @@ std::vector<Image> render_views(std::span<const Panel> panels, const RenderOptio
   const std::optional<ColorScale> scale = color_scale(panels, options);
   const Layout layout = make_layout(panels, options, scale && options.scale_bar);
   const std::vector<Subject> subjects = make_subjects(panels, options.fit_each, context);
-  std::vector<std::vector<Sight>> sights;  // by direction
+  std::vector<std::vector<Sight>> sights;  // sights for each direction
   for (const Vec3& direction : directions) {
     RenderOptions turned = options;
     turned.view = direction;

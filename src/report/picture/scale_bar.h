@@ -8,8 +8,8 @@
 
 namespace rholm {
 
-// Round numbers (1, 2 or 5 times a power of ten apart) within min ... max: at most about
-// `wanted` + 1, and at least two if max - min exceeds the rounding of the numbers.
+// Round numbers (1, 2 or 5 times a power of ten apart) within min ... max, at most about
+// `wanted` + 1. There are at least two if max - min exceeds the rounding of the numbers.
 struct Ticks {
   std::vector<double> values;
   std::vector<std::string> labels;

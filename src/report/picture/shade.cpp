@@ -22,7 +22,7 @@ constexpr double kKey = 0.70, kFill = 0.06;
 constexpr double kBounce = 0.05;  // reaches every point: the inside of an open shape is not black
 // Share of the light that is independent of the surface where colours show numbers.
 constexpr double kFlatLight = 0.45;
-constexpr double kKeyRadius = 0.18;  // of the key's disc at distance 1: 10 degrees
+constexpr double kKeyRadius = 0.18;  // radius of the key's disc at distance 1: 10 degrees
 
 // Rays start this far (in radii) off the surface: 1000 times the rounding of Embree's floats.
 constexpr double kRayOffset = 1e-4;

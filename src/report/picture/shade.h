@@ -17,9 +17,9 @@ namespace rholm {
 struct Subject {
   Mesh mesh;                                     // no attributes; for points only vertices
   std::vector<Vec3> normals;                     // unit, per vertex; empty: faces are flat
-  const std::vector<double>* scalars = nullptr;  // per vertex; null: plain
-  double radius = 0;                             // of a ball about the origin that holds everything
-  std::vector<Color> colors = {};                // per vertex; empty: by scalars, or plain
+  const std::vector<double>* scalars = nullptr;  // scalar per vertex; null: plain
+  double radius = 0;                             // radius of a ball at the origin around it all
+  std::vector<Color> colors = {};                // colour per vertex; empty: by scalars, or plain
   double ball_radius = 0;                        // above 0: points, each drawn as a ball
 };
 
@@ -59,7 +59,7 @@ Finish finish(const Subject& subject, const Lamps& lamps, const ColorScale& scal
 // light have one Hammersley set each, distributed over all samples of the pixel.
 struct LightSamples {
   struct Polar {
-    double radius2, cosine, sine;  // of a point of the unit disc
+    double radius2, cosine, sine;  // polar coordinates of a point of the unit disc
   };
   std::vector<Polar> sky;  // equally many per sample of a pixel; empty: no occlusion
   std::vector<Polar> key;  // one per sample of a pixel

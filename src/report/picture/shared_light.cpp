@@ -27,7 +27,7 @@ constexpr int kBlock = 4;  // cells of a block along its side
 // Margins of cells around the pixels: for edge pixels, windows of means, scouts, their windows.
 constexpr int kAskMargin = 1 + kReach, kScoutMargin = kAskMargin + kScouts;
 constexpr int kMargin = kScoutMargin + kReach * kScouts;
-constexpr std::size_t kRows = 4;  // per chunk: some 5 ms
+constexpr std::size_t kRows = 4;  // rows per chunk: some 5 ms
 
 // Pixels whose square roots of brightness differ by more are edges: some 15 of 255 grey levels.
 // Measured by scripts/render-figures: at 0.08 Bennu is as far from many rays as fine pictures are.
@@ -203,7 +203,7 @@ class Drawing {
   LightSamples own_;
   std::vector<LightSamples::Polar> shared_sky_, more_key_;
   std::vector<Vec3> shared_key_;    // one for each cell of a block
-  std::vector<PlanePoint> places_;  // of an edge pixel
+  std::vector<PlanePoint> places_;  // sample positions in an edge pixel
   float per_depth_;
 };
 

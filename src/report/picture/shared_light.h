@@ -17,8 +17,8 @@ struct PanelPicture {
   const ColorScale& scale;
   PlaneBox box;
   double pixels_per_unit;
-  double center_x, center_y;  // pixels
-  int left, right, height;    // pixels
+  double center_x, center_y;  // position in pixels
+  int left, right, height;    // size in pixels
 
   Ray ray(double x, double y) const {
     return view.ray({0.5 * (box.min.x + box.max.x) + (x - center_x) / pixels_per_unit,

@@ -184,7 +184,7 @@ std::string energy_axis(const Axes& axes, const Expansion& expansion) {
 }
 
 // Draws a line through the degrees above the floor, with dots if there are not
-// too many, and open triangles at the lower edge for degrees below the floor.
+// too many. Degrees below the floor have open triangles at the lower edge.
 std::string data(const Axes& axes, const Curve& curve) {
   constexpr std::size_t kDotted = 80;  // chosen: more dots would overlap
   std::string path, marks;

@@ -10,8 +10,8 @@
 namespace rholm {
 
 struct PlanePoint {
-  double x = 0;  // to the right
-  double y = 0;  // up
+  double x = 0;  // distance to the right
+  double y = 0;  // distance upwards
 };
 
 struct PlaneBox {
@@ -26,7 +26,7 @@ struct View {
   Vec3 right;
   Vec3 up;
   Vec3 forward;
-  double distance = 0;  // of the eye
+  double distance = 0;  // distance of the eye
   bool perspective = false;
 
   PlanePoint project(const Vec3& p) const;

@@ -39,7 +39,7 @@ class NamedArrays {
   std::vector<Part> parts_;
 };
 
-std::vector<float> floats_of(std::span<const Vec3> points);                  // [n][3]
-std::vector<std::uint32_t> indices_of(std::span<const Triangle> triangles);  // [m][3]
+std::vector<float> floats_of(std::span<const Vec3> points);                  // flat array [n][3]
+std::vector<std::uint32_t> indices_of(std::span<const Triangle> triangles);  // flat array [m][3]
 
 }  // namespace rholm

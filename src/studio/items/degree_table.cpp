@@ -35,7 +35,7 @@ struct Waves {
 // Coefficients and recurrence of one order.
 struct Terms {
   LegendreOrder order;
-  std::vector<double> cosine, sine;  // of l = m ... L
+  std::vector<double> cosine, sine;  // coefficients of l = m ... L
 };
 
 std::vector<Terms> terms_of(const Coefficients& coefficients) {

@@ -26,7 +26,7 @@ const char* to_string(Kind kind);  // "mesh", "points", "expansion", "atlas"
 
 // Facts about a mesh.
 struct MeshFacts {
-  Inspection inspection;                 // of the exactly welded mesh
+  Inspection inspection;                 // inspection of the exactly welded mesh
   std::optional<StarReport> star;        // set if the mesh is closed and oriented
   std::vector<std::uint32_t> offending;  // triangles that face away from the centre
 };
@@ -43,23 +43,23 @@ struct Item {
   int id = 0;
   std::string name;
   Kind kind = Kind::kMesh;
-  std::uint64_t revision = 0;  // of its surface: unique among the surfaces of a session
-  std::string unit;            // of lengths, empty if unknown
+  std::uint64_t revision = 0;  // number of its surface, unique in a session
+  std::string unit;            // unit of lengths, empty if unknown
 
-  std::shared_ptr<const Mesh> original;     // of meshes: as read, or after the last edit
-  std::shared_ptr<const Model> model;       // of expansions, and analysed meshes
-  std::shared_ptr<const AtlasModel> atlas;  // of atlases
+  std::shared_ptr<const Mesh> original;     // meshes only: as read, or after the last edit
+  std::shared_ptr<const Model> model;       // expansions and analysed meshes only
+  std::shared_ptr<const AtlasModel> atlas;  // atlases only
   // File of the atlas, returned as is, since rewriting may change the last digits.
   std::shared_ptr<const std::string> atlas_file;
-  std::shared_ptr<const PointCloud> points;  // of points
-  std::shared_ptr<const Table> table;        // of points read from a text table
-  std::vector<std::string> warnings;         // of the reader of its file
+  std::shared_ptr<const PointCloud> points;  // points only
+  std::shared_ptr<const Table> table;        // only for points read from a text table
+  std::vector<std::string> warnings;         // warnings by the reader of its file
   std::shared_ptr<const Mesh> shown;         // the surface with its look; nullptr for points
-  std::shared_ptr<const MeshFacts> facts;    // of `shown`, or of the original if it was analysed
-  Look look;                                 // with a model
+  std::shared_ptr<const MeshFacts> facts;    // facts of `shown`, or of the original once analysed
+  Look look;                                 // used with a model
   std::optional<double> volume;  // signed, of `shown`; set if `facts` are of another mesh
   std::optional<int> limit;      // degree limit of an atlas
-  std::size_t caps = 0;          // of an atlas, or of a reconstruction
+  std::size_t caps = 0;          // caps of an atlas, or of a reconstruction
   std::string placed;            // text on how it was aligned; empty if it was not
 
   // Names in the lines of the recipe: files of the shape and of its coefficients
@@ -90,7 +90,7 @@ Json facts_json(const Item& item);
 // Returns Item::star of the state.
 Json star_json(const Item& item);
 
-// Returns rms_beyond() of a radius model as a list, null for unknown figures; else null.
+// Returns rms_beyond() of a radius model, null for unknown figures; null for other models.
 Json rms_json(const Model& model);
 
 }  // namespace rholm::studio

@@ -10,7 +10,7 @@
 namespace rholm::studio {
 namespace {
 
-// Returns a number in groups, such as "24 503".
+// Returns a number in groups of digits, like "24 503".
 std::string grouped(std::size_t n) {
   std::string text = std::to_string(n);
   for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) {

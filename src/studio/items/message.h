@@ -25,7 +25,7 @@ class Refusal : public std::runtime_error {
   std::string code_;
 };
 
-// 400: the request is wrong. 404: the requested thing does not exist.
+// Status 400: the request is wrong. Status 404: the requested object does not exist.
 inline Refusal bad_request(const std::string& message) { return {400, "bad_request", message}; }
 inline Refusal not_found(const std::string& message) { return {404, "not_found", message}; }
 

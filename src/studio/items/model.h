@@ -16,7 +16,7 @@ namespace rholm::studio {
 // Shown part of a series: degrees up to `degree`, each times its gain if there are gains.
 struct Look {
   int degree = 0;
-  std::vector<double> gains = {};  // of degrees 0 ... degree; empty: all 1
+  std::vector<double> gains = {};  // gains of degrees 0 ... degree; empty: all 1
   friend bool operator==(const Look&, const Look&) = default;
 };
 

@@ -14,7 +14,7 @@ namespace rholm {
 namespace {
 
 constexpr double kMostPoints = 20000;  // per cap: limits memory for extreme resolutions
-constexpr double kLeastShare = 1e-3;   // of a foot point's area; smaller shares are left out
+constexpr double kLeastShare = 1e-3;   // least share of a foot point's area; the others are skipped
 
 struct Feet {
   std::vector<Vec3> points, normals;

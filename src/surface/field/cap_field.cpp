@@ -30,7 +30,7 @@ using M = hn::Mask<D>;
 // Holds a cap in units of steps, relative to the first node of a block.
 struct LaneCap {
   const CapLane& cap;
-  V sx, sy, sz;  // seed
+  V sx, sy, sz;  // position of the seed
 
   HWY_INLINE LaneCap(D d, const CapLane& c, const Vec3& first) : cap(c) {
     const Vec3 s = c.seed - first;
@@ -384,7 +384,7 @@ void visit_blocks(const BlockGrid& grid, const Disc& disc, const Visit& visit) {
 
 CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs, const Context& context) {
   constexpr std::size_t kGrain = 256;
-  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // block, cap
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // pairs of block and cap
   std::vector<Pairs> found((discs.size() + kGrain - 1) / kGrain);
   parallel_for(discs.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     Pairs pairs;

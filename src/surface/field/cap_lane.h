@@ -18,7 +18,7 @@ struct CapLane {
   LaneFrame<float> frame;
   float px, py, xx, xy2, yy, hh;  // CapSupport, hh = 1 / support^2
   double middle;                  // z of the ellipse's centre
-  float extent;                   // of the support along z, measured from `middle`
+  float extent;                   // half extent of the support along z, measured from `middle`
   // Half the form's derivative along a row of nodes is row . (p, q, height), half its second
   // row_square. The row meets the tangent plane at x = -row_crossing times its height at x = 0.
   float row[3], row_square, row_crossing;
@@ -27,7 +27,7 @@ struct CapLane {
   float trust;         // factor of the weight: smaller for a cap with a larger fit error
   int degree;
   bool even;
-  bool spline;  // CapBlend::kSpline
+  bool spline;  // true for CapBlend::kSpline
   bool noisy;   // weight decreases where the surface leans
   const float* coefficients;
   bool by_powers;  // coefficients are in to_powers() form of kSmallDegree

@@ -11,8 +11,8 @@ namespace rholm {
 using NodeBits = std::array<std::uint64_t, 8>;
 
 struct NodeMasks {
-  NodeBits known = {};   // finite
-  NodeBits inside = {};  // finite and below zero: both zeros count as outside
+  NodeBits known = {};   // finite values
+  NodeBits inside = {};  // finite values below zero: both zeros count as outside
 };
 
 // Computes the masks of consecutive blocks of 512 values each.

@@ -19,7 +19,7 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kGrain = 64;  // blocks
+constexpr std::size_t kGrain = 64;  // blocks per task
 // The winding number refutes a sign if it differs from 1/2 by more, to the other side. With 0.15
 // fewer horns appear at edges than with 0.2 or 0.3; 0.1 also cuts corners (scripts/constants).
 constexpr double kRefuted = 0.15;
@@ -36,7 +36,7 @@ bool is_complete(const BlockGrid& grid, const std::vector<char>& fully_known, st
 struct Search {
   std::vector<NodeMasks> masks;
   std::vector<char> fully_known;
-  std::vector<Wanted> wanted;       // of the blocks in `open`
+  std::vector<Wanted> wanted;       // wanted values of the blocks in `open`
   std::vector<std::uint32_t> open;  // blocks to search in this round, ascending
 };
 

@@ -30,7 +30,7 @@ class HermiteRbf {
 
  private:
   struct Term {
-    Vec3 center;  // in the centres' frame: mean at 0, extent 1
+    Vec3 center;  // position in the centres' frame: mean at 0, extent 1
     double alpha = 0;
     Vec3 beta;
   };

@@ -30,8 +30,8 @@ constexpr double kMostSteep = 1.5;
 constexpr double kThinning = 1.2;
 // Least number of centres; fewer determine no more than a plane.
 constexpr std::size_t kLeastCenters = 6;
-// Smaller holes keep the winding number: its roughness there is below a
-// step or two, and a surface full of gaps has very many such holes. Chosen.
+// Smaller holes keep the winding number: its roughness there is below a step
+// or two, and a surface full of gaps has very many small holes. Chosen.
 constexpr std::size_t kLeastNodes = 64;
 constexpr double kLeastRadiusSteps = 2.5;
 // Least radius of a smooth fill between two sheets. Midway between discs
@@ -142,8 +142,8 @@ std::vector<Candidate> candidates_of(const BlockGrid& grid, const Hole& hole,
       }
     }
   }
-  // A hole smaller than the surrounding caps continues their surface. Since such
-  // caps have too few feet, the grid's surface within a support counts too.
+  // A hole smaller than the surrounding caps continues their surface. These
+  // caps have too few feet, so the grid's surface within a support counts too.
   const double support = typical_support(feet, found);
   if (hole.radius < support) {
     for (const Candidate& c : of_grid) {

@@ -32,7 +32,7 @@ using FeetNear = std::function<std::vector<FootPoint>(std::span<const Hole> hole
 using NodeSupport = std::function<void(std::span<const Vec3> x, std::span<double> support)>;
 
 struct HoleFillOptions {
-  std::size_t max_blocks = 0;  // of the grid; see close_grid()
+  std::size_t max_blocks = 0;  // limit of the grid; see close_grid()
   // If given, known nodes around a hole with a support below 1 become part
   // of the fill. The surface at nodes with support 1 guides the fill.
   NodeSupport support = {};

@@ -15,7 +15,7 @@ struct NodeId {
 };
 
 struct Hole {
-  std::vector<NodeId> nodes;  // in the grid's order
+  std::vector<NodeId> nodes;  // all nodes in the grid's order
   std::vector<NodeId> rim;    // nodes of the hole next to a measured node
   Vec3 center;                // mean of the rim
   double radius = 0;          // mean distance of the rim from `center`

@@ -9,7 +9,7 @@ namespace {
 // Rows of ten nodes along x around a block: bit 1 + x of row [z + 1][y + 1], -1 <= x, y, z <= 8.
 using PaddedBits = std::array<std::array<std::uint16_t, 10>, 10>;
 
-// For place p = 0 ... 9 of a padded row: its block (0 is the one below), and its node there.
+// Place p = 0 ... 9 of a padded row lies in block side_of(p) (0 is the one below), node node_of(p).
 constexpr int side_of(int p) { return p == 0 ? 0 : p == 9 ? 2 : 1; }
 constexpr int node_of(int p) { return (p + 7) & 7; }
 
@@ -70,7 +70,7 @@ void note(const BlockGrid& grid, std::size_t b, int x, int y, int z, Wanted& wan
 }
 
 // Slice of 10 x 10 nodes around a block: 12 rows of 16 bits in three words, bit 1 + x. Their
-// y are 0 ... 3; 4 ... 7; 8, unused, unused, -1. So the next row, cyclically, is the next y.
+// y are 0 ... 3; 4 ... 7; 8, unused, unused, -1. The next row, cyclically, is the next y.
 using Slice = std::array<std::uint64_t, 3>;
 
 // Widens the low four bytes of a word to 16 bits each.

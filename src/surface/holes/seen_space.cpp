@@ -16,7 +16,7 @@ constexpr double kMostCubes = 256;  // along an axis; chosen: 16 MiB
 // Sum of the weights 1, 2, 1 along each axis. Smoothing blurs an edge of seen
 // space over two cubes, and keeps a single unseen cube among seen ones empty.
 constexpr int kAll = 64;
-constexpr std::size_t kGrain = 1024;  // lines
+constexpr std::size_t kGrain = 1024;  // lines per task
 
 // Clips the line from p to q to the box from 0 to `size`; returns false if it misses the box.
 bool clip(const Vec3& p, const Vec3& q, const std::array<double, 3>& size, double& first,

@@ -49,7 +49,7 @@ class SeenSpace {
   double edge_ = 1;
   std::array<std::size_t, 3> size_ = {};
   std::vector<std::uint8_t> seen_;  // after smooth(): sum over the cubes around, up to kAll
-  std::vector<std::uint8_t> bits_;  // of SeenCubes: `seen_` before smoothing
+  std::vector<std::uint8_t> bits_;  // bits of SeenCubes: `seen_` before smoothing
 };
 
 }  // namespace rholm

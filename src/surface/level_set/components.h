@@ -24,7 +24,7 @@ struct ComponentSize {
   double volume = 0;  // valid if the component is closed
 };
 
-// Returns 1 for each component that stays by the rule below, else 0.
+// Returns 1 for each component that stays by the rule below, and 0 for the others.
 std::vector<char> large_components(std::span<const ComponentSize> sizes, double least_share);
 
 struct DroppedComponents {
@@ -34,9 +34,9 @@ struct DroppedComponents {
 };
 
 // Drops components (triangles connected through vertices) with an area below `least_share`
-// of the largest. Also drops closed ones with a volume below least_share^(3/2) of the
-// largest volume. Both rules agree for bodies of one shape, but a flat bubble has little
-// volume. 0 drops nothing. The order is kept; vertices without triangles are removed.
+// of the largest, and closed ones with a volume below least_share^(3/2) of the largest
+// volume. Both rules agree for bodies of one shape, but a flat bubble has little volume. 0
+// drops nothing. The order is kept; vertices without triangles are removed.
 DroppedComponents drop_small_components(Mesh& mesh, double least_share,
                                         const Context& context = {});
 

@@ -114,7 +114,7 @@ bool opens_on_both_sides(const Mesh& mesh, const std::vector<std::uint32_t>& mat
 
 struct Candidate {
   double length = 0;
-  std::uint32_t base = 0;  // vertex
+  std::uint32_t base = 0;  // vertex where the loop begins
   friend bool operator<(const Candidate& a, const Candidate& b) {
     return a.length != b.length ? a.length < b.length : a.base < b.base;
   }
@@ -330,7 +330,7 @@ double length_of_tight_places(double typical) { return kGirth * kCoarsest * typi
 double reach_of_cuts(double typical) { return 2 * std::max(kReach, kGirth) * typical; }
 
 // A loop is judged by the mesh within kBeside local resolutions plus half its
-// length. That mesh belongs to the piece within kReach of the given vertices.
+// length. The piece within kReach of the given vertices contains this mesh.
 std::vector<std::uint32_t> places_to_cut(const Mesh& mesh, const std::vector<std::uint32_t>& places,
                                          const Resolution& resolution, const Context& context) {
   const MeshPiece piece = piece_around(mesh, places, kReach * resolution.typical, context);

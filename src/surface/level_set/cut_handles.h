@@ -47,8 +47,8 @@ double reach_of_cuts(double typical);
 std::vector<std::uint32_t> places_to_cut(const Mesh& mesh, const std::vector<std::uint32_t>& places,
                                          const Resolution& resolution, const Context& context);
 
-// Cuts a closed surface with normals nx, ny, nz along loops of at most five resolutions,
-// around a bridge between sheets or through a hole in a thin sheet. The surface must
+// Cuts a closed surface with normals nx, ny, nz along loops of at most five resolutions. A
+// loop surrounds a bridge between sheets or a hole through a thin sheet. The surface must
 // open on both sides of the loop within three resolutions, so rods stay, and connected
 // parts stay connected. Both ends are closed and smoothed; their normals are zero.
 CutHandles cut_handles(Mesh& mesh, const Resolution& resolution, const Context& context);

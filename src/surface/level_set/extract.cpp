@@ -29,9 +29,9 @@ constexpr std::size_t kGrain = 64;
 // NodeBits: a cube has the bit of its lowest node, an edge the bit of its lower end.
 struct BlockSurface {
   NodeMasks nodes;
-  NodeBits cubes = {};                                      // with triangles
-  std::array<NodeBits, 3> edges = {};                       // with a vertex, per axis
-  std::array<std::array<std::uint16_t, 3>, 8> before = {};  // vertices before [slice][axis]
+  NodeBits cubes = {};                                      // cubes with triangles
+  std::array<NodeBits, 3> edges = {};                       // edges with a vertex, per axis
+  std::array<std::array<std::uint16_t, 3>, 8> before = {};  // vertices that precede [slice][axis]
   std::uint32_t n_vertices = 0;
   std::uint32_t n_triangles = 0;
 };

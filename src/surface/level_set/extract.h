@@ -27,8 +27,8 @@ struct ExtractedSurface {
 // holds the mesh twice for a while; unused room costs no memory.
 inline std::size_t room_for_copies(std::size_t n) { return n / 64 + 1024; }
 
-// Makes no triangles in cubes with an unknown corner. If no such cube has both signs, the mesh
-// is a closed 2-manifold; otherwise it has borders there, and may touch itself in a vertex.
+// Makes no triangles in cubes with an unknown corner. If no cube of this kind has both signs, the
+// mesh is a closed 2-manifold. Otherwise it has borders there, and may touch itself in a vertex.
 // Vertices are interpolated linearly. Throws Unsupported above 2^31 / 3 triangles or vertices.
 ExtractedSurface extract_surface(const BlockGrid& grid, const Context& context = {});
 // Extracts the cubes of the first blocks only, as a part of the whole surface. All

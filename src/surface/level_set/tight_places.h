@@ -21,8 +21,8 @@ std::vector<std::uint32_t> sharp_vertices(const Mesh& mesh, const NormalAttribut
 // Returns, ascending, the indices of sharp vertices that are tight places as defined below.
 std::vector<std::uint32_t> turning_around(const std::vector<SharpVertex>& sharp, double length);
 
-// Returns vertices, ascending, such that nearly every closed curve of at most
-// `length` that is the shortest around something passes one. Found by normals.
+// Returns vertices, ascending, found by their normals. Nearly every closed curve
+// of at most `length` that is the shortest around something passes one of them.
 std::vector<std::uint32_t> tight_places(const Mesh& mesh, const NormalAttributes& normals,
                                         double length, const Context& context);
 

@@ -15,7 +15,7 @@ namespace rholm {
 // Triangles without a normal count as 0, so that every sample has a normal.
 class AreaSum {
  public:
-  explicit AreaSum(double scale) : scale_(scale) {}  // of coordinates; keeps areas in range
+  explicit AreaSum(double scale) : scale_(scale) {}  // factor of coordinates; keeps areas in range
   // Adds the next part's triangles. Returns the ascending sums up to and including each one.
   std::vector<double> add(const Mesh& part);
   double value() const { return largest_; }

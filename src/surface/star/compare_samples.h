@@ -16,7 +16,7 @@ namespace rholm {
 enum class Way { kForth, kBack };  // from A to B, from B to A
 
 struct SampleDistances {
-  std::vector<double> distances, angles;  // as in DistancesOut
+  std::vector<double> distances, angles;  // values as in DistancesOut
 
   explicit SampleDistances(std::size_t n) : distances(n), angles(n) {}
   DistancesOut range(std::size_t first, std::size_t n) {
@@ -44,8 +44,8 @@ class CompareSamples {
             SampleDistances& back) const;
 
   const CompareOptions& options() const { return options_; }
-  double scale() const { return scale_; }                      // of lengths: a power of two
-  double diagonal() const { return a_->bounds().diagonal(); }  // of A's bounding box, scaled
+  double scale() const { return scale_; }                      // factor of lengths: a power of two
+  double diagonal() const { return a_->bounds().diagonal(); }  // diagonal of A's box, scaled
 
  private:
   struct Part {

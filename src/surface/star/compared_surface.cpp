@@ -103,7 +103,7 @@ class PartSearch {
 }  // namespace
 
 std::size_t triangles_of_portion(std::size_t n_vertices, std::size_t memory) {
-  const std::size_t numbers = n_vertices / 16 * 3;  // of a RankedSet
+  const std::size_t numbers = n_vertices / 16 * 3;  // bytes of a RankedSet
   const std::size_t rest = memory > numbers ? memory - numbers : 0;
   return std::clamp(rest / kBytesPerTriangle, kFewestTriangles, std::size_t{1} << 31);
 }
@@ -113,7 +113,7 @@ struct ComparedSurface::Part {
 
   MeshPortion triangles;
   std::vector<double> areas;         // sums of AreaSum, for drawing
-  std::optional<TriangleTree> tree;  // of these triangles, for measuring
+  std::optional<TriangleTree> tree;  // tree of these triangles, for measuring
 };
 
 ComparedSurface::ComparedSurface(const Mesh& mesh, double scale) {

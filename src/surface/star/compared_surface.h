@@ -49,7 +49,7 @@ class ComparedSurface {
   ~ComparedSurface();
 
   bool is_kept() const { return kept_ != nullptr; }
-  const Bounds& bounds() const { return bounds_; }  // scaled
+  const Bounds& bounds() const { return bounds_; }  // box of the scaled vertices
 
   // Prepare draw() and measure(), once. Any thread may call them, but not within a
   // parallel loop. prepare_to_draw() throws InvalidInput for a mesh without area.
@@ -72,10 +72,10 @@ class ComparedSurface {
   Bounds bounds_;
   UnitFrame frame_;
   std::shared_ptr<Part> kept_;
-  std::optional<MeshPortions> portions_;  // of a surface not kept in memory
-  std::vector<Bounds> boxes_;             // of parts, in the frame
-  std::vector<AreaSum> sums_;             // before each part
-  double twice_area_ = 0;                 // in the units of AreaSum
+  std::optional<MeshPortions> portions_;  // used if the surface is not kept in memory
+  std::vector<Bounds> boxes_;             // boxes of the parts, in the frame
+  std::vector<AreaSum> sums_;             // sum of the areas before each part
+  double twice_area_ = 0;                 // value in the units of AreaSum
   std::once_flag to_draw_, to_measure_;
 };
 

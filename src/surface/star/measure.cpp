@@ -28,7 +28,7 @@ namespace {
 // whose mean is 1, and lengths are multiplied by `scale` afterwards.
 struct UnitExpansion {
   Coefficients coefficients;
-  bool gauge = false;  // 1/r
+  bool gauge = false;  // true if the coefficients expand 1/r
   double scale = 1;
 };
 

@@ -37,7 +37,7 @@ class RowsUsed {
   }
 
  private:
-  static constexpr std::size_t kRowsOfPage = 128;  // or more
+  static constexpr std::size_t kRowsOfPage = 128;  // rows per page, at least
   // Chosen: about 64 MB, with the pages that the system loads around each page.
   static constexpr std::size_t kMostJumps = 1024;
   const Release& release_;

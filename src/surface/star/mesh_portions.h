@@ -16,7 +16,7 @@ namespace rholm {
 Bounds checked_bounds(const MeshInPlace& mesh, const Context& context);
 
 struct MeshPortion {
-  Mesh mesh;  // scaled; vertices are in the order of the whole mesh
+  Mesh mesh;  // scaled mesh; vertices keep the order of the whole mesh
   PortionNumbers numbers;
 };
 

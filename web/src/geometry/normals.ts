@@ -35,7 +35,7 @@ function firstAtPlace(positions: Float32Array): Uint32Array | null {
   return different ? null : first;
 }
 
-// Writes unit normals [n, 3] of all vertices, or of those flagged in `touched` [n]. `joined` is
+// Writes unit normals [n, 3] of all vertices, or of the vertices flagged in `touched` [n]. `joined` is
 // joinedTriangles(); a vertex outside these triangles has the normal of the first one at its place.
 export function vertexNormals(
   positions: Float32Array,

@@ -3,10 +3,10 @@
 
 // Pieces of triangles with one label each; their corners are given as weights of the triangle's corners.
 export interface Seams {
-  labels: Uint32Array; // [n], of vertices; isolated labels are replaced by those around
+  labels: Uint32Array; // [n], of vertices; isolated labels are replaced by labels around
   faces: Uint32Array; // [3 k], corners of the mesh's triangle that contains piece k
   weights: Float32Array; // [9 k], weights of these corners at each corner of the piece
-  pieceLabels: Uint32Array; // [k]
+  pieceLabels: Uint32Array; // label of each piece, [k]
 }
 
 type Shares = Map<number, number>; // share of each label at a vertex; the sum is 1

@@ -29,7 +29,7 @@ export interface Column {
   cos: number;
   sin: number;
   now: Float64Array; // [top + 1], P_lm of orders 0 ... degree
-  before: Float64Array; // of degree - 1
+  before: Float64Array; // P_lm of degree - 1
 }
 
 export function startColumn(theta: number, top: number): Column {

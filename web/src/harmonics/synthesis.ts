@@ -13,7 +13,7 @@ export interface Grid {
   meridians: number; // a power of 2; longitudes 2 pi k / meridians
 }
 
-// Returns a grid with half as many rings as meridians, which resolves degree L up to `most` meridians.
+// Returns a grid with rings = meridians / 2, which resolves degree L up to `most` meridians.
 export function gridFor(degree: number, most = 1024): Grid {
   // At least four vertices per wave, and 256, so that low degrees look smooth.
   const meridians = Math.min(most, Math.max(256, 2 ** Math.ceil(Math.log2(4 * (degree + 1)))));

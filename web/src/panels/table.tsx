@@ -4,7 +4,7 @@ import type { Item } from "../protocol";
 import { unread } from "../state";
 import { Facts, Hint, TextField } from "../widgets";
 
-const words = "x,y,z,nx,ny,nz,r,g,b,a"; // of the program's --columns
+const words = "x,y,z,nx,ny,nz,r,g,b,a"; // words of the program's --columns
 
 function Words() {
   return (

@@ -15,7 +15,7 @@ import type { Rgb } from "../geometry/colors";
 
 export interface Ring {
   center: [number, number, number];
-  normal: [number, number, number]; // of the surface there
+  normal: [number, number, number]; // normal of the surface there
   radius: number;
   color: Rgb;
   handle?: number; // a ball on the ring to drag, at this angle from the ring's first direction, radians

@@ -15,8 +15,8 @@ export interface Dab {
 
 export const painting = signal(true); // false: the pointer turns the shape
 export const dabs = signal<Dab[]>([]);
-export const radiusShare = signal(0.06); // of the diagonal
-export const leastRadius = 0.005; // of the diagonal; chosen
+export const radiusShare = signal(0.06); // share of the diagonal
+export const leastRadius = 0.005; // share of the diagonal; chosen
 export const mostRadius = 0.5;
 export const radius = computed(() => radiusShare.value * (item.value?.diagonal ?? 1));
 export const regions = computed(() =>
@@ -26,7 +26,7 @@ export const regions = computed(() =>
 // Width of the region's transition, in the unit; null: half the radius.
 export const transition = signal<number | null>(null);
 
-const spacing = 0.35; // of the radius; chosen: dabs overlap strongly
+const spacing = 0.35; // share of the radius; chosen: dabs overlap strongly
 
 // Share of the brush's colour at weight 1, during and after painting; chosen: afterwards the surface is visible.
 const coverPainting = 0.6;

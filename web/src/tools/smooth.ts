@@ -17,7 +17,7 @@ export type Action = (typeof actions)[number][0];
 
 export const action = signal<Action>("smooth");
 export const strength = new Option<number>("smooth", "strength");
-export const wavelengthShare = new Option<number>("smooth", "wavelength"); // of the diagonal
+export const wavelengthShare = new Option<number>("smooth", "wavelength"); // share of the diagonal
 export const wavelength = computed(() => wavelengthShare.value * (item.value?.diagonal ?? 1));
 export const previewed = signal(false);
 

@@ -12,8 +12,8 @@ import { repaint, restoreSurface, shown, theView } from "../show";
 import { item, tab } from "../state";
 
 interface Disc {
-  item: number; // its id
-  diagonal: number; // of the item
+  item: number; // id of the item
+  diagonal: number; // diagonal of the item
   vertex: number;
   point: [number, number, number];
   normal: [number, number, number];
@@ -23,8 +23,8 @@ export type Picking = "from" | "to" | "none";
 export const picking = signal<Picking>("from");
 export const from = signal<Disc | null>(null);
 export const to = signal<Disc | null>(null);
-export const radiusShare = signal(0.12); // of the diagonal, of the source
-export const targetShare = signal(0.12); // of the target
+export const radiusShare = signal(0.12); // share of the diagonal, of the source
+export const targetShare = signal(0.12); // share of the diagonal, of the target
 export const scale = new Option<number>("transfer", "scale");
 export const height = new Option<number>("transfer", "height");
 export const angle = new Option<number | null>("transfer", "angle"); // null: the angle most similar to existing detail
@@ -100,7 +100,7 @@ export function showRings(): void {
   theView()?.rings(rings);
 }
 
-const handleReach = 0.3; // of the ring's radius; chosen: twice the ball
+const handleReach = 0.3; // share of the ring's radius; chosen: twice the ball
 let dragging = false;
 
 // Returns true if the pointer holds the handle, in the target's plane.

@@ -12,8 +12,8 @@ export interface Model {
   surface: Surface; // its arrays are overwritten for each degree
   normals: Float32Array;
   directions: Float32Array;
-  radii: Float64Array; // of the shown degree
-  full: Float64Array; // of all degrees
+  radii: Float64Array; // radii of the shown degree
+  full: Float64Array; // radii of all degrees
   original: Surface | null;
 }
 
