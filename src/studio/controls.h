@@ -18,8 +18,8 @@ template <typename V>
 inline constexpr bool kIsAsked =
     NamedEnum<V> || std::is_arithmetic_v<V> || std::is_same_v<V, std::optional<double>>;
 
-// Returns true if requests and the page have this field by its name. They have the program's
-// fields without lengths (parts of the diagonal there), places, and fields without effect.
+// Returns true if requests and the page have this field by its name: a field of the program
+// that changes the result and has no unit. Lengths and places are given in other ways.
 template <typename V>
 bool is_asked(const FieldInfo& info) {
   return kIsAsked<V> && info.in_program && info.changes_result && info.unit == FieldUnit::kNone;

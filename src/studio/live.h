@@ -1,4 +1,4 @@
-// Previews of steps during dragging: answered at once, without a step. Layer: studio.
+// Previews during dragging: answered at once, never recorded as steps. Layer: studio.
 #pragma once
 
 #include <array>

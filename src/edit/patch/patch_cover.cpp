@@ -9,9 +9,9 @@
 namespace rholm {
 namespace {
 
-// The centre is the centre of the sphere that fits the normals, at most 3.7 supports
-// below the seed. From there the support spans 15 degrees (method 7.2), with nearly
-// parallel rays. It is at least 0.6 supports below: slightly more than a hemisphere.
+// The centre is the centre of the sphere that fits the normals, at most 3.7 supports below the
+// seed. Seen from that distance, the support has a half angle of 15 degrees (method 7.2), and rays
+// are nearly parallel. The centre is at least 0.6 supports below: slightly more than a hemisphere.
 constexpr double kFarthest = 3.7, kNearest = 0.6;
 // Angle of the support's rim on the opened sphere. Even harmonics live on a hemisphere
 // (method 7.8), and need some room beyond the last points. They need more room than in

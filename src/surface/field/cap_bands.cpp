@@ -17,7 +17,8 @@ namespace {
 // steps of 0.6 spacings, at supports of 2.8 spacings. Chosen: three times the error that one cap in
 // ten exceeds where density falls 300 times.
 constexpr double kBandOfSupport = 0.35;
-// Number of nearest caps searched. Caps lie half a support apart, so these cover one support.
+// Number of nearest caps searched. Caps lie half a support apart, other sheets included, so these
+// caps cover one support.
 constexpr std::size_t kBeside = 24;
 
 bool is_small(const Cap& cap) { return cap.area > 0; }
