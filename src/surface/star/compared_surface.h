@@ -51,8 +51,8 @@ class ComparedSurface {
   bool is_kept() const { return kept_ != nullptr; }
   const Bounds& bounds() const { return bounds_; }  // box of the scaled vertices
 
-  // Prepare draw() and measure(), once. Any thread may call them, but not within a
-  // parallel loop. prepare_to_draw() throws InvalidInput for a mesh without area.
+  // Prepare draw() and measure(), once. Any thread may call them; within a parallel loop `context`
+  // must have one thread. prepare_to_draw() throws InvalidInput for a mesh without area.
   void prepare_to_draw();
   void prepare_to_measure(const Context& context);
 
