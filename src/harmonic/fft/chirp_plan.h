@@ -1,5 +1,5 @@
 // Complex transforms of lengths that have prime factors other than 2, 3 and 5, as convolutions with
-// a chirp (Bluestein 1970): with w = e^(-2 pi i / n) and jk = (j^2 + k^2 - (k - j)^2) / 2,
+// a chirp (Bluestein 1970). With w = e^(-2 pi i / n) and jk = (j^2 + k^2 - (k - j)^2) / 2:
 //   X_k = w^(k^2/2) sum_j (x_j w^(j^2/2)) w^(-(k-j)^2/2).
 // Two transforms of a smooth_length() compute this convolution of at least 2 n - 1 numbers. They
 // take five to seven times as long as one such length near n (bench/fft_bench). Layer: harmonic.

@@ -32,7 +32,7 @@ HWY_INLINE void visit_vectors(size_t n, size_t limit, const Visit& visit) {
   }
 }
 
-// With z_j = x_2j + i x_{2j+1} and its transform Z of length n/2, X_k = E_k + w^k O_k, where
+// With z_j = x_2j + i x_{2j+1} and its transform Z of length n/2: X_k = E_k + w^k O_k. Here
 // 2 E_k = Z_k + conj(Z_{n/2-k}) and 2i O_k = Z_k - conj(Z_{n/2-k}).
 template <typename T>
 HWY_INLINE void UntangleAny(const T* HWY_RESTRICT z, const T* HWY_RESTRICT cosine,

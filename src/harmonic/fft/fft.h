@@ -12,8 +12,8 @@
 
 namespace rholm {
 
-// Returns the smallest n' >= n that is fast to transform and a multiple of `multiple`, a power of
-// two. n' is 1, 5 or 25 times a power of two, and this power is at least 16 from n = 128 on.
+// Returns the smallest length >= n that is fast to transform and a multiple of `multiple`, a power
+// of two. It is 1, 5 or 25 times a power of two; this power is at least 16 from n = 128 on.
 std::size_t smooth_length(std::size_t n, std::size_t multiple = 1);
 
 // Computes X_k = sum_j x_j e^{-2 pi i jk/n} of n >= 1 complex numbers; T is float or double.

@@ -152,9 +152,9 @@ HWY_INLINE void StoreAt(D d, const Complex<hn::Vec<D>>& a, T* y, std::size_t n, 
 }
 
 // Calls visit(i) for runs of Lanes(d) numbers that begin at i and together cover 0 ... n - 1, where
-// n >= Lanes(d). The last run may overlap the one before; it then writes the same values again.
-// visit() is called at one place and captures by value, so that it is inlined with its data in
-// registers. Otherwise, passes take a third longer (bench/fft_bench).
+// n >= Lanes(d). The last run may overlap the one before; it then writes the same values again. A
+// single call of visit(), which captures by value, is inlined with its data in registers.
+// Otherwise, passes take a third longer (bench/fft_bench).
 template <class D, class Visit>
 HWY_INLINE void VisitVectors(D d, std::size_t n, const Visit& visit) {
   const std::size_t last = n - hn::Lanes(d);

@@ -1,10 +1,10 @@
 // Complex transforms by passes of radix 2, 3, 4, 5 and 8, in the order of Stockham: each pass
 // sorts, so that no sorting is needed before or after. Layer: harmonic.
 //
-// A pass of radix R reads s interleaved sequences of n numbers each. It writes R times as many
-// sequences of m = n / R numbers each:
-//   y[q + s (R p + k)] = w_n^(p k) sum_j x[q + s (p + m j)] w_R^(j k),  w_n = e^(-2 pi i / n),
-// for p = 0 ... m - 1, k = 0 ... R - 1, q = 0 ... s - 1. The first pass has s = 1, the last m = 1.
+// A pass of radix R turns s interleaved sequences of n numbers into R times as many sequences of m
+// = n / R numbers. With w_n = e^(-2 pi i / n),
+//   y[q + s (R p + k)] = w_n^(p k) sum_j x[q + s (p + m j)] w_R^(j k).
+// Indices: p = 0 ... m - 1, k = 0 ... R - 1, q = 0 ... s - 1; first pass s = 1, last pass m = 1.
 #pragma once
 
 #include <complex>

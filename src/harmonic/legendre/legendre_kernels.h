@@ -16,8 +16,8 @@ inline constexpr std::size_t kLegendreLanes = 32;
 void legendre_adjoint(const LegendreOrder& order, const double* x, const double* s, std::size_t n,
                       const double* re, const double* im, double* c_out, double* s_out);
 
-// Computes for each of n_sets in {1, 4} pairs of rows c[set], s[set] (index l - m) the sums
-// re[set][j] = sum_l c[set][l-m] Pt_lm(x_j), and im from s[set]. Overwrites re and im.
+// Takes n_sets in {1, 4} pairs of rows c[set], sn[set] with index l - m. Overwrites re[set][j] with
+// sum_l c[set][l-m] Pt_lm(x_j), and im[set][j] with the same sum of sn[set].
 void legendre_forward(const LegendreOrder& order, const double* x, const double* s, std::size_t n,
                       int n_sets, const double* const* c, const double* const* sn,
                       double* const* re, double* const* im);

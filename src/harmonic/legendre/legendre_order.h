@@ -5,10 +5,10 @@
 // value at x = 1, the three-term recurrence reads
 //   (l+m+1) (Q_{l+1} - Q_l) = (l-m) (Q_l - Q_{l-1}) + (2l+1) (x-1) Q_l.
 // This form in differences (Reinsch's, for m = 0) keeps full accuracy next to the poles. The usual
-// form loses l^2 rounding units there, because its characteristic roots coincide. In terms of Pt
-// and d_l = nu_l (Q_l - Q_{l-1}), with rho_l = nu_{l+1} / nu_l:
-//   d_{l+1}  = rho_l [(l-m) d_l + (2l+1) (x-1) Pt_l] / (l+m+1),   d_m = 0
-//   Pt_{l+1} = rho_l Pt_l + d_{l+1},                              Pt_mm = mu_m s^m
+// form loses l^2 rounding units there, because its characteristic roots coincide. Let
+// d_l = nu_l (Q_l - Q_{l-1}) and rho_l = nu_{l+1} / nu_l. Then
+//   d_{l+1}  = rho_l [(l-m) d_l + (2l+1) (x-1) Pt_l] / (l+m+1),   d_m = 0.
+//   Pt_{l+1} = rho_l Pt_l + d_{l+1},                              Pt_mm = mu_m s^m.
 // It runs with |x|, where x - 1 = -s^2/(1+|x|), and Pt_lm(-x) = (-1)^{l-m} Pt_lm(x). s^m underflows
 // near the poles. Each value is therefore stored as p 2^(960 k) with k <= 0 (Fukushima 2012), which
 // is accurate at any colatitude.

@@ -1,8 +1,8 @@
 // All harmonics of low degree at once: the constants of their recurrence.
 //
 // With u = (X, Y, Z) on the sphere, the real orthonormal harmonics are
-//   p_lm(Z) Re (X + iY)^m  and  p_lm(Z) Im (X + iY)^m,
-// where p_lm is a polynomial: p_mm is constant, p_lm = a_lm (Z p_{l-1,m} - b_lm p_{l-2,m}).
+//   p_lm(Z) Re (X + iY)^m  and  p_lm(Z) Im (X + iY)^m.
+// Polynomials p_lm begin with a constant p_mm: p_lm = a_lm (Z p_{l-1,m} - b_lm p_{l-2,m}).
 // The order is as in atlas.h: l = 0, 1, ...; for each l first m = 0, then cosine and sine of m = 1,
 // 2, ..., l.
 #pragma once
@@ -21,8 +21,8 @@ struct LowHarmonics {
 };
 const LowHarmonics& low_harmonics();
 
-// Recurrence for even l + m alone, where p_lm is even in Z, up to twice kMaxLowDegree, the degree
-// of products of two: p_{l+2,m} = (a_lm Z^2 - b_lm) p_lm - c_lm p_{l-2,m}.
+// Recurrence for even l + m, where p_lm is even in Z: p_{l+2,m} = (a_lm Z^2 - b_lm) p_lm - c_lm
+// p_{l-2,m}. Degrees go up to twice kMaxLowDegree, the degree of products of two.
 inline constexpr int kMaxEvenDegree = 2 * kMaxLowDegree;
 struct EvenHarmonics {
   std::array<double, kMaxEvenDegree + 1> start;

@@ -39,8 +39,8 @@ struct OrderTable {
   std::vector<double> re, im;
 };
 
-// Returns the number of directions to transform at once: tables of re and im have 4 MiB each
-// (chosen: stays in the second and third level cache), for any number of threads.
+// Returns the number of directions to transform at once. Tables of re and im then have 4 MiB each,
+// for any number of threads (chosen: stays in the second and third level cache).
 std::size_t chunk_size(int degree);
 
 // Adds to C_lm the sum over j of Pt_lm(theta_j) re[m][j], and to S_lm the sum with im[m][j], for

@@ -71,8 +71,8 @@ constexpr double kLongestStep = 0.2, kShortestStep = 1e-11;
 constexpr double kFlat = 1e-9;
 
 // With Z_m = C_m - i S_m for m > 0 and Z_0 = sqrt2 C_0, lambda_m = sqrt((l-m)(l+m+1)):
-//   L_x Z_m = (i/2) (lambda_{m-1} Z_{m-1} + lambda_m Z_{m+1}),    L_x C_0 = lambda_0 S_1 / sqrt2,
-//   L_y Z_m = (1/2) (lambda_{m-1} Z_{m-1} - lambda_m Z_{m+1}),    L_y C_0 = -lambda_0 C_1 / sqrt2,
+//   L_x Z_m = (i/2) (lambda_{m-1} Z_{m-1} + lambda_m Z_{m+1}),    L_x C_0 = lambda_0 S_1 / sqrt2.
+//   L_y Z_m = (1/2) (lambda_{m-1} Z_{m-1} - lambda_m Z_{m+1}),    L_y C_0 = -lambda_0 C_1 / sqrt2.
 //   L_z Z_m = -i m Z_m.
 void derivatives_of_degree(const Coefficients& f, int l, std::array<Coefficients, 3>& result) {
   using Complex = std::complex<double>;

@@ -1,9 +1,9 @@
 // The correlation of two functions over all rotations, on a grid of Euler angles.
 //
-//   <R a, b> = sum T_{m' h m} e^{-i (m' alpha + h beta + m gamma)},
-//   T_{m' h m} = i^{m'-m} sum_l conj(b_lm') a_lm Delta^l_{h m'} Delta^l_{h m}
-// (Kovacs and Wriggers 2002), with complex coefficients and the Condon-Shortley phase. This is a
-// Fourier transform in three dimensions.
+//   <R a, b> = sum T_{m' h m} e^{-i (m' alpha + h beta + m gamma)}.
+//   T_{m' h m} = i^{m'-m} sum_l conj(b_lm') a_lm Delta^l_{h m'} Delta^l_{h m}.
+// This Fourier transform in three dimensions (Kovacs and Wriggers 2002) has complex coefficients
+// with the Condon-Shortley phase.
 #pragma once
 
 #include <vector>

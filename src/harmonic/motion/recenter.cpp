@@ -1,6 +1,6 @@
-// With p = d + rho u, where d is the new centre seen from the old one, finds the root rho of
-//   F(rho) = |p| - r(p/|p|),    F' = (p . u - grad r . u) / |p|,
-// for each direction u by Newton's steps, which are kept within a bracket.
+// Newton's steps within a bracket find the root rho of F for each direction u. With p = d + rho u
+// and the new centre d seen from the old one,
+//   F(rho) = |p| - r(p/|p|),    F' = (p . u - grad r . u) / |p|.
 #include "rholm/recenter.h"
 
 #include <algorithm>
@@ -161,8 +161,8 @@ bool is_inside(const Expansion& expansion, const Vec3& d, const Context& context
 }
 
 // Returns how far ripples of the surface fold back. A ray from d to a point that faces away from d
-// meets the surface again: returns the largest distance between them, relative to that of the
-// point.
+// also meets the surface elsewhere. The result is the largest distance between the two points,
+// relative to the distance of the first point.
 double depth_of_folds(const Expansion& expansion, const Vec3& d, const std::vector<Vec3>& behind,
                       double highest, const Context& context) {
   std::vector<Vec3> directions;

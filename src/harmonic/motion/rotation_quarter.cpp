@@ -107,8 +107,8 @@ double QuarterTurn::delta(int m1, int m2) const {
 // In the real basis, only cosines with even l + m1 + m2 and sines with odd l + m1 + m2 contribute:
 //   C'_m1 = (-1)^l w_m1 sum w_m2 Delta_{m1 m2} C_m2,   S'_m1 = -(-1)^l (the same of S),
 // w_0 = 1 and w_m = sqrt 2. The inverse is the transpose: the same without the sign in front. Each
-// number of the triangle is read once. in_[q][m] is a cosine for even q + m and a sine for odd
-// q + m, so that row m1 with q = (l + m1) mod 2 takes one pass.
+// number of the triangle is read once. The array in_[q] has at m a cosine for even q + m and a sine
+// for odd q + m. Row m1 with q = (l + m1) mod 2 thus takes one pass.
 void QuarterTurn::apply(Way way, double* c, double* s) {
   const int l = degree_;
   const double sigma = l % 2 == 0 ? 1 : -1;

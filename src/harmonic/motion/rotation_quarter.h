@@ -1,12 +1,12 @@
 // The rotation by 90 degrees about the y axis, from z to x, for one degree. It is the only factor
 // of R = Rz(a - 90) J^-1 Rz(b) J Rz(c + 90) that is not diagonal, for any R = Rz(a) Ry(b) Rz(c).
 //
-// Delta^l_{m1 m2} = d^l_{m1 m2}(pi/2) follows from the recurrence of Trapani and Navaza (2006),
+// Delta^l_{m1 m2} = d^l_{m1 m2}(pi/2) follows from the recurrence of Trapani and Navaza (2006):
 //   Delta_{m1 m2} = [2 m2 Delta_{m1+1,m2} - sqrt((l-m1-1)(l+m1+2)) Delta_{m1+2,m2}]
-//                   / sqrt((l-m1)(l+m1+1)),
-//   Delta_{l m2}  = (-1)^{l-m2} 2^-l sqrt(C(2l, l+m2)),
-// downwards from m1 = l for 0 <= m2 <= m1, where values grow until they oscillate: no error grows
-// faster than the values. Symmetry gives the other values:
+//                   / sqrt((l-m1)(l+m1+1)).
+//   Delta_{l m2}  = (-1)^{l-m2} 2^-l sqrt(C(2l, l+m2)).
+// It runs downwards from m1 = l for 0 <= m2 <= m1, where values grow until they oscillate: no error
+// grows faster than the values. Symmetry gives the other values:
 //   Delta_{m2 m1} = (-1)^{m1-m2} Delta_{m1 m2},   Delta_{-m1,m2} = (-1)^{l+m2} Delta_{m1 m2},
 //   Delta_{m1,-m2} = (-1)^{l+m1} Delta_{m1 m2}.
 #pragma once

@@ -16,9 +16,8 @@ namespace rholm {
 inline constexpr int kOrderBlock = 8;
 inline constexpr int kPairs = kOrderBlock / 2;
 
-// Adds for each pair of orders a, b the sum a + b at the row's index on the circle, and a - b
-// at the index of its mirror image theta -> -theta. `rows` begins at the first order,
-// complex.
+// Adds the orders a, b of each pair: a + b at the row's index on the circle, a - b at the mirrored
+// index (theta -> -theta). `rows` begins at the first order; numbers are complex.
 template <typename T>
 void gather_circles(const GridLayout& layout, const T* rows, T* const* circles);
 

@@ -1,6 +1,6 @@
 // Costs of the inner loops in nanoseconds of one core, which choose windows, grids, rules and
-// points. cost_model.cpp holds all such constants. bench/cost_model_bench measures each again and
-// prints it beside the one in use. Only the ratios matter.
+// points. All such constants are in cost_model.cpp. The program bench/cost_model_bench measures
+// each again and prints it beside the one in use. Only the ratios matter.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,8 @@ double grid_cost(const SphereFourier& fourier, bool single, std::size_t grids);
 // Cost of direct sums, term by term.
 double direct_cost(std::size_t sources, int degree, int derivatives);
 
-// Further costs of a face of a surface beside the sources at its corners (transform/mesh_pass): a
-// quadrature node of its own, a node shared with other faces, second derivatives at corners.
+// Further costs of a face of a surface beside its corners (transform/mesh_pass). They are for a
+// quadrature node of its own, a node shared with other faces, and second derivatives at corners.
 double own_node_cost();
 double common_node_cost();
 double hessians_cost();

@@ -31,7 +31,7 @@ class GridFunction {
   GridFunction(const NonuniformPlan& plan, const Coefficients& coefficients,
                const Context& context);
 
-  // Factor by which batches exceed the function and its gradient: a power of two that brings the
+  // Batches hold the function and its gradient times this factor: a power of two that brings the
   // largest coefficient to 1 ... 2, because single precision ends at 1e38.
   double scale() const { return scale_; }
   // Reads values at the first n positions of the batch and, on request, gradients. Call

@@ -75,8 +75,8 @@ NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs) {
   const double allowed =
       best.single ? window_share(needs.allowed, single_rounding(needs.degree, needs.derivatives))
                   : needs.allowed;
-  // Values of wide windows on coarse grids span so many powers of ten that single precision loses
-  // another digit.
+  // Values of wide windows on coarse grids span a range of powers of ten in which single precision
+  // loses another digit.
   constexpr int kMaxSingleWidth = 10;
   const int widest = best.single ? kMaxSingleWidth : kMaxSpreadWidth;
   for (int width = kMinSpreadWidth; width <= widest; ++width) {

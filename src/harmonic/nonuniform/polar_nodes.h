@@ -25,8 +25,8 @@ double difference_step(int degree) {
   return (sizeof(T) == 4 ? 0.2 : 0.06) / std::max(degree, 1);
 }
 
-// Returns the sine of the colatitude below which values around a direction give its derivatives
-// (chosen: 16 values for a gradient, 34 for a Hessian, which add 1 to 3 ns to the mean source).
+// Returns the sine of the colatitude below which values around a direction give its derivatives.
+// Chosen: 16 values for a gradient and 34 for a Hessian add 1 to 3 ns to the mean source.
 inline double polar_sine(int degree, int derivatives) {
   const double least = static_cast<double>(derivatives) / std::max(degree, 1);
   return derivatives > 1 ? std::max(least, 0.05) : least;

@@ -210,7 +210,7 @@ HWY_INLINE void place_gradient(D d, const GridLayout& layout, const SourceBatch<
   hn::Store(hn::Mul(along, per_phi), d, out.phi + at);
 }
 
-// Computes h_ij d_i d_j f for a function of direction alone, in components of (r, theta, phi):
+// Computes h_ij d_i d_j f for a function of direction alone. In components of (r, theta, phi),
 //   r^2 times it = h_tt f_tt + 2 h_tp (f_tp - cot f_p) / sin + h_pp (f_pp / sin^2 + cot f_t)
 //                  - 2 h_rt f_t - 2 h_rp f_p / sin.
 template <class D, typename T = hn::TFromD<D>>

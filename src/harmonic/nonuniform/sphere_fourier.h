@@ -1,12 +1,11 @@
 // Transforms between the grid of scattered sources (spread.h) and coefficients: Fourier transforms
 // along both angles, then Legendre sums on rings.
 //
-// On the great circle through the poles, a harmonic of order m is a trigonometric
-// polynomial of degree l, even in theta for even m and odd for odd m. Its values on n > L
-// rings theta_q = (q + 1/2) pi / n determine it. Their Fourier transform gives its
-// coefficients; division by the transforms of the windows and another transform give the
-// grid. All steps are linear; coefficients come from the grid by the transposed steps in
-// reverse order.
+// On the great circle through the poles, a harmonic of order m is a trigonometric polynomial of
+// degree l, with the parity of m in theta. Its values on n > L rings theta_q = (q + 1/2) pi / n
+// determine it. Their Fourier transform gives its coefficients. Division by the windows'
+// transforms and another transform give the grid. Coefficients come from the grid by the
+// transposes.
 #pragma once
 
 #include <complex>

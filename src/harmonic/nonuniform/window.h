@@ -1,7 +1,7 @@
 // The Kaiser-Bessel window of the nonuniform transform, on w grid points.
 //
-//   k(z) = I_0(beta sqrt(1 - z^2)) / I_0(beta), |z| <= 1, z = 2 (distance in grid steps) / w,
-//   its Fourier transform  w sinh(s) / (s I_0(beta)), s = sqrt(beta^2 - (pi w k / n)^2).
+//   k(z) = I_0(beta sqrt(1 - z^2)) / I_0(beta), |z| <= 1, z = 2 (distance in grid steps) / w.
+// Its Fourier transform is w sinh(s) / (s I_0(beta)), s = sqrt(beta^2 - (pi w k / n)^2).
 // It is an entire function of z inside its support, so that polynomials approximate it and its
 // derivatives equally well. Its aliasing decays like exp(-pi w sqrt(1 - 1/sigma)), sigma = n / (2
 // L) (Jackson, Meyer, Nishimura, Macovski 1991; Barnett 2021 for the rate).

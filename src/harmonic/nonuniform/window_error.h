@@ -15,9 +15,9 @@ double window_error(int width, double sigma);
 double gradient_factor(double sigma);
 double hessian_factor(double sigma, int degree, std::size_t sources);
 
-// gradient_as_weight() is the factor by which a gradient counts as a weight while sigma is unknown:
-// 9 L, for sigma = 1.86. Once sigma is known, sums of squares with this factor are too small by at
-// most the square of counted_gradient_factor().
+// A gradient counts as a weight with the factor gradient_as_weight() while sigma is unknown: 9 L,
+// for sigma = 1.86. Once sigma is known, sums of squares with this factor are too small by at most
+// the square of counted_gradient_factor().
 double gradient_as_weight(int degree);
 double counted_gradient_factor(double sigma);
 

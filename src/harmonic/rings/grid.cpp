@@ -21,8 +21,8 @@ namespace {
 // Turns integrals over the colatitude of functions on equiangular rings into sums over fewer rings.
 //
 // The terms F(theta) of order m of a function of degree D continue over the poles as a
-// trigonometric polynomial of degree D, F(-theta) = (-1)^m F(theta), which n rings determine. F is
-// evaluated on N >= D + L + 1 rings, where Fejer's rule is exact for F Pt_lm, l <= L, and is
+// trigonometric polynomial of degree D. With F(-theta) = (-1)^m F(theta), n rings determine it. F
+// is evaluated on N >= D + L + 1 rings, where Fejer's rule is exact for F Pt_lm, l <= L, and is
 // multiplied by the weights. Frequencies of the product above L are orthogonal to Pt_lm and are
 // removed. L + 1 rings then give the same sums as the N rings.
 class RingResampler {

@@ -34,15 +34,15 @@ class RingScratch {
 
 inline constexpr std::size_t kStepPadding = 8;  // rows of sums that are written beyond the last one
 
-// The recurrence of a block of kRingBlock rings, see ring_order.h: steps of lambda with factors
-// from x^2 or s^2 per block (kLambda) or per ring (kEither), in differences (kPolar), or by single
-// degrees. kDirect blocks, of distant rings at a high degree, use legendre_kernels.h.
+// The recurrence of a block of kRingBlock rings, see ring_order.h. Steps of lambda use x^2 or s^2
+// per block (kLambda) or per ring (kEither); kPolar uses differences, kSingle single degrees.
+// Blocks of distant rings at a high degree (kDirect) use legendre_kernels.h.
 enum class StepKind : std::uint8_t { kLambda, kEither, kPolar, kSingle, kDirect };
 StepKind step_kind(const RingOrder& order, const HalfRings& rings, std::size_t block);
 
-// Sums over the rings of kSingle blocks if `single`, else of all others but kDirect ones. sums[4j
-// ...] is the sum of {p_j, r_j} or lambda_j times {even_re, even_im, x odd_re, x odd_im}. Returns
-// false, and leaves the sums unchanged, if there is no such block.
+// Sums over the rings of kSingle blocks if `single`, otherwise of all others but kDirect ones. The
+// entries sums[4j ...] are for {p_j, r_j} or lambda_j times {even_re, even_im, x odd_re, x odd_im}.
+// Returns false, and leaves the sums unchanged, if there is no such block.
 bool ring_step_adjoint(const RingOrder& order, const HalfRings& rings, const double* const* parts,
                        bool single, double* sums);
 

@@ -2,21 +2,21 @@
 //
 // x = cos theta, s = sin theta, Pt_lm(x) as in legendre_kernels.h, and
 //   x Pt_l = eps_{l+1} Pt_{l+1} + eps_l Pt_{l-1},   eps_l^2 = (l^2 - m^2) / (4 l^2 - 1).
-// Ishioka (2018): with q_l = Pt_l / x for odd l - m, both parities are sums over the same q,
+// Ishioka (2018): let q_l = Pt_l / x for odd l - m. Both parities are sums over the same q,
 //   Pt_k = eps_{k+1} q_{k+1} + eps_k q_{k-1}  for even k - m,      Pt_l = x q_l.
-// Step j stands for the degrees k = m + 2j and l = k + 1. With q_l = alpha_j lambda_j and
-// alpha_{j+1} alpha_j g_j = 1, g_j = eps_{l+1} eps_{l+2}, alpha_0 = 1 / eps_{m+1},
+// Step j stands for the degrees k = m + 2j and l = k + 1. Let q_l = alpha_j lambda_j,
+// g_j = eps_{l+1} eps_{l+2}, alpha_0 = 1 / eps_{m+1} and alpha_{j+1} alpha_j g_j = 1. Then
 //   lambda_{j+1} = alpha_j^2 (x^2 - eps_l^2 - eps_{l+1}^2) lambda_j - lambda_{j-1},
-//   lambda_{-1} = 0,   lambda_0 = Pt_mm:
-// two multiplications for two degrees. Where its characteristic roots coincide, it loses digits, as
-// sqrt(L) / sin(2 theta). Rings near the pole use differences relative to the solution at s = 0 (up
-// to a factor s^m), lambda_{j+1} = rho_j lambda_j:
+//   lambda_{-1} = 0,   lambda_0 = Pt_mm.
+// This is two multiplications for two degrees. It loses digits where its characteristic roots
+// coincide, as sqrt(L) / sin(2 theta). Rings near the pole use differences relative to the solution
+// at s = 0, lambda_{j+1} = rho_j lambda_j up to a factor s^m. Then
 //   delta_{j+1}  = delta_j / rho_{j-1} - alpha_j^2 s^2 lambda_j,   delta_0 = 0
-//   lambda_{j+1} = rho_j lambda_j + delta_{j+1},   rho_j = alpha_j^2 (k+m+2)(k+m+3)/((2k+3)(2k+5))
-// Near the equator q is large relative to Pt_k. Rings there use steps of single degrees, with
-// Pt_k = beta_j eps_{k+1} p_j and q_l = beta_j r_j, beta_{j+1} = beta_j eps_{k+2} / eps_{k+3}:
+//   lambda_{j+1} = rho_j lambda_j + delta_{j+1},   rho_j = alpha_j^2 (k+m+2)(k+m+3)/((2k+3)(2k+5)).
+// Near the equator q is large relative to Pt_k. Rings there use steps of single degrees:
+// Pt_k = beta_j eps_{k+1} p_j and q_l = beta_j r_j, beta_{j+1} = beta_j eps_{k+2} / eps_{k+3}. Then
 //   p_{j+1} = (x^2 r_j - eps_{k+1}^2 p_j) / eps_{k+2}^2,   p_0 = Pt_mm
-//   r_{j+1} = p_{j+1} - r_j,                               r_0 = p_0
+//   r_{j+1} = p_{j+1} - r_j,                               r_0 = p_0.
 #pragma once
 
 #include <array>

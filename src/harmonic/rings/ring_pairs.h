@@ -12,8 +12,8 @@
 namespace rholm {
 
 // Sums re_m = sum_k f(phi_k) cos(m phi_k) and im_m = sum_k f(phi_k) sin(m phi_k), or terms re_m
-// cos(m phi) + im_m sin(m phi). at(i, m) has the even and odd parts for ring i and its mirror
-// image, {even_re, even_im, odd_re, odd_im}: F(theta) = even + odd, F(pi - theta) = even - odd. A
+// cos(m phi) + im_m sin(m phi). For ring i and its mirror image, at(i, m) has the even and odd
+// parts {even_re, even_im, odd_re, odd_im}. F(theta) = even + odd, F(pi - theta) = even - odd. A
 // ring on the equator has odd parts 0.
 struct RingPairs {
   RingPairs(std::size_t rings, std::size_t longitudes, int degree);

@@ -78,7 +78,8 @@ RingRule gauss_ring_rule(std::size_t n) {
 }
 
 RingRule fejer_ring_rule(std::size_t n) {
-  // The rule integrates the trigonometric polynomial of degree n - 1 through the values:
+  // The rule integrates the trigonometric polynomial of degree n - 1 through the values. Weights
+  // are
   // w_i = (1/n) sum over even |k| < n of mu_k e^{i k theta_i}, mu_k = int cos(k theta) sin(theta)
   // dtheta = 2 / (1 - k^2).
   const std::size_t circle = 2 * n;

@@ -18,7 +18,7 @@ namespace {
 constexpr double kWide = 0.5;
 
 // The functions below convert between sums or factors [4j ...] of the steps and coefficients of the
-// degrees m + 2j and m + 2j + 1. ends_even() returns true if the last step has no odd degree.
+// degrees m + 2j and m + 2j + 1. The last step has no odd degree if ends_even().
 bool ends_even(const RingOrder& order) { return (order.degree - order.m) % 2 == 0; }
 
 // c_k += alpha_j eps_{k+1} sum_j + alpha_{j-1} eps_k sum_{j-1},   c_{k+1} += alpha_j sum_j

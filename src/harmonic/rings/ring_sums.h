@@ -18,9 +18,8 @@ void ring_adjoint(const RingOrder& order, const HalfRings& rings, const double* 
                   const double* even_im, const double* odd_re, const double* odd_im, double* c,
                   double* s);
 
-// Sets even_re and odd_re to the sums over even and odd l - m of c[l-m] Pt_lm(theta), even_im
-// and odd_im with s: F(theta) = even + odd, F(pi - theta) = even - odd. Overwrites all
-// rings.padded.
+// Sets even_re, odd_re to the sums over even, odd l - m of c[l-m] Pt_lm(theta), even_im, odd_im
+// with s: F(theta) = even + odd, F(pi - theta) = even - odd. Overwrites rings.padded entries.
 void ring_forward(const RingOrder& order, const HalfRings& rings, const double* c, const double* s,
                   double* even_re, double* even_im, double* odd_re, double* odd_im);
 
