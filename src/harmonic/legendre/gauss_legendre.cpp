@@ -36,8 +36,7 @@ GaussRule gauss_legendre(int n) {
   for (int i = 0; i < (n + 1) / 2; ++i) {
     double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
     if (2 * i + 1 == n) x = 0;
-    // The guess is good to O(n^-2): three steps reach rounding precision; one is a
-    // reserve.
+    // The guess is good to O(n^-2): three steps reach rounding precision; one is a reserve.
     for (int step = 0; step < 4; ++step) {
       const ValueAndSlope p = legendre_polynomial(n, x);
       if (2 * i + 1 != n) x -= p.value / p.slope;

@@ -88,8 +88,7 @@ void ForwardSets(const LegendreOrder& order, const double* x, const double* s, s
   for (size_t j = 0; j < n; j += kVectors * lanes) {
     Block b;
     start(d, order, x + j, s + j, b);
-    // Sums over odd l - m are kept apart; they get the sign of x at the
-    // end.
+    // Sums over odd l - m are kept apart; they get the sign of x at the end.
     V sum_re[kSets][2][kVectors], sum_im[kSets][2][kVectors];
     for (int set = 0; set < kSets; ++set) {
       for (int v = 0; v < kVectors; ++v) {

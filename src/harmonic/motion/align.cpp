@@ -99,8 +99,7 @@ std::vector<Rotation> starts(const Pair& pair, const AlignOptions& options,
   return result;
 }
 
-// Sorts by value; drops repeated rotations and maxima more than `below` under the
-// best.
+// Sorts by value; drops repeated rotations and maxima more than `below` under the best.
 void keep_best(std::vector<CorrelationMaximum>& maxima, double below) {
   std::stable_sort(maxima.begin(), maxima.end(),
                    [](const auto& x, const auto& y) { return x.value > y.value; });

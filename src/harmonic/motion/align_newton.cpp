@@ -42,8 +42,7 @@ Eigen3 eigen_of_symmetric(const Matrix& rows) {
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < i; ++k) a[i][k] = a[k][i];
   }
-  // Convergence is quadratic: five sweeps reach rounding precision. More cost almost
-  // nothing.
+  // Convergence is quadratic: five sweeps reach rounding precision. More cost almost nothing.
   for (int sweep = 0; sweep < 12; ++sweep) {
     jacobi_step(a, v, 0, 1);
     jacobi_step(a, v, 0, 2);
@@ -64,8 +63,7 @@ Eigen3 eigen_of_symmetric(const Matrix& rows) {
 namespace {
 
 constexpr int kMaxSteps = 40;
-// Radians: a quarter wave of degree 8, and the precision that rounding of the gradient
-// allows.
+// Radians: a quarter wave of degree 8, and the precision that rounding of the gradient allows.
 constexpr double kLongestStep = 0.2, kShortestStep = 1e-11;
 // Curvatures below this fraction of the largest are noise; steps along their axes are limited.
 constexpr double kFlat = 1e-9;

@@ -19,8 +19,7 @@ using Complex = std::complex<double>;
 // then has at least 0.9 of its height.
 constexpr int kSamplesPerWave = 3;
 
-// Returns c_lm, |m| <= l, with phase: (-1)^m (C - i S) / sqrt 2, c_{l,-m} = (-1)^m
-// conj(c_lm).
+// Returns c_lm, |m| <= l, with phase: (-1)^m (C - i S) / sqrt 2, c_{l,-m} = (-1)^m conj(c_lm).
 std::vector<Complex> complex_coefficients(const Coefficients& f, int l) {
   std::vector<Complex> c(2 * static_cast<std::size_t>(l) + 1);
   c[l] = f.c(l, 0);
@@ -37,8 +36,7 @@ Complex power_of_i(int n) {
   return kPowers[((n % 4) + 4) % 4];
 }
 
-// Values of the correlation, [alpha][beta][gamma], at angles 2 pi / n apart, also for
-// beta.
+// Values of the correlation, [alpha][beta][gamma], at angles 2 pi / n apart, also for beta.
 class Cube {
  public:
   explicit Cube(int bandwidth)

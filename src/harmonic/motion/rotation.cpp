@@ -95,8 +95,7 @@ AxisAngle axis_angle_of(const Rotation& rotation) {
 
 EulerAngles euler_angles_of(const Rotation& rotation) {
   const Rotation r = normalized(rotation);
-  // At beta = 0 or pi, only their sum or difference exists; atan2(0, 0) = 0 fixes the
-  // other.
+  // At beta = 0 or pi, only their sum or difference exists; atan2(0, 0) = 0 fixes the other.
   const double sum = std::atan2(r.z, r.w), difference = std::atan2(-r.x, r.y);
   return {sum + difference, 2 * std::atan2(std::hypot(r.x, r.y), std::hypot(r.w, r.z)),
           sum - difference};

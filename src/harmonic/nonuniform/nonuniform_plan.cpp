@@ -17,8 +17,7 @@ constexpr double kSmallSigma = 1.15, kLargeSigma = 4;
 
 double predicted_error(const NonuniformNeeds& needs, int width, double sigma) {
   const double degree = std::max(needs.degree, 1);
-  // The largest of many errors is 1.3 times the typical one; low degrees average over
-  // less.
+  // The largest of many errors is 1.3 times the typical one; low degrees average over less.
   const double error = window_error(width, sigma) * 1.3 * (1 + 4 / degree);
   double derivatives = 1;
   if (needs.derivatives > 0) {

@@ -92,8 +92,7 @@ HWY_INLINE V exp2_fraction(D d, V f) {
   return sum;
 }
 
-// Returns 2^e for whole |e| < 1023: the lowest bits of 2^52 + 1023 + e are the exponent's
-// bits.
+// Returns 2^e for whole |e| < 1023: the lowest bits of 2^52 + 1023 + e are the exponent's bits.
 HWY_INLINE V exp2_whole(D d, V e) {
   const hn::RebindToUnsigned<D> du;
   const V shifted = hn::Add(e, hn::Set(d, 0x1p52 + 1023));
