@@ -15,8 +15,7 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kBatch = 16;  // chosen: nodes at once, hides the
-                                    // latency
+constexpr std::size_t kBatch = 16;  // chosen: nodes at once, hides latency
 
 struct Batch {
   std::array<double, kBatch> theta, value, slope;
