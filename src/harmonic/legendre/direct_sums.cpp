@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kDirectionsPerTask = 256;  // chosen: well above the cost of a task
 
 // Calls visit(m, j, cos(m phi_j), sin(m phi_j)) for every order m and the directions [begin, end).
-// The powers of e^{i phi} gain at most m rounding errors, like the direction itself.
+// Powers of e^{i phi} have errors up to m rounding units, as the rounding of phi itself causes.
 template <typename Visit>
 void visit_phases(const DirectionBlock& block, int degree, std::size_t begin, std::size_t end,
                   const Visit& visit) {

@@ -42,7 +42,7 @@ constexpr std::size_t even_index(int l, int m) {
 
 // Converts coefficients of all harmonics up to `degree` to as many coefficients of powers of Z
 // times Re and Im of (X + iY)^m. Orders m ascend, with powers degree - m ... 0 each, cosine first.
-// They grow with (1 + sqrt 2)^degree and cancel in sums: only for the lowest degrees.
+// Coefficients grow with (1 + sqrt 2)^degree and cancel in sums: only for the lowest degrees.
 inline constexpr int kMaxPowersDegree = 6;
 void to_powers(int degree, const double* coefficients, double* powers);
 

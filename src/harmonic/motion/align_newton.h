@@ -32,7 +32,7 @@ double correlation(const Coefficients& a, const Coefficients& b);
 struct CorrelationMaximum {
   Rotation rotation;
   double value = 0;  // <R a, b>
-  Eigen3 curvature;  // of minus the Hessian: axes in the frame of b
+  Eigen3 curvature;  // negative Hessian, with axes in the frame of b
 };
 
 // Returns the maximum uphill from `start`; a and b have the same degree.

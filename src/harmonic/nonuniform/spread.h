@@ -52,10 +52,10 @@ struct PolarSources {
   std::uint32_t index[SourceBatch<double>::kSize];
 };
 
-// Adds the first n sources with 0, 1 or 2 derivatives. Sums are in double precision for every T,
-// because single precision loses small terms: boxes of a million faces were wrong by 5e-6. Lists
-// sources with derivatives and sin theta below `polar_sine` in `polar` and leaves them out.
-// derivatives and sin theta below it are left out and listed.
+// Adds the first n sources with 0, 1 or 2 derivatives. Sums are in double precision for every T. In
+// single precision, sums of many terms of one sign lose small terms: boxes of a million faces were
+// wrong by 5e-6. Sources with derivatives and sin theta below `polar_sine` are left out and listed
+// in `polar`.
 template <typename T>
 void spread(const GridKernel<T>& kernel, const SourceBatch<T>& batch, std::size_t n,
             int derivatives, double polar_sine, double* grid, PolarSources& polar);

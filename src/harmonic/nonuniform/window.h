@@ -32,11 +32,11 @@ struct SpreadWindow {
 SpreadWindow spread_window(int width, std::size_t band, std::size_t points);
 
 // The window as polynomials. Tap i = 0 ... w - 1 of a source at x is the grid point c0 + i, where
-// c0 = ceil(x). Its distance from x is c0 + i - w/2 - x, as grid point c has position c - w/2.
-// With u = 2 (c0 - x) - 1 in [-1, 1],
+// c0 = ceil(x). Its distance from x is c0 + i - w/2 - x, as grid point c has position c - w/2. With
+// u = 2 (c0 - x) - 1 in [-1, 1],
 //   k(tap i) = p_i(u) = sum_q c_iq u^q,   k(tap w - 1 - i) = p_i(-u).
-// The derivatives by x in grid steps are -2 p_i'(u) and 4 p_i''(u), and 2 p_i'(-u) and 4
-// p_i''(-u).
+// The derivatives by x in grid steps are -2 p_i'(u) and 4 p_i''(u) for tap i, and 2 p_i'(-u) and 4
+// p_i''(-u) for tap w - 1 - i.
 int spread_terms(int width);  // an even number, 4 ... kMaxSpreadTerms
 inline constexpr int kMaxSpreadTerms = 14;
 template <typename T>

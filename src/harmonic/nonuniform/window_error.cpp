@@ -16,8 +16,8 @@ double window_error(int width, double sigma) {
 
 // Aliases have wave numbers around n - L, and derivatives in phi near the poles count
 // 1 / sin(theta) times. Down to a polar sine, the l2 norm of 1 / sin^2 is 0.7 times the inverse of
-// the polar sine. It counts three times if fewer than thirty sources are within twice the polar
-// sine (chosen).
+// the polar sine. The norm counts three times if fewer than thirty sources are within twice the
+// polar sine (chosen).
 constexpr double kGradientAsWeight = 9;  // gradient_factor() at an oversampling of 1.86
 double gradient_factor(double sigma) { return 2.6 * sigma * sigma; }
 double hessian_factor(double sigma, int degree, std::size_t sources) {

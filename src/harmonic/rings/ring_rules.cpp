@@ -77,10 +77,10 @@ RingRule gauss_ring_rule(std::size_t n) {
 }
 
 RingRule fejer_ring_rule(std::size_t n) {
-  // The rule integrates the trigonometric polynomial of degree n - 1 through the values. Weights
+  // Integrates the trigonometric polynomial of degree n - 1 through the values. The weights
   // are
-  // w_i = (1/n) sum over even |k| < n of mu_k e^{i k theta_i}, mu_k = int cos(k theta) sin(theta)
-  // dtheta = 2 / (1 - k^2).
+  // w_i = (1/n) sum over even |k| < n of mu_k e^{i k theta_i}, where
+  // mu_k = int cos(k theta) sin(theta) dtheta = 2 / (1 - k^2).
   const std::size_t circle = 2 * n;
   AlignedArray<std::complex<double>> in(circle), out(circle);
   std::fill(in.begin(), in.end(), 0.0);

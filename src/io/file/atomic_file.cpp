@@ -254,7 +254,7 @@ void AtomicFile::close(int descriptor) {
 void AtomicFile::commit() {
   if (!target_.empty()) {
     if (is_nameless_) give_a_name();
-    // A second descriptor keeps the lock until the file has its final name.
+    // Closing a copy reports a full disk now; the descriptor keeps the lock until the rename.
     if (const int copy = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0); copy >= 0) close(copy);
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(name_, errno);
     target_.clear();

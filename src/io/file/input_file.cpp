@@ -13,7 +13,7 @@ namespace rholm {
 
 namespace {
 
-// Chosen: delays at the end of a program that people hardly notice.
+// Chosen: people who wait for the end of a program hardly notice this delay.
 constexpr int kMillisecondsBetweenQuestions = 100;
 
 }  // namespace

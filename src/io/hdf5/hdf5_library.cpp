@@ -113,7 +113,7 @@ struct Writer::Impl {
     checked(H5Pset_file_locking(access, false, true), "switch off locks");
     // The file may have no name: the other drivers need the target path of "/proc/self/fd/3".
     checked(H5Pset_fapl_stdio(access), "choose how to write");
-    const Handle creation = quiet_creation(H5P_FILE_CREATE);  // of the root group, too
+    const Handle creation = quiet_creation(H5P_FILE_CREATE);  // for the root group, too
     if (members > 0) keep_members(creation, members);
     file =
         Handle(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access), "create the file"),

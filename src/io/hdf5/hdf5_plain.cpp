@@ -81,8 +81,8 @@ struct Attribute {
   std::string name;
   Type type;
   std::vector<std::uint64_t> extents;
-  std::string values;         // for a variable string, its length
-  std::uint32_t in_heap = 0;  // and its number in the heap
+  std::string values;         // a variable string has its length here
+  std::uint32_t in_heap = 0;  // number of a variable string in the heap
 };
 
 struct Node {

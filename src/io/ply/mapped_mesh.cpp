@@ -121,8 +121,8 @@ std::optional<Rows> rows_in(const ShapeSource& source) {
               .face_bytes = left - vertex.count * row->stride};
 }
 
-// The lengths of 16 faces later are at the same positions of 16-byte vectors again. Whole vectors
-// of bytes are compared, and the mask selects the lengths.
+// After 16 faces, lengths are at the same positions of 16-byte vectors again. Whole vectors of
+// bytes are compared, and the mask selects the lengths.
 constexpr std::size_t kRound = 16;
 constexpr auto kLengths = [] {
   std::array<std::uint8_t, kRound * kFaceBytes> mask{};

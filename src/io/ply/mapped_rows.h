@@ -11,7 +11,7 @@
 
 namespace rholm {
 
-inline constexpr std::size_t kFaceBytes = 1 + 3 * 4;  // of a triangle: the length, three indices
+inline constexpr std::size_t kFaceBytes = 1 + 3 * 4;  // a triangle: its length and three indices
 
 // The result of mapping before the numbers of corners are known: the view has no triangles, but
 // points to where the first triangle would be.

@@ -18,7 +18,7 @@
 namespace rholm {
 namespace {
 
-// A column of the vertex rows: `count` values at intervals of `stride` doubles.
+// A column of the vertex rows: values at intervals of `stride` doubles.
 struct OutputColumn {
   std::string name;
   ScalarType type = ScalarType::kFloat64;

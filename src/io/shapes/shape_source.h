@@ -20,7 +20,7 @@ class ShapeSource {
   std::span<const char> bytes;  // without byte order mark
   std::string name;             // for messages
   bool attributes;              // true if they are wanted
-  std::string columns;          // as in ShapeReadOptions
+  std::string columns;          // see ShapeReadOptions
   // Rows and lines before `bytes`, if they are a block of a file.
   std::size_t rows_before = 0, lines_before = 0;
 

@@ -109,7 +109,7 @@ class ScalarRange {
 // A mesh or points in the form for writers.
 struct ShapeView {
   PointRange points;
-  std::span<const Vec3> normals;  // of points; a mesh has normals as attributes
+  std::span<const Vec3> normals;  // for points; a mesh has normals as attributes
   TriangleRange triangles;
   std::vector<ScalarRange> attributes;
   bool is_mesh = false;
@@ -120,7 +120,7 @@ ShapeView shape_view_of(const PointCloud& cloud);
 // Options of a writer of shapes.
 struct ShapeWriting {
   bool ascii = false;     // text if the format has both
-  std::string name = {};  // of the file, for messages
+  std::string name = {};  // name of the file, for messages
 };
 // Writes a valid shape that the format can hold; returns warnings as write_shape() does.
 using ShapeFormatter = std::vector<std::string>(const ShapeView& shape, const ShapeWriting& how,

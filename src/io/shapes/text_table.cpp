@@ -368,7 +368,7 @@ std::vector<Candidate> candidates_of(std::string_view rows_text) {
   if (in_first('\t')) add({.separator = '\t', .decimal_comma = true});
   if (rows_text.find(',') != std::string_view::npos) {
     add({.separator = ' ', .decimal_comma = true});
-    // Rows of three words with commas and no point, 0,5 0,25 1; otherwise commas separate.
+    // Commas are decimal in rows of three words without points (0,5 0,25 1), else separators.
     const Fit& fit = all.back().fit;
     if (!fit.commas || fit.points || fit.columns < 3) all.pop_back();
   }

@@ -25,9 +25,9 @@ struct TableSyntax {
 
 // The text before the first row of values.
 struct TableHeader {
-  std::vector<std::string> names = {};  // of the columns; none, or one for each column
+  std::vector<std::string> names = {};  // none, or one name for each column
   bool has_count = false;
-  double count = 0;  // of points, as claimed
+  double count = 0;  // claimed number of points
   TableSyntax syntax = {};
   std::size_t rows_at = 0;                // byte offset of the first row
   std::vector<std::string> remarks = {};  // unusual properties of the table, for people
@@ -41,7 +41,7 @@ enum class CellKind { kNumber, kMissing, kText };
 struct TableCell {
   CellKind kind = CellKind::kMissing;
   double value = 0;            // NaN if it is missing
-  std::string_view text = {};  // as in the file, with quotes
+  std::string_view text = {};  // unchanged text of the file, with quotes
 };
 
 // Returns in `value` the number of a cell, which may be in quotes. False if it has no number.

@@ -229,7 +229,7 @@ bool are_degree_grid(const std::vector<double>& latitudes, const std::vector<dou
   const Range latitude = range_of({latitudes}, {0}), longitude = range_of({longitudes}, {0});
   if (latitude.min < -90 || latitude.max > 90 || longitude.min < -180 || longitude.max > 360)
     return false;
-  constexpr double kRounded = 1.01;  // of a step, as it is written; chosen
+  constexpr double kRounded = 1.01;  // in steps, which are rounded when written; chosen
   if (const Raster rows = raster_of(latitudes, longitudes); rows.is()) {
     return longitude.max - longitude.min + kRounded * std::abs(rows.fast) >= 360 &&
            std::abs(latitudes[0]) + kRounded * std::abs(rows.slow) >= 90;

@@ -27,9 +27,9 @@ struct TableHints {
 };
 
 struct TablePlan {
-  std::vector<ColumnRole> roles = {};   // of each column
-  std::vector<std::string> names = {};  // of the attributes from scalars, else empty
-  bool colatitude = false, west = false, radians = false;  // as in NamedRoles
+  std::vector<ColumnRole> roles = {};   // role of each column
+  std::vector<std::string> names = {};  // names of scalar attributes, otherwise empty
+  bool colatitude = false, west = false, radians = false;  // see NamedRoles
   bool byte_colors = false;
   TableColumns told = {};
 };

@@ -30,7 +30,7 @@ class FolderStore final : public PieceStore {
 
   using PieceStore::write;
 
-  bool was_there() const { return folder_->was_there(); }  // from an earlier run
+  bool was_there() const { return folder_->was_there(); }  // true if an earlier run is resumed
   bool in_memory() const override { return false; }
   bool has(const std::string& name) const override;
   void write(const std::string& name, std::vector<SectionBytes> sections) override;
@@ -51,7 +51,7 @@ class FolderStore final : public PieceStore {
   }
 
   std::unique_ptr<SpillFolder> folder_;
-  std::atomic<unsigned> counter_ = 0;  // number of unfinished files
+  std::atomic<unsigned> counter_ = 0;  // numbers the unfinished files
 };
 
 }  // namespace rholm

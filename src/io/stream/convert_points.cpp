@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 14;  // points; chosen: 3 MB with ten attributes
 
-// Properties of all points that the first rows of a file need.
+// Properties of all points on which the first rows of the written file depend.
 struct Ahead {
   std::uint64_t points = 0;
   XyzNames names;

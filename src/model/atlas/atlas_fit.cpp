@@ -22,7 +22,7 @@ namespace {
 
 // Fractions of the tolerance: the target of the next aim, and the error that ends the search.
 constexpr double kAim = 0.995, kGoodEnough = 0.97;
-// An aim is the last if log(rms) of the surface changes by less than this part of log(aim).
+// An aim is the last if the surface's log(rms) changes by less than this part of log(aim)'s change.
 constexpr double kStalled = 0.1;
 // The search ends if the aims that keep and exceed the tolerance, or their numbers, have a ratio
 // below these values. kGoodEnough gives away as much.
@@ -124,7 +124,7 @@ std::optional<TrialSurface> try_surface(const FitTarget& target, AtlasModel mode
   return trial;
 }
 
-// Returns the surface with the first band, or a better one with the second; swaps them then.
+// Returns the surface with the first band, or a better one with the second, and swaps the bands.
 TrialSurface try_bands(const FitTarget& target, const AtlasModel& model,
                        std::array<double, 2>& bands) {
   TrialSurface first = *try_surface(target, model, bands[0], kAnyHandles);

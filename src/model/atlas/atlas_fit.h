@@ -16,8 +16,8 @@ namespace rholm {
 // Result of an aim, which is the error allowed for the blend of the samples so that the surface
 // just keeps the tolerance.
 struct AimOutcome {
-  double reached = 0, rms = 0;  // of the samples' blend; of the surface
-  std::size_t numbers = 0;      // of the model
+  double reached = 0, rms = 0;  // errors of the samples' blend and of the surface
+  std::size_t numbers = 0;      // size of the model
   bool met = false;             // rms is at most the accepted error, which may exceed the tolerance
   bool whole = true;            // parts and handles are the shape's
 };
@@ -72,11 +72,11 @@ struct Overlap {
 // The requirements for a model.
 struct FitTarget {
   const SampleLevels& levels;
-  std::optional<Topology> topology;  // of the shape, if it has one
+  std::optional<Topology> topology;  // topology of the shape, if it has one
   double tolerance = 0;              // the wanted error
   double accepted = 0;               // the accepted error, at least the tolerance
   double stray = 0;                  // cap surfaces farther from all samples are cut back
-  double step = 0;                   // of the grid
+  double step = 0;                   // step of the grid
   int max_degree = 14;
   std::function<Mesh(const AtlasModel&)> surface;
   std::function<AtlasErrors(const Mesh&)> measure;

@@ -36,7 +36,7 @@ namespace {
 constexpr double kSampleSpacing = 2.5;  // errors of a fit have longer waves
 constexpr double kStray = 3;            // parts of a cap farther from its samples are cut ...
 constexpr double kStrayFitted = 1.5;  // ... and again, more strictly, when coefficients are dropped
-constexpr double kStep = 4;           // of the grid: relevant details are larger
+constexpr double kStep = 4;           // step of the grid: relevant details are larger
 constexpr double kBand = 10;          // caps that disagree by less are averaged
 // Parts of the diagonal: neighbours that disagree by more than a coarse tolerance make no surface.
 constexpr double kCoarsest = 0.02, kWidestBand = 0.1;
@@ -268,7 +268,7 @@ Compressed compress(const Mesh& mesh, const CompressOptions& options, const Cont
   subject.diagonal = bounds(welded.vertices).diagonal();
   const double area = surface_area(welded);
   const Lengths lengths = lengths_for(options.tolerance, subject.diagonal, probe.gap, area);
-  outer.closed = probe.hidden > 0;  // no hidden parts need to be searched for
+  outer.closed = probe.hidden > 0;  // if false, all samples are outer
   subject.samples = outer_samples(outer, n_samples(options, lengths, area), context);
   subject.input_numbers = 3 * welded.vertices.size();  // copies carry no information
   // The remaining parts of intersecting parts have a topology of their own.

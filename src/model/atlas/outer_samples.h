@@ -14,7 +14,7 @@ namespace rholm {
 
 struct OuterSurface {
   const Mesh& mesh;
-  const RayScene& scene;  // of the mesh
+  const RayScene& scene;  // rays in the mesh
   bool closed = false;    // an open mesh has only outer samples
   std::uint64_t seed = 1;
 };

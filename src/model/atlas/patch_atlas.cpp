@@ -93,7 +93,7 @@ struct MadeCap {
   std::size_t points = 0;
 };
 
-// Returns triangles between points, by their directions from the patch's sphere's centre.
+// Returns triangles between points, seen as directions from the centre of the patch's sphere.
 std::vector<Triangle> triangles_between(const KdPatch& patch, const std::vector<Vec3>& points) {
   std::vector<Vec3> directions;
   directions.reserve(points.size());

@@ -20,7 +20,7 @@ struct BatchJournal::State {
   int descriptor = -1;
   mutable std::mutex mutex;
   JournalContent content;
-  std::uint64_t end = 0;  // of the file
+  std::uint64_t end = 0;  // size of the file
   std::size_t dropped = 0;
 
   explicit State(const std::filesystem::path& where)

@@ -29,7 +29,7 @@ std::string_view take_digits(std::string_view& text) {
 // The kinds of cells in a column.
 struct Kind {
   bool booleans = false, wholes = false, reals = false, texts = false, lists = false;
-  std::size_t width = 0;  // of the longest list
+  std::size_t width = 0;  // length of the longest list
   std::size_t rows = 0;   // number of rows with a value
 };
 

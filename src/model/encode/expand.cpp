@@ -223,7 +223,7 @@ class Expand {
   MeshPassOptions pass_options_;  // includes the centre, once it is found
   const Context& context_;
   const bool prepared_;
-  std::optional<StarReport> seen_;  // of a prepared mesh, or one without a kernel
+  std::optional<StarReport> seen_;  // set for a prepared mesh, or one without a kernel
   std::optional<ExactNorms> norms_;
   FaceSizes sizes_;  // with the norms, if errors are wanted
   Encoded encoded_;

@@ -34,7 +34,7 @@ std::variant<Encoded, NotInPlace> expand_in_place(const MeshView& mesh,
 // A mesh prepared for expansion: welded, turned outwards, with paired edges.
 struct PreparedMesh {
   Outward shape;            // without attributes and thin faces
-  std::vector<Edge> edges;  // of the welded mesh
+  std::vector<Edge> edges;  // edges of the welded mesh
 };
 // The mesh must be valid. Throws InvalidInput if it is not closed and oriented alike, as
 // pair_edges() does.

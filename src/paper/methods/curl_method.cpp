@@ -28,7 +28,7 @@ constexpr double kPi = std::numbers::pi;
 struct CurlNode {
   Vec3 direction;
   double factor = 0;      // weight times d_T times -sin(theta) dtheta/dt
-  double C = 0, rho = 0;  // of (M2)
+  double C = 0, rho = 0;  // coefficients in (M2)
   double psi = 0, phi_n = 0;
   double end_value = 0;  // d_T / |x|
 };

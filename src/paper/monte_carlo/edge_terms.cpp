@@ -6,8 +6,8 @@
 // theta. (M2) starts at the foot of the normal, where the path is safe. On a rough surface the foot
 // is far from the face, and the field and its scatter are as large as r, not r times the face's
 // width. The middle of the face's longitudes is near. If the parallel leaves the half space of the
-// face before that, the point nearest to the foot of the normal is taken. It is between the foot
-// and all points of the face.
+// face before this middle, the point nearest to the foot of the normal is taken. It is between the
+// foot and all points of the face.
 #include "paper/monte_carlo/edge_terms.h"
 
 #include <algorithm>
@@ -112,7 +112,7 @@ int side_of(const Triangle& triangle, std::uint32_t from, std::uint32_t to) {
 
 // A parallel in the terms of a face.
 struct Parallel {
-  double C = 0, rho = 0;  // of (M2)
+  double C = 0, rho = 0;  // coefficients in (M2)
   double value(double psi) const { return C + rho * std::cos(psi); }
 };
 

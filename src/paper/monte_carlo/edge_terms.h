@@ -17,8 +17,8 @@ struct FieldFace {
   double slant = 0;               // hypot(n_x, n_y)
   double phi_n = 0;               // atan2(n_y, n_x)
   std::complex<double> turn = 1;  // e^{-i phi_n}
-  double phi_middle = 0;          // of its range of longitudes,
-  double phi_half = 0;            // phi_middle +- phi_half, phi_half <= pi/2
+  double phi_middle = 0;          // middle of its range of longitudes
+  double phi_half = 0;            // half of the range, at most pi/2
   double largest_radius = 0;
 };
 

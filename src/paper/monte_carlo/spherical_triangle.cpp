@@ -1,6 +1,6 @@
 // Arvo's map in a form without cancellation on small triangles. The point c' of the arc from a to c
-// at angle t is cos(t) a + sin(t) e. It cuts off the triangle (a, b, c') of solid angle S. With
-// tau = tan(t/2) and V = a.(b x e) (Van Oosterom and Strackee 1983, divided by 1 + cos t),
+// at angle t is cos(t) a + sin(t) e. It cuts off the triangle (a, b, c') of solid angle S. Let
+// tau = tan(t/2) and V = a.(b x e). By Van Oosterom and Strackee (1983), divided by 1 + cos t,
 //   tan(S/2) = a.(b x c') / (1 + a.b + b.c' + c'.a) = tau V / (1 + a.b + tau b.e).
 // This is linear in tau. The point on the arc from b to c' then has a uniform 1 - cos(distance from
 // b).

@@ -86,8 +86,8 @@ std::vector<Face> faces_of(const CapFrame& frame, const PatchMesh& patch) {
   return faces;
 }
 
-// Returns a bound of the conformal factor on a triangle. The factor is monotone in cos theta, whose
-// extremes are within the longest edge of a corner's value.
+// Returns a bound of the conformal factor on a triangle. The factor is monotone in cos theta, which
+// differs from a corner's value by at most the longest edge.
 double largest_factor(const CapFrame& frame, const Corners& corners) {
   if (frame.dilation == 1) return 1;
   double low = 1, high = -1;

@@ -33,13 +33,13 @@ struct PatchMesh {
 struct CapIntegralOptions {
   int degree = 64;  // 0 ... kMaxIntegralDegree
   CapExtension extension = CapExtension::kZero;
-  double precision = 1e-10;  // of the nodes: l2 error of all coefficients over the integral of r
+  double precision = 1e-10;  // l2 error of all coefficients over the integral of r
 };
 inline constexpr int kMaxIntegralDegree = 512;  // above, caps have more numbers than shapes
 
 struct CapIntegral {
-  Coefficients coefficients;  // of r, the points' unit, on the dilated sphere of the frame
-  double solid_angle = 0;     // of the patch from the centre, undilated
+  Coefficients coefficients;  // expansion of r in the points' unit, on the dilated sphere
+  double solid_angle = 0;     // solid angle of the patch from the centre, undilated
   std::size_t nodes = 0;
 };
 

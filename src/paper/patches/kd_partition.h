@@ -14,7 +14,7 @@ namespace rholm {
 struct PartitionOptions {
   double min_cosine = 0.5;  // delta_a of (P36), 0 ... 1
   double star = 0.1;        // least cosine between a normal and the ray from the centre, 0 ... 1
-  std::size_t min_points = 16;  // of a patch that was split off; at least 1
+  std::size_t min_points = 16;  // smallest size of a split patch; at least 1
 };
 
 // The points order[begin] ... order[end - 1] of a partition.
@@ -28,7 +28,7 @@ struct KdPatch {
 
 struct KdPartition {
   std::vector<std::uint32_t> order;  // each point once
-  std::vector<KdPatch> patches;      // by `begin`; together they have all of `order`
+  std::vector<KdPatch> patches;      // sorted by `begin`; together they have all of `order`
   std::size_t n_failed = 0;          // patches that do not hold
 };
 
