@@ -124,7 +124,7 @@ HWY_INLINE void Butterfly(D d, Complex<V> (&a)[8]) {
 }
 
 // Layout in memory: real and imaginary parts interleaved (as the caller has them), or in two arrays
-// whose begins are n numbers apart.
+// which start n numbers apart.
 enum class Lie { kInterleaved, kSplit };
 
 template <Lie kLie, class D, typename T = hn::TFromD<D>>

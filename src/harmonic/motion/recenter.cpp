@@ -124,8 +124,8 @@ class Rays {
   std::vector<std::size_t> open_;  // rays whose root is not yet found
 };
 
-// The surface faces the new centre where its outward normal, r u - grad r, and the vector from the
-// new centre, r u - d, form an acute angle. This is r^2 - n . d > 0, which is linear in d.
+// The surface faces the new centre where two vectors form an acute angle: its outward normal, r u -
+// grad r, and r u - d. The condition is r^2 - n . d > 0, linear in d.
 struct NewView {
   double way = 1;            // fraction of d at which a quarter of r^2 is left everywhere
   std::vector<Vec3> behind;  // points, seen from d, where the surface faces away from d

@@ -1,5 +1,5 @@
-// Rotations as unit quaternions. atan2 gives the angles from pairs of components, so that sums of
-// Euler angles are precise even if each is undetermined (beta near 0 or pi).
+// Rotations as unit quaternions. Angles come from pairs of components by atan2. Sums of Euler
+// angles are then precise even if each angle is undetermined (beta near 0 or pi).
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -1,5 +1,5 @@
-// The rotation by 90 degrees about the y axis, from z to x, for one degree. It is the only factor
-// of R = Rz(a - 90) J^-1 Rz(b) J Rz(c + 90) that is not diagonal, for any R = Rz(a) Ry(b) Rz(c).
+// The rotation J by 90 degrees about the y axis, from z to x, for one degree. J is the only factor
+// that is not diagonal in R = Rz(a) Ry(b) Rz(c) = Rz(a - 90) J^-1 Rz(b) J Rz(c + 90).
 //
 // Delta^l_{m1 m2} = d^l_{m1 m2}(pi/2) follows from the recurrence of Trapani and Navaza (2006):
 //   Delta_{m1 m2} = [2 m2 Delta_{m1+1,m2} - sqrt((l-m1-1)(l+m1+2)) Delta_{m1+2,m2}]

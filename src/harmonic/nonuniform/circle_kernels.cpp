@@ -139,7 +139,7 @@ HWY_INLINE void store_down(V re, V im, T* last) {
   store_complex(hn::Reverse(D(), re), hn::Reverse(D(), im), last + 2 - 2 * kLanes);
 }
 
-// Calls visit(q) for the begins of vectors that cover 0 ... n - 1, n >= kLanes. The last two
+// Calls visit(q) for the start indices of vectors that cover 0 ... n - 1, n >= kLanes. The last two
 // vectors may overlap.
 template <class Visit>
 HWY_INLINE void visit_vectors(size_t n, const Visit& visit) {

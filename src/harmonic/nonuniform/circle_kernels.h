@@ -45,8 +45,8 @@ void multiply(const Factors<T>& factors, const T* in, T* out);
 struct RingParts {
   double *even_re, *even_im, *odd_re, *odd_im;
 };
-// Splits a circle of 2 n complex numbers at theta = (q + 1/2) pi / n, n even, into the parts of its
-// even order and of its odd order on n/2 rings.
+// Splits a circle of 2 n complex numbers at theta = (q + 1/2) pi / n, n even. The results are the
+// parts of its even order and of its odd order on n/2 rings.
 template <typename T>
 void split_circle(const T* circle, std::size_t n, const RingParts& even, const RingParts& odd);
 // Does the transpose; writes the whole circle.

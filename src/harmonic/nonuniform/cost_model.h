@@ -14,7 +14,7 @@ double source_cost(int width, bool single, int derivatives);
 // The cost while the window is unknown, and the cost of adding a cell of one grid to another.
 double typical_source_cost();
 double typical_cell_cost();
-// Amount of work from which a second thread pays.
+// Amount of work from which a second thread is worthwhile.
 double second_thread_cost();
 
 // Cost of a cell of `grids` grids before their transform: cleared, summed, folded and gathered.
@@ -35,8 +35,8 @@ double own_node_cost();
 double common_node_cost();
 double hessians_cost();
 
-// Costs of the error of an expansion at points of a surface (transform/error): per point, and for
-// the grid from which all points are interpolated.
+// Costs of the error of an expansion at points of a surface (transform/error). They are for a
+// point, and for the grid from which all points are interpolated.
 double error_point_cost();
 double error_grid_cost(int degree);
 

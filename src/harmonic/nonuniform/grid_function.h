@@ -31,8 +31,8 @@ class GridFunction {
   GridFunction(const NonuniformPlan& plan, const Coefficients& coefficients,
                const Context& context);
 
-  // Batches hold the function and its gradient times this factor: a power of two that brings the
-  // largest coefficient to 1 ... 2, because single precision ends at 1e38.
+  // Batches hold the function and its gradient times this factor. It is a power of two that brings
+  // the largest coefficient to 1 ... 2, because single precision ends at 1e38.
   double scale() const { return scale_; }
   // Reads values at the first n positions of the batch and, on request, gradients. Call
   // polar_gradient() for the gradients of positions listed in `near`, which are close to a pole.

@@ -57,7 +57,7 @@ void visit_grids(const NonuniformNeeds& needs, int width, double allowed, const 
 
 std::size_t grid_count(const NonuniformPlan& plan, std::size_t sources) {
   // A further grid is used if it costs less than a twentieth of the work, up to eight grids. A
-  // second grid is always used if a second thread pays (chosen).
+  // second grid is always used if a second thread is worthwhile (chosen).
   constexpr double kWorkPerGrid = 20;
   const double work = typical_source_cost() * static_cast<double>(sources);
   const double grid = typical_cell_cost() * static_cast<double>(plan.fourier.layout.cells());

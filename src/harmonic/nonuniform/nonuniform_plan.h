@@ -13,8 +13,8 @@ struct NonuniformPlan {
   SphereFourier fourier;
   bool single = false;  // spread and transformed along phi in single precision
   double cost = 0;      // predicted, nanoseconds on the machine of cost_model_bench's figures
-  // Sine of the colatitude below which derivatives come from values around a direction
-  // (polar_nodes.h): near a pole, derivatives in phi multiply the error by 1 / (L sin theta).
+  // Sine of the colatitude below which values around a direction give derivatives (polar_nodes.h).
+  // Near a pole, derivatives in phi multiply the error by 1 / (L sin theta).
   double polar_sine = 0;
 };
 

@@ -10,8 +10,8 @@ namespace rholm {
 // Returns the error of values, with windows of this width.
 double window_error(int width, double sigma);
 
-// Return the ratio of the error of derivatives to the error of values: for gradients relative to L,
-// for Hessians of `sources` sources all over the sphere relative to L^2.
+// Return the ratio of the error of derivatives to the error of values. Gradients are relative to L,
+// Hessians of `sources` sources all over the sphere relative to L^2.
 double gradient_factor(double sigma);
 double hessian_factor(double sigma, int degree, std::size_t sources);
 

@@ -23,8 +23,8 @@ constexpr std::size_t kMaxTextLength = 256;
   throw Error(ErrorCode::kInvalidInput, name + ": " + what);
 }
 
-// Returns the length of the UTF-8 sequence that starts at text[0], or 0 if it is invalid (RFC 3629:
-// no overlong forms, no surrogates, nothing above U+10FFFF).
+// Returns the length of the UTF-8 sequence that starts at text[0], or 0 if it is invalid. RFC 3629
+// allows no overlong forms, no surrogates and nothing above U+10FFFF.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(0);

@@ -82,8 +82,8 @@ class CoefficientTable {
 };
 
 // Returns the description of an expansion for text files, as keys and values in the order of
-// writing: function, center, unit, method, numbers of kKnownNumbers, signed_sum. Unknown values are
-// left out.
+// writing. The keys are function, center, unit, method, numbers of kKnownNumbers and signed_sum.
+// Unknown values are left out.
 std::vector<std::pair<std::string, std::string>> describe(const Expansion& expansion);
 // Does the inverse for one key, which may also be csphase. Returns false for any other key. Throws
 // InvalidInput for an impossible value or a repeated key.

@@ -25,7 +25,7 @@ namespace rholm {
 namespace {
 
 // Names of the temporary files that exist now. A signal handler may only use lock-free atomics: the
-// code that exchanges a slot for nullptr owns the string. 64 is more than a process writes at once.
+// code that exchanges a slot for nullptr owns the string. A process writes fewer than 64 at once.
 // Without a slot a file is still written, but remains if a signal ends the process.
 constexpr std::size_t kSlots = 64;
 std::array<std::atomic<char*>, kSlots> g_unfinished;

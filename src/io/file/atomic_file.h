@@ -16,9 +16,9 @@ namespace rholm {
 // Written directly are "-" (standard output), files that are not regular (a pipe, /dev/null), and
 // paths of descriptors of this process (/dev/stdout, /dev/fd/3).
 //
-// The temporary file has no name if the file system supports this and can name it later: nothing
-// remains of it if the process is killed. Otherwise it is a hidden file in the folder of `path`.
-// Hidden files of killed processes are removed there first.
+// The temporary file has no name if the file system supports this and can name it later. Nothing
+// then remains of it if the process is killed. Otherwise it is a hidden file in the folder of
+// `path`. Hidden files of killed processes are removed there first.
 //
 // There is no fsync: files are safe from interrupted programs, not from power failures.
 class AtomicFile {

@@ -25,10 +25,10 @@ class Bytes {
   std::size_t size_ = 0;
 };
 
-// Reads a whole file; "-" is standard input. It uses large reads rather than a memory map: if
-// another program truncates a mapped file, the reader is killed (SIGBUS), and copying costs little
-// beside parsing. Reports stage "read" from 0 to `to`; a signal that interrupts a read asks the
-// callback whether to cancel. Throws Io with the name and the reason, Cancelled.
+// Reads a whole file; "-" is standard input. Uses large reads, not a memory map: if another program
+// truncates a mapped file, the reader is killed (SIGBUS). Copying costs little beside parsing.
+// Reports stage "read" from 0 to `to`; a signal that interrupts a read asks the callback whether to
+// cancel. Throws Io with the name and the reason, Cancelled.
 Bytes read_bytes(const std::filesystem::path& path, const Context& context = {}, double to = 1);
 
 }  // namespace rholm

@@ -19,7 +19,7 @@ class InputFile {
   // Returns the size of the file at opening; 0 for pipes and devices, whose size is unknown.
   std::size_t size() const { return size_; }
   // Reads at most room.size() bytes. Reads nothing if a signal interrupts, or if no byte comes
-  // within a tenth of a second: the caller can then ask whether to go on. Throws Io.
+  // within a tenth of a second. The caller can then ask whether to go on. Throws Io.
   struct Piece {
     std::size_t size = 0;
     bool ended = false;

@@ -34,7 +34,7 @@ void if_left(const std::filesystem::path& lock, const std::function<void()>& rem
   ::close(descriptor);
 }
 
-// Returns the folder's entries with this begin and end of the name; none after the first call.
+// Returns the folder's entries with this start and end of the name; none after the first call.
 std::vector<std::filesystem::path> look_once(const std::filesystem::path& folder,
                                              std::string_view begin, std::string_view end) {
   std::vector<std::filesystem::path> found;

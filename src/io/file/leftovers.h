@@ -1,8 +1,8 @@
 // Files and folders that killed programs have left behind. Layer: io, private.
 //
-// A program that makes a named temporary file holds a lock on it, and one that makes a temporary
-// folder holds a lock on a file in it. The system drops the lock however the process ends: a file
-// that can be locked belongs to no running process.
+// A program that makes a named temporary file holds a lock on it. For a temporary folder it holds a
+// lock on a file in it. The system drops the lock however the process ends: a file that can be
+// locked belongs to no running process.
 #pragma once
 
 #include <filesystem>

@@ -58,7 +58,7 @@ inline std::string_view take_word(TextCursor& text) {
 
 // Reads the number that begins exactly here (no spaces before it; a leading + is allowed) and moves
 // past it. Returns false, without moving, if there is none or it does not fit the type. The caller
-// checks what follows. "nan" and "inf" are numbers; a number too small for a double is zero, a
+// checks what follows. Also reads "nan" and "inf". A number too small for a double is zero; a
 // number too large is an error. Results are rounded correctly.
 bool take_any_number(TextCursor& text, double& value);
 inline bool take_number(TextCursor& text, double& value);

@@ -2,8 +2,8 @@
 // headers and groups. hdf5_values.h reads values. Layer: io, private.
 //
 // The HDF5 library may write models but does not read them. On damaged or malicious files it reads
-// outside its buffers and loops (seen with 1.10.8, mostly in the global heap of strings and in the
-// older metadata, which have no checksums). Here every access is checked against the file, and
+// outside its buffers and loops. This was seen with 1.10.8, mostly in the global heap of strings
+// and in older metadata without checksums. Here every access is checked against the file, and
 // memory is limited by the size of the file.
 //
 // Source: HDF5 File Format Specification, version 3.0. Supported are superblocks 0 to 3; object

@@ -48,8 +48,8 @@ struct PlyPart {
   std::vector<WideTriangle> triangles = {};
 };
 
-// A file that exists after commit(). put() writes parts in any order, also from other processes;
-// append() writes parts in order if the output is no regular file. Throws Io.
+// A file that exists after commit(). put() writes parts in any order, also in other processes.
+// If the output is no regular file, append() writes parts in order. Throws Io.
 class PlyParts {
  public:
   PlyParts(const std::filesystem::path& path, const PlyLayout& layout, const Context& context = {},

@@ -10,8 +10,8 @@
 
 namespace rholm {
 
-// Collects vertices in blocks of rows: a reader writes the values of a block into the slots of its
-// properties, then the block is checked and appended. (Appending blocks from the cache avoids
+// Collects vertices in blocks of rows. A reader writes the values of a block into the slots of its
+// properties; then the block is checked and appended. (Appending blocks from the cache avoids
 // clearing the large arrays first.)
 class PlyVertices {
  public:

@@ -47,7 +47,7 @@ class Rows {
     return true;
   }
   TextCursor text;
-  TextCursor begin = text;  // the begin of the last row
+  TextCursor begin = text;  // start of the last row
 
  private:
   TableSyntax blanks_;

@@ -1,6 +1,6 @@
-// The table of formats of shapes. A new format is a source file with its reader and writer,
-// declared in shape_source.h and shape_writers.h, and a line of the table in shape_formats.cpp.
-// Layer: io.
+// The table of formats of shapes. A new format is a source file with its reader and writer, and a
+// line of the table in shape_formats.cpp. Reader and writer are declared in shape_source.h and
+// shape_writers.h. Layer: io.
 #pragma once
 
 #include <span>

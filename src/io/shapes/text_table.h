@@ -77,7 +77,7 @@ struct TellingRows {
   std::size_t rows = 0;
 };
 
-// Number of bytes at the begin of a text that determine its format: 20 000 rows of usual length.
+// Number of bytes at the start of a text that determine its format: 20 000 rows of usual length.
 // Chosen: a stream holds them while it is opened.
 inline constexpr std::size_t kTellingBytes = std::size_t{1} << 20;
 

@@ -18,7 +18,7 @@ struct TableLook {
   TablePlan plan;
 };
 
-// Analyses the begin of a file (`is_all`: the whole file). Throws InvalidInput if no points can
+// Analyses the start of a file (`is_all`: the whole file). Throws InvalidInput if no points can
 // follow, and for ShapeReadOptions::columns that do not fit.
 TableLook look_at_points(const ShapeSource& source, bool is_all);
 

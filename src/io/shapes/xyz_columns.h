@@ -2,9 +2,9 @@
 // Layer: io.
 //
 // Names decide if there are any. Without names the values decide. A first column of growing whole
-// numbers counts the rows. The position comes next, then in any order, in three adjacent columns,
-// normals (unit vectors to 1 %, or lengths 0.75 ... 1.25 with both signs) and colours (bytes, or
-// fractions of 1). Other columns are scalars.
+// numbers counts the rows. The position comes next, then normals and colours in any order, each in
+// three adjacent columns. Normals are unit vectors to 1 %, or have lengths 0.75 ... 1.25 and both
+// signs. Colours are bytes, or fractions of 1. Other columns are scalars.
 #pragma once
 
 #include <array>

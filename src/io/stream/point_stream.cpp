@@ -29,7 +29,7 @@
 namespace rholm {
 namespace {
 
-// Reads a file from begin to end through a window.
+// Reads a file from start to end through a window.
 
 class ByteWindow {
  public:
@@ -40,7 +40,7 @@ class ByteWindow {
   // Reads until the window has n bytes or the file ends; returns the window. Throws Io, Cancelled.
   std::span<const char> at_least(std::size_t n, const Context& context);
   std::span<const char> bytes() const { return {bytes_.data() + first_, last_ - first_}; }
-  // Moves the window's begin forward.
+  // Moves the window's start forward.
   void pass(std::size_t n) {
     first_ += n;
     passed_ += n;

@@ -24,8 +24,8 @@ namespace {
 constexpr double kAim = 0.995, kGoodEnough = 0.97;
 // An aim is the last if the surface's log(rms) changes by less than this part of log(aim)'s change.
 constexpr double kStalled = 0.1;
-// The search ends if the aims that keep and exceed the tolerance, or their numbers, have a ratio
-// below these values. kGoodEnough gives away as much.
+// The search ends if the aims that keep and exceed the tolerance have a ratio below kSameAim, or
+// their numbers below kSameNumbers. kGoodEnough gives away as much.
 constexpr double kSameAim = 1.03, kSameNumbers = 1.03;
 // While handles are wrong the aim is multiplied by kTighter, at most kTightenings times: half the
 // tolerance in all. Three of the meshes 15, 38, 51, 61, 111, 115, 138, 338 and 460 of

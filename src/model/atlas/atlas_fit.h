@@ -24,8 +24,8 @@ struct AimOutcome {
 
 // The error of the surface is slightly larger than the error of the samples' blend, by a varying
 // factor. Aims are corrected by the measured error, then bisect (as logarithms) between an aim that
-// keeps the tolerance and one that exceeds it. An aim whose surface has other handles than the
-// shape does not count as keeping it: smaller aims are tried until one has the right handles.
+// keeps the tolerance and one that exceeds it. A surface with other handles than the shape does not
+// keep it: smaller aims are tried until one has the right handles.
 class Aims {
  public:
   Aims(double tolerance, double first) : tolerance_(tolerance), aim_(first) {}

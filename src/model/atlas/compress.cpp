@@ -47,15 +47,15 @@ constexpr double kLeastSamples = 20000, kMostSamples = 200000;
 // kept too many handles.
 constexpr double kMostThinSamples = 100000;
 
-// Facing sheets of a surface need room for the errors of both caps, and for the band within which
-// the grid blends caps: at most these parts of the gap. The gap is the one that a share kThin of
+// Facing sheets of a surface need room for the errors of both caps, and for the band in which the
+// grid blends caps. Each may take this part of the gap. The gap is the one that a share kThin of
 // the area falls below, because at sharp edges all gaps fall to 0.
 constexpr double kThin = 0.05;
 constexpr double kToleranceOfGap = 1.0 / 6, kBandOfGap = 1.0 / 3;
 constexpr double kStepOfGap = kBandOfGap / kBandSteps;
 
 // Where neighbours barely overlap, the surface changes from one to the other in a step. Measured:
-// 1.3 leaves even fewer steps, but splinters at thin parts. At close parts, as fingers, larger
+// 1.3 leaves fewer steps still, but splinters at thin parts. At close parts, as fingers, larger
 // supports make handles, and caps keep the supports with which they were chosen.
 constexpr Overlap kOverlaps[] = {{1.15, 1, false}, {1, 3, true}};
 // A cover has more numbers than its model, because coefficients are then dropped to the tolerance.

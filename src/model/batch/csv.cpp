@@ -21,7 +21,7 @@ bool is_number(std::string_view text) {
   return take_number(cursor, value) && cursor.at_end();
 }
 
-// Parses the text in one pass. A quote opens a field only at its begin; within the field, two
+// Parses the text in one pass. A quote opens a field only at its start; within the field, two
 // quotes stand for one.
 class CsvReader {
  public:

@@ -10,7 +10,7 @@
 namespace rholm {
 
 struct CsvRecord {
-  std::size_t line = 0;  // line of its begin, from 1
+  std::size_t line = 0;  // line of its start, from 1
   std::vector<std::string> fields;
 };
 

@@ -1,8 +1,8 @@
 // The file of a BatchJournal. Layer: model, private.
 //
 // It begins with "RHOLMBJ1", the job (8 bytes), the number of rows (8) and the CRC-32 of these 24
-// bytes. A record has the number of bytes after its checksum (4), the CRC-32 of the number and
-// these bytes (4), the index of the row (8) and the row (row_bytes.h). All little endian.
+// bytes. A record has its number of bytes after the checksum (4) and the CRC-32 of this number and
+// these bytes (4). The bytes are the row's index (8) and the row (row_bytes.h). All little endian.
 #pragma once
 
 #include <cstddef>

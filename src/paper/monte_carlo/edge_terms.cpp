@@ -4,7 +4,7 @@
 // F_theta = -Pbar_lm(cos theta) sin(theta) int_start^phi r e^{-i m phi'} dphi'. Stokes' theorem
 // only needs an antiderivative along each parallel within the face: `start` may be any function of
 // theta. (M2) starts at the foot of the normal, where the path is safe. On a rough surface the foot
-// is far from the face, and the field and its scatter are as large as r, not r times the face's
+// is far from the face. The field and its scatter are then as large as r, not r times the face's
 // width. The middle of the face's longitudes is near. If the parallel leaves the half space of the
 // face before this middle, the point nearest to the foot of the normal is taken. It is between the
 // foot and all points of the face.

@@ -156,7 +156,7 @@ Coefficients deviation_of(const Moments& moments) {
     // Satterthwaite's degrees of freedom are (sum v)^2 / sum v^2 for normal pairs with variances v.
     // With one degree of freedom, squares of estimates of v are 3 times too large. The square of
     // their sum is too large by the relative amount 2 / nu, which gives 3 square^2 / fourth - 2.
-    // For few pairs this is uncertain. Measured with 1000 seeds each: with 2 subtracted, 99.0 % of
+    // For few pairs this is uncertain. Measured with 1000 seeds each: with 2 taken away 99.0 % of
     // the coefficients are within 3 deviations at 2 points per edge of an octahedron. With 5 it is
     // 99.6 to 99.9 % at 2, 4, 8 and 32 points on edges and faces of octahedra and a tetrahedron.
     const double nu = 3 * square * square / std::max(fourth, 1e-300) - 5;

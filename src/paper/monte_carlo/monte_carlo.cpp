@@ -37,9 +37,9 @@ double relative_deviation(const Moments& moments) {
 }
 
 // Returns true if the relative deviation is meaningful. Scatter of few pairs looks like a norm.
-// Measured on a box of 12 faces with 2 to 8 points each, in runs that are wrong by 2 to 5: Up to a
-// quarter of all seeds find values below 1, most of them near 3/4. A fiftieth find values below
-// 1/2. On 80 faces, values below 1 are right within a factor of 2.
+// This was measured on a box of 12 faces with 2 to 8 points each, in runs that are wrong by 2 to 5.
+// Values are below 1 in up to a quarter of all seeds, most of them near 3/4, and below 1/2 in a
+// fiftieth. On 80 faces, values below 1 are right within a factor of 2.
 bool means_something(double relative, const Moments& moments, std::size_t places) {
   constexpr double kFewPairs = 100;
   const std::size_t pairs_at_place = moments.samples / 2;

@@ -1,4 +1,4 @@
-// The Delaunay triangulation of points on the unit sphere is their convex hull: the plane of a
+// The Delaunay triangulation of points on the unit sphere is their convex hull. The plane of a
 // facet cuts off a cap of the sphere without points. The origin is added as one more point. Facets
 // through it close the hull of a patch on its inner side.
 #include "paper/patches/sphere_delaunay.h"

@@ -39,9 +39,9 @@ struct PatchSphere {
   bool best_fitting = false;  // else the centre is below the patch
 };
 
-// Returns the best-fitting sphere if its centre sees all of the patch from the inner side, at a
-// cosine above `star` >= 0 and a half angle of at least kLeastHalfAngle. Otherwise the centre is
-// below the patch and sees it under this angle. A patch has at least one point.
+// Returns the best-fitting sphere if its centre sees the patch from the inner side, at a cosine
+// above `star` >= 0, under at least kLeastHalfAngle. Otherwise the centre is below the patch and
+// sees it under this angle. A patch has at least one point.
 inline constexpr double kLeastHalfAngle = 0.2617993877991494;  // 15 degrees, method 7.2
 PatchSphere patch_sphere(const PatchPoints& patch, double star);
 
