@@ -76,8 +76,8 @@ double SpreadWindow::fourier(double k) const {
 }
 
 // The transform is large up to omega = beta. Setting this limit to the lowest alias, n - band, is
-// ideal for sums with a white spectrum. A 1 % lower limit makes the jump at the ends of the window
-// smaller (bench/window_bench with 1 in its place).
+// ideal for sums with a white spectrum. A 1 % lower limit allows for the jump at the ends of the
+// window (bench/window_bench with 1 in its place).
 SpreadWindow spread_window(int width, std::size_t band, std::size_t points) {
   const double share = 1 - static_cast<double>(band) / static_cast<double>(points);
   const double beta = 0.99 * kPi * width * share;

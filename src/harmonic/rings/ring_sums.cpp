@@ -13,8 +13,8 @@ static_assert(kRingBlock == kLegendreLanes);
 
 namespace {
 
-// The rings of a block are far apart if some sin theta and some cos theta are below this. If the
-// factor of a step is formed from the larger of x^2 and s^2, other rings lose at most one bit.
+// The rings of a block are far apart if some sin theta and some cos theta are below this. In other
+// blocks, factors of a step lose at most a bit if formed from the larger of x^2 and s^2.
 constexpr double kWide = 0.5;
 
 // The functions below convert between sums or factors [4j ...] of the steps and coefficients of the
