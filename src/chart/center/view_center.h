@@ -26,7 +26,7 @@ StarReport better_center(const LocalView& view, const StarReport& program, int r
                          const Context& context);
 
 // Computes the first half of a star chart for a mesh whose edges are paired: seeks the centre and
-// checks it. Throws NotStarShaped as make_star_chart() does.
+// checks it. Throws NotStarShaped as for a star chart.
 StarReport seen_surface(const Mesh& mesh, const ChartOptions& options, const Context& context);
 
 // Does the same as check_star() in rholm/star.h, for a view.
