@@ -8,7 +8,7 @@
 namespace rholm {
 namespace {
 
-// Many on each face, evenly spread, tell more than a few on each of many.
+// Many points on each face, evenly spread, tell more than a few points on each of many faces.
 constexpr std::size_t kAreaPoints = 100'000, kFewAreaPoints = 20'000, kOnFace = 16;
 constexpr std::size_t kClosestPoints = 20'000, kFewClosestPoints = 3'000;
 
