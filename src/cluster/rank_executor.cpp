@@ -39,7 +39,7 @@ std::string result_of(const Executor::Work& work, std::size_t part, int threads)
   }
 }
 
-// Runs on every rank: works the parts that rank 0 hands out, until no part is left to be begun.
+// Runs on every rank: computes the parts that rank 0 hands out, until no part is left.
 void serve(Ranks& ranks, int threads, const Executor::Work& work) {
   const auto send = [&](Says what, std::uint64_t number, std::string_view text) {
     ByteWriter writer;

@@ -1,4 +1,4 @@
-// Executor whose parts are worked by ranks. Layer: cluster, private.
+// Executor whose parts are computed by ranks. Layer: cluster, private.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@ namespace rholm {
 // and takes the results. Each function ends on all ranks at once; then all ranks see the pieces
 // that any rank has left in a store.
 //
-// InvalidInput of a part is thrown on rank 0, as if rank 0 had worked the part. Any other exception
-// of a part ends the run of all ranks.
+// InvalidInput of a part is thrown on rank 0, as if rank 0 had computed the part. Any other
+// exception of a part ends the run of all ranks.
 class RankExecutor final : public Executor {
  public:
   // `threads` is for each rank; 0 means its share of the processors. `call` runs on rank 0 before

@@ -51,7 +51,7 @@ struct RankTotals {
 // Callbacks to the program around the ranks. The thread that speaks MPI may call all of them.
 struct RanksProgram {
   std::function<std::uint64_t()> progress;        // grows while something is computed
-  std::function<bool()> keep_going;               // asked while parts are worked; if empty: yes
+  std::function<bool()> keep_going;               // asked while parts are computed; empty: yes
   std::function<int()> interrupted;               // returns the signal that asked to stop, or 0
   std::function<void(int code)> stop;             // tells that work is to end soon
   std::function<void(const std::string&)> error;  // prints a message

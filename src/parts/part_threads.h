@@ -1,5 +1,5 @@
-// Building blocks of executors: threads that work parts, and results in their order. Layer: parts,
-// private.
+// Building blocks of executors: threads that compute parts, and results in their order. Layer:
+// parts, private.
 #pragma once
 
 #include <condition_variable>
@@ -18,13 +18,13 @@
 
 namespace rholm {
 
-// Threads that work the parts of a queue. After the first failure no part is begun.
+// Threads that compute the parts of a queue. After the first failure no part is begun.
 class PartThreads {
  public:
   // While the owner waits, it calls `meanwhile` every few milliseconds; `meanwhile` may throw.
   PartThreads(int threads, std::function<void(std::size_t part)> work,
               std::function<void()> meanwhile);
-  // Drops the queue, and waits for parts that are being worked.
+  // Drops the queue, and waits for parts that are being computed.
   ~PartThreads();
   PartThreads(const PartThreads&) = delete;
   PartThreads& operator=(const PartThreads&) = delete;
@@ -35,7 +35,7 @@ class PartThreads {
   void wait_for_queue(std::size_t most) {
     wait([&] { return queue_.size() <= most; });
   }
-  // Waits until all parts are worked.
+  // Waits until all parts are computed.
   void wait_for_all() {
     wait([&] { return queue_.empty() && busy_ == 0; });
   }

@@ -49,12 +49,12 @@ class TimeLeft {
 // Returns "3 min", "2 h 5 min" or "40 s", with no more digits than are known.
 std::string text_of_seconds(double seconds);
 
-// A stage whose parts 0 ... count - 1 are worked one at a time, each on all threads of a process.
+// A stage whose parts 0 ... count - 1 are computed one at a time, each on all threads of a process.
 struct Stage {
   std::string_view name;
   std::size_t count = 0;
   // Names of outputs: a part leaves the pieces OUTPUT/PART in the store. A part whose outputs are
-  // all there, from an earlier run, is not worked again.
+  // all there, from an earlier run, is not computed again.
   std::vector<std::string> outputs = {};
   // Names of inputs INPUT/PART that no later stage reads. They are removed when the stage has
   // ended, unless the store is kept.

@@ -1,4 +1,4 @@
-// Stores values by name, in memory or in a folder, for all who work parts. Layer: parts, private.
+// Stores values by name, in memory or in a folder, for the parts of a task. Layer: parts, private.
 //
 // A piece is a list of sections; a section is bytes that are read together. A piece is made once,
 // appears whole or not at all, and is read many times, by several threads at once. Names are words

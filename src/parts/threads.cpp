@@ -13,7 +13,7 @@
 namespace rholm {
 namespace {
 
-// Works one part after the other on this thread.
+// Computes one part after the other on this thread.
 void run_here(std::size_t first, std::size_t end, int threads, const Executor::Work& work,
               PartResults& results) {
   for (std::size_t part = first; part < end; ++part) {
@@ -22,7 +22,7 @@ void run_here(std::size_t first, std::size_t end, int threads, const Executor::W
   }
 }
 
-// Works parts on several threads, while this thread takes their results.
+// Computes parts on several threads, while this thread takes their results.
 void run_threads(std::size_t first, std::size_t end, std::size_t n, const Executor::Work& work,
                  PartResults& results) {
   std::mutex mutex;  // guards `given`
@@ -56,7 +56,7 @@ void run_threads(std::size_t first, std::size_t end, std::size_t n, const Execut
       take_given();
     }
   } catch (...) {
-    go_on = false;  // the first failure is known: parts that are being worked end soon
+    go_on = false;  // a failure is known: parts that are being computed end soon
     throw;
   }
 }

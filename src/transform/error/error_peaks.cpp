@@ -28,7 +28,7 @@ constexpr int kMostHalvings = 8, kMostRounds = 40;
 
 struct Climber {
   std::size_t face = 0;
-  std::array<Vec3, 3> corners;  // from the centre, scaled
+  std::array<Vec3, 3> corners;  // relative to the centre, scaled
   FaceNormal normal;
   double a = 0, b = 0;  // weights of the first two corners
   double step = 0;      // step of the weights

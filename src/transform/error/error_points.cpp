@@ -22,7 +22,7 @@ namespace rholm {
 namespace {
 
 struct Face {
-  std::array<Vec3, 3> corners;  // from the centre
+  std::array<Vec3, 3> corners;  // relative to the centre
   FaceNormal normal;
   double twice_area = 0;
 };

@@ -11,7 +11,7 @@
 
 namespace rholm {
 
-// For parts whose vertices lie among the vertices of other parts. A thread that works a part
+// For parts whose vertices lie among the vertices of other parts. A thread that computes a part
 // borrows an array of lumps of all vertices, to which nobody else adds. Sums of lumps are exact: it
 // does not matter to which array a part was added.
 template <typename L>

@@ -29,7 +29,7 @@ Division divide_triangles(std::size_t n_triangles, std::size_t wanted) {
 
 std::size_t part_count(std::size_t n_triangles, int degree, std::size_t grids) {
   if (n_triangles <= kLargeMesh) return grids;
-  // A grid has some 3 L^2 cells. Each costs a tenth of a triangle to make and to add.
+  // A grid has some 3 L^2 cells. Each costs a tenth of a face to make and to add.
   const auto degrees = static_cast<std::size_t>(degree);
   const std::size_t size = std::max(kLargeSize, 2 * degrees * degrees);
   return (n_triangles + size - 1) / size;
@@ -63,7 +63,7 @@ IndexRange index_range(const MeshView& mesh, std::size_t first, std::size_t n) {
 }
 
 bool parts_overlap(const MeshView& mesh, const Division& division) {
-  // If vertices are more than the triangles can have, lumps of all vertices are too many.
+  // If vertices are more than the faces can have, lumps of all vertices are too many.
   if (mesh.n_vertices > mesh.n_triangles) return false;
   constexpr std::size_t kLooks = 16;  // chosen: some 30 us
   std::size_t covered = 0;

@@ -1,5 +1,5 @@
-// Divides a mesh pass into parts: ranges of the triangles in file order. Parts depend on the number
-// of triangles, the degree and the plan, not on threads, ranks and memory.
+// Divides a mesh pass into parts: ranges of the faces in file order. Parts depend on the number of
+// faces, the degree and the plan, not on threads, ranks and memory.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace rholm {
 
 struct Division {
   std::size_t n_triangles = 0;
-  std::size_t size = 0;   // triangles of each part but the last, in whole blocks
+  std::size_t size = 0;   // faces of each part but the last, in whole blocks
   std::size_t count = 0;  // number of parts
 
   std::size_t first(std::size_t p) const { return p * size; }
@@ -21,8 +21,8 @@ struct Division {
 // Divides into at most `wanted` parts of the same size.
 Division divide_triangles(std::size_t n_triangles, std::size_t wanted);
 
-// Returns the number of parts for which grids pay. Beyond 2^23 triangles, returns the number for
-// which memory does not grow with the mesh.
+// Returns the number of parts for which grids pay. Beyond 2^23 faces, returns the number for which
+// memory does not grow with the mesh.
 std::size_t part_count(std::size_t n_triangles, int degree, std::size_t grids);
 
 // The smallest and the largest index of a vertex; there is none if low > high.
@@ -30,7 +30,7 @@ struct IndexRange {
   std::uint32_t low = UINT32_MAX, high = 0;
   std::size_t size() const { return low > high ? 0 : std::size_t{high} - low + 1; }
 };
-// Returns the range of n triangles from `first` on.
+// Returns the range of n faces from `first` on.
 IndexRange index_range(const MeshView& mesh, std::size_t first, std::size_t n);
 
 // Returns the indices in the ranges of part p and later parts, in order, without overlaps.

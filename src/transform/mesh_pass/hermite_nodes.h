@@ -1,4 +1,4 @@
-// Nodes between the vertices of lumped triangles, by Hermite's rules with Hessians.
+// Nodes between the vertices of lumped faces, by Hermite's rules with Hessians.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ class NodesBetween {
  public:
   NodesBetween(const ScaledVertices& vertices, NodeSink& sink);
 
-  // Adds the nodes of the lumped triangles among the block's first n triangles.
+  // Adds the nodes of the lumped faces among the block's first n faces.
   template <typename T>
   void add(const MeshView& mesh, std::size_t first, std::size_t n, const TriangleBlock<T>& block);
   // Writes the nodes that are left.

@@ -1,7 +1,7 @@
-// The results of one part of the triangles, except for the grid to which it is spread.
+// The results of one part of the faces, except for the grid to which it is spread.
 //
 // The pass is the sum of its parts in their order: of these results and of the cells of their
-// grids. The sum has the same bits, whichever thread or process works a part.
+// grids. The sum has the same bits, whichever thread or process computes a part.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ using LumpOf = std::conditional_t<sizeof(T) == 4, std::int32_t, double>;
 template <typename T>
 struct MeshPart {
   BlockSums sums = no_triangles();
-  double mean = 0;  // int r dOmega over triangles with nodes for it
+  double mean = 0;  // int r dOmega over faces with nodes for it
   std::vector<SampledHalfEdge> half_edges;
   double weight = 0;                // sum of the weights that are divided by l(l+1)
   double modulus = 0;               // sum of the moduli of these weights

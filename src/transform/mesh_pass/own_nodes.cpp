@@ -61,8 +61,8 @@ double distance_of(const std::array<Vec3, 3>& p) {
   return reach < 0.1 * nearest ? nearest - reach : triangle_distance(p);
 }
 
-// Returns the crowd of the triangle, at this distance, and of its edges; `d2` is the normal of
-// length twice the area, times a corner.
+// Returns the crowd of the face, at this distance, and of its edges; `d2` is the normal of length
+// twice the area, times a corner.
 Crowd crowd_of(const std::array<Vec3, 3>& p, double d2, double distance, int degree) {
   const std::array<double, 3> r = {norm(p[0]), norm(p[1]), norm(p[2])}, e2 = edge_squares(p);
   double chord2 = 0;  // of directions; of an edge: (e^2 - (r_i - r_j)^2) / (r_i r_j)
@@ -71,7 +71,7 @@ Crowd crowd_of(const std::array<Vec3, 3>& p, double d2, double distance, int deg
     chord2 = std::max(chord2, (e2[i] - (r[i] - r[j]) * (r[i] - r[j])) / (r[i] * r[j]));
   }
   const double length = degree * std::sqrt(chord2);
-  // A triangle's height is twice its area over its length.
+  // A face's height is twice its area over its length.
   const double twice_area =
       static_cast<double>(degree) * degree * std::abs(d2) / (distance * distance * distance);
   return {.per_wave = twice_area > 0 ? static_cast<float>(length / twice_area) : 0.0F,

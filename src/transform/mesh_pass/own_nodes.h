@@ -1,4 +1,4 @@
-// Nodes of the triangles that are not lumped, for the mesh pass.
+// Nodes of the faces that are not lumped, for the mesh pass.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct NodeOptions {
   NodeAllowance undivided;
 };
 
-// Sums half-edges that have met their twins: an edge of two triangles gets its nodes once.
+// Sums half-edges that have met their twins: an edge of two faces gets its nodes once.
 class NodeWriter {
  public:
   NodeWriter(const NodeOptions& options, const ScaledVertices& vertices, NodeSink& sink);
@@ -56,7 +56,7 @@ class NodeWriter {
   TwinCache<HalfEdge> waiting_;
 };
 
-// Returns d_T int_T dS/|x|^2 of a triangle, its part of int r dOmega, to a part `allowed` of it.
+// Returns d_T int_T dS/|x|^2 of a face, its part of int r dOmega, to a part `allowed` of it.
 double radius_integral(const std::array<Vec3, 3>& corners, double allowed);
 
 }  // namespace rholm

@@ -33,8 +33,8 @@ HWY_EXPORT(RankCorners);
 
 namespace {
 
-// A closed mesh has half as many vertices as triangles. If the range has at most half as many
-// again, the others in the range cost less than names.
+// A closed mesh has half as many vertices as faces. If the range has at most half as many again,
+// the others in the range cost less than names.
 bool lies_together(const IndexRange& range, std::size_t n_triangles) {
   return range.size() <= n_triangles / 4 * 3 + 64;
 }

@@ -1,4 +1,4 @@
-// The triangles of a part, and the vertices that they have.
+// The faces of a part, and the vertices that they have.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct PartMesh {
   std::size_t n_vertices = 0;
   // Vertices of the part in the order of the mesh, if they are scattered among others; else empty.
   std::vector<std::uint32_t> names;
-  std::optional<RankedSet> ranks;  // ranks of the names, while triangles are worked
+  std::optional<RankedSet> ranks;  // ranks of the names, while faces are processed
 
   // Returns the number in the mesh of vertex i of the part.
   std::uint32_t name(std::size_t i) const {
@@ -35,14 +35,14 @@ struct PartMesh {
     std::size_t begin = 0, end = 0;
   };
   Places places(const IndexRange& range) const;
-  // Returns the numbers, among the part's vertices, of the corners of n triangles of the mesh. They
-  // are written to `room` if the mesh's own numbers do not tell them.
+  // Returns the numbers, among the part's vertices, of the corners of n faces of the mesh. They are
+  // written to `room` if the mesh's own numbers do not tell them.
   CornerPlaces corners(const MeshView& mesh, std::size_t first, std::size_t n,
                        BlockPlaces& room) const;
 };
-// Describes triangles first ... first + n - 1 of the mesh, whose indices have that range and are
-// valid. Calls `check` for blocks of the triangles before it looks at them. The mesh alone decides
-// if names are given.
+// Describes faces first ... first + n - 1 of the mesh, whose indices have that range and are valid.
+// Calls `check` for blocks of the faces before it looks at them. The mesh alone decides if names
+// are given.
 PartMesh part_mesh(const MeshView& mesh, std::size_t first, std::size_t n, const IndexRange& range,
                    const std::function<void(std::size_t first, std::size_t n)>& check);
 

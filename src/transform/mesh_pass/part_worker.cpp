@@ -22,7 +22,7 @@ constexpr std::size_t kBlocksPerStep = 512;
 
 }  // namespace
 
-// Works the triangles of one part.
+// Processes the faces of one part.
 template <typename T>
 class PartWorker<T>::Triangles {
  public:
@@ -68,7 +68,7 @@ class PartWorker<T>::Triangles {
   }
 
  private:
-  // Data of a block that are needed before it is worked.
+  // Data of a block that are needed before it is processed.
   struct Ahead {
     std::uint32_t largest = 0;
     CornerPlaces places;
@@ -100,7 +100,7 @@ class PartWorker<T>::Triangles {
     part_.block_errors.push_back(static_cast<float>(std::sqrt(error2)));
   }
 
-  // Returns the squared error of lumped triangles among the block's first n, in units of
+  // Returns the squared error of lumped faces among the block's first n, in units of
   // lumping_error(L).
   double lumped_error2(std::size_t n) const {
     double sum = 0;
@@ -187,8 +187,8 @@ MeshPart<T> PartWorker<T>::work(std::size_t p, CommonLumps<Lump>& common, GridSo
   return part;
 }
 
-// A vertex is complete in this part if the triangles around it are closed. Other parts may have the
-// vertex, but no triangle next to these triangles.
+// A vertex is complete in this part if the faces around it are closed. Other parts may have the
+// vertex, but no face next to these faces.
 template <typename T>
 void PartWorker<T>::take_border(std::size_t p, const PartMesh& mesh, const std::uint32_t* fans,
                                 VertexLump<Lump>* lumps, MeshPart<T>& part) const {

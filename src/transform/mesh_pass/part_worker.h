@@ -1,4 +1,4 @@
-// Works parts of a mesh pass: from triangles to lumps and nodes, and from these to grids.
+// Computes parts of a mesh pass: from faces to lumps and nodes, and from these to grids.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@
 
 namespace rholm {
 
-// Several threads may work parts at a time, and several processes that have the ranges of all
+// Several threads may compute parts at a time, and several processes that have the ranges of all
 // parts.
 template <typename T>
 class PartWorker {

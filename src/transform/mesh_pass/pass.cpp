@@ -21,8 +21,8 @@ constexpr int kMostTries = 3;
 // The error from a sample, times this or with its doubt, must be within the wish (chosen).
 constexpr double kSampleMargin = 2;
 
-// A mesh with a sample of it. Triangles in random order are sorted: otherwise every corner misses
-// the cache, and neighbours, which are not known, are not seen to cancel.
+// A mesh with a sample of it. Faces in random order are sorted: otherwise every corner misses the
+// cache, and neighbours, which are not known, are not seen to cancel.
 struct PassInput {
   MeshView mesh;
   MeshPassOptions options;

@@ -22,8 +22,8 @@ struct MeshPassOptions {
   // Called with ranges of vertices that will hardly be used again.
   std::function<void(std::size_t first, std::size_t n)> release_vertices = {};
   std::size_t parts = 0;  // number of parts, for tests; 0: by part_count()
-  // Lets other processes work parts, by a PassHelper of the same mesh (shared_parts.h). If null,
-  // this process works all parts. It is not used for triangles that must be sorted first.
+  // Lets other processes compute parts, by a PassHelper of the same mesh (shared_parts.h). If null,
+  // this process computes all parts. It is not used for faces that must be sorted first.
   Executor* executor = nullptr;
 };
 

@@ -21,13 +21,13 @@ struct MeshPassResult {
   FastReport report;
   // Errors without the rules' part: l2 over 1 <= l <= L, and over the degrees above 3L/4.
   double error_beside = 0, band_error_beside = 0;
-  std::vector<float> block_errors;  // of kTrianglesPerBlock triangles, see MeshPart
+  std::vector<float> block_errors;  // of kTrianglesPerBlock faces, see MeshPart
   NonuniformPlan transform;         // the windows that were used
   double least_error = 0;           // smallest possible error by rounding, relative as error
-  StageTimes times;  // "triangles", "spread", "fourier"; "order" if triangles were sorted
+  StageTimes times;  // "triangles", "spread", "fourier"; "order" if faces were sorted
 };
 
-// Result of one pass through the triangles.
+// Result of one pass through the faces.
 enum class Outcome {
   kDone,
   kOutOfRange  // a vertex has left the range of its integers: double precision is needed

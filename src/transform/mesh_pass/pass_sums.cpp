@@ -10,7 +10,7 @@
 
 namespace rholm {
 
-// The weights of each triangle add up to zero. A sum that does not is out of the integers' range.
+// The weights of each face add up to zero. A sum that does not is out of the integers' range.
 template <typename T>
 void PassSums<T>::add(const MeshPart<T>& part, bool lumps_in_common) {
   const double weight =

@@ -35,7 +35,7 @@ constexpr std::size_t kRun = 16 * kVerticesPerBlock;
 // a twentieth of the pass.
 constexpr double kUnseen2 = 8;
 
-// One pass through the triangles with a given plan; T is the type of the windows.
+// One pass through the faces with a given plan; T is the type of the windows.
 template <typename T>
 class Pass {
  public:
@@ -51,9 +51,9 @@ class Pass {
         worker_(mesh, options, plan, division_, transform_) {}
 
   Outcome run(MeshPassResult& result) {
-    // Without lumps in common `analyze` of subdivided bodies (1.3 and 5.2 million triangles,
-    // degrees 64 and 480) takes 1.08 to 1.14 times as long. Sorting costs more: where the triangles
-    // of these files are shuffled, and sorted first, it takes 2.2 times as long.
+    // Without lumps in common `analyze` of subdivided bodies (1.3 and 5.2 million faces, degrees 64
+    // and 480) takes 1.08 to 1.14 times as long. Sorting costs more: where the faces of these files
+    // are shuffled, and sorted first, it takes 2.2 times as long.
     if (division_.count > 1 && has_few_parts() && parts_overlap(mesh_, division_)) {
       common_.emplace(mesh_.n_vertices, lumps_per_vertex(plan_.block.hessians));
     }
@@ -119,7 +119,7 @@ class Pass {
     return ranges;
   }
 
-  // Works a few parts at a time. Their results are added up in their order before the next parts
+  // Computes a few parts at a time. Their results are added up in their order before the next parts
   // begin.
   void work_parts() {
     if (!common_) worker_.set_ranges(find_ranges());
@@ -208,7 +208,7 @@ class Pass {
     return firsts;
   }
 
-  // Lets several processes work the parts. Their results are added up in the order of the parts.
+  // Lets several processes compute the parts. Their results are added up in the order of the parts.
   void share_parts() {
     std::vector<IndexRange> ranges(division_.count);
     options_.executor->run(

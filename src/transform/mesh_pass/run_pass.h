@@ -1,4 +1,4 @@
-// Makes one pass through the triangles of a mesh, with a given plan.
+// Makes one pass through the faces of a mesh, with a given plan.
 #pragma once
 
 #include "rholm/context.h"

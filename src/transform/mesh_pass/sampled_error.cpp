@@ -1,15 +1,15 @@
 // A second reading of a large mesh would take as long as the first, so its error is measured on a
 // sample. Elements are edges and faces. The error of an element is the adjoint of its sources by
-// the rule of the plan minus their adjoint by a much finer rule. Runs of triangles are taken, run b
-// of error e_b with the chance c_b: half of them evenly, half by the model's error of each. An edge
-// or a vertex belongs to the run of the first triangle that has it, so that the runs of all
-// triangles add up to the whole error e. Every other run of the sample is summed into p, the others
-// into q, as e_b / sqrt(c_b). Then |p|^2 + |q|^2 has the mean sum |e_b|^2, which is |e|^2 if errors
-// of runs are independent. Errors that add up over the mesh, as for needles about an axis, are in p
-// and q alike. The product p . q has the mean 1/4 of the sum of e_b . e_b' sqrt(c_b c_b') over all
-// pairs. This root is replaced by its mean over errors, 1 / SampledRuns::common. Random errors give
-// p . q the variance sum p_i^2 q_i^2, small beside |p|^2 |q|^2 where the error has many
-// coefficients. So an error that adds up is seen although the sample is a hundredth of the mesh.
+// the rule of the plan minus their adjoint by a much finer rule. Runs of faces are taken, run b of
+// error e_b with the chance c_b: half of them evenly, half by the model's error of each. An edge or
+// a vertex belongs to the run of the first face that has it, so that the runs of all faces add up
+// to the whole error e. Every other run of the sample is summed into p, the others into q, as e_b /
+// sqrt(c_b). Then |p|^2 + |q|^2 has the mean sum |e_b|^2, which is |e|^2 if errors of runs are
+// independent. Errors that add up over the mesh, as for needles about an axis, are in p and q
+// alike. The product p . q has the mean 1/4 of the sum of e_b . e_b' sqrt(c_b c_b') over all pairs.
+// This root is replaced by its mean over errors, 1 / SampledRuns::common. Random errors give p . q
+// the variance sum p_i^2 q_i^2, small beside |p|^2 |q|^2 where the error has many coefficients. So
+// an error that adds up is seen although the sample is a hundredth of the mesh.
 //
 // A source, a vertex with all its lumps or a node, has a window error: its adjoint on the plan's
 // grid minus its adjoint on a much finer grid. The squares of all sources give the error of random
@@ -44,8 +44,8 @@ namespace {
 constexpr double kFinerRules = 0.1, kFinerRounding = 0.1;
 constexpr double kElements = 2.5;  // edges and faces per triangle
 constexpr double kLeastPrecision = 1e-14;
-// Nanoseconds for a triangle of the pass, for one of its nodes, and for each coefficient of a
-// transform of few sources (all chosen).
+// Nanoseconds for a face of the pass, for one of its nodes, and for each coefficient of a transform
+// of few sources (all chosen).
 constexpr double kTriangleCost = 50, kNodeCost = 100, kCoefficientCost = 52;
 // Number of groups that windows are measured by, and the largest part of the pass that their
 // transforms may take (chosen). Two groups did not see the window errors of a rod of 120 200 faces
@@ -170,7 +170,7 @@ void add_product(const Vec3& a, const Vec3& b, double factor, std::array<double,
 }
 
 // Hermite's rules, element by element; lump_gradients() and lump_hessians() do the same with whole
-// triangles. Rules without Hessians are VG, with constants as in hermite_rules.h.
+// faces. Rules without Hessians are VG, with constants as in hermite_rules.h.
 constexpr HermiteEdge kGradientEdge = {1.0 / 2, 1.0 / 12, 0, 0, 0, 0, 4};
 constexpr HermiteFace kGradientFace = {1.0 / 3, 1.0 / 24, 0, 0, 0, {}, 0, 4};
 
@@ -219,9 +219,9 @@ double extent2(const Vec3& a, const Vec3& b, double degree, double bend) {
   return degree * degree * over * over * dot(across, across) + bend * over * dot(e, e);
 }
 
-// Visits the sources of a lumped triangle, element by element: corner(element, i, source at corner
-// i) and node(element, x, weight). Elements 0 ... 2 are the edges from these corners, 3 is the
-// face.
+// Visits the sources of a lumped face, element by element: corner(element, i, source at corner i)
+// and node(element, x, weight). Elements 0 ... 2 are the edges from these corners, 3 is the face
+// itself.
 template <typename Corner, typename VisitNode>
 void visit_lumped(const SampledTriangle& t, const BlockParameters& b, const Corner& corner,
                   const VisitNode& node) {
@@ -345,7 +345,7 @@ class Sampler {
     Vec3 at;
     Source source;
   };
-  // Adds a triangle's sources: nodes of the requested elements, by `nodes` if it is not lumped, and
+  // Adds a face's sources: nodes of the requested elements, by `nodes` if it is not lumped, and
   // lumps at corners where `lumped` is true.
   template <typename Belongs, typename Lumped>
   void add_sources(const SampledTriangle& t, NodeWriter& nodes, Sources& to, const Belongs& belongs,

@@ -13,10 +13,10 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kScanGrain = std::size_t{1} << 15;  // triangles, some 50 us (chosen)
+constexpr std::size_t kScanGrain = std::size_t{1} << 15;  // faces, some 50 us (chosen)
 
 struct Chosen {
-  std::size_t first, n;  // triangles
+  std::size_t first, n;  // faces
   double chance;
 };
 
@@ -29,11 +29,11 @@ std::uint64_t edge_name(std::uint64_t a, std::uint64_t b) {
   return std::min(a, b) << 32 | std::max(a, b);
 }
 
-// A vertex of a run's triangles.
+// A vertex of a run's faces.
 struct RunVertex {
   std::uint32_t vertex;
   std::size_t run;
-  bool own = false;  // true if its first triangle is in the run
+  bool own = false;  // true if its first face is in the run
 };
 
 // Marks the vertices of runs, and finds their places in the sorted list.
@@ -71,7 +71,7 @@ class VertexMarks {
   std::vector<std::size_t> firsts_;
 };
 
-// Elements of a triangle around a run that belong to the run: bits 0 ... 2 for edges, 3 ... 5 for
+// Elements of a face around a run that belong to the run: bits 0 ... 2 for edges, 3 ... 5 for
 // corners.
 struct Around {
   std::size_t run, number;
@@ -188,7 +188,7 @@ class RunReader {
     return {begin, end};
   }
 
-  // Returns the triangles of the mesh that have a marked vertex, in order.
+  // Returns the faces of the mesh that have a marked vertex, in order.
   std::vector<std::size_t> triangles_at(const VertexMarks& marks) const {
     std::vector<std::vector<std::size_t>> found((mesh_.n_triangles + kScanGrain - 1) / kScanGrain);
     parallel_for(mesh_.n_triangles, kScanGrain, {.threads = context_.threads}, {},
@@ -226,7 +226,7 @@ class RunReader {
     }
   }
 
-  // Sets the corners of the runs' own triangles. Returns the triangles around the runs' own
+  // Sets the corners of the runs' own faces. Returns the faces around the runs' own
   // vertices.
   std::vector<Around> around_vertices(const std::vector<Chosen>& chosen,
                                       const std::vector<std::size_t>& touching,
@@ -251,7 +251,7 @@ class RunReader {
     return around;
   }
 
-  // Finds the edges on the border of a run that belong to it, and adds the other triangles at these
+  // Finds the edges on the border of a run that belong to it, and adds the other faces at these
   // edges.
   void add_twins(const std::vector<Chosen>& chosen, const std::vector<std::size_t>& touching,
                  const VertexMarks& marks, std::vector<HalfEdge>& open,

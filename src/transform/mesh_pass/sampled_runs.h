@@ -1,4 +1,4 @@
-// Samples runs of a large mesh's triangles from all over it, with their edges and vertices.
+// Samples runs of a large mesh's faces from all over it, with their edges and vertices.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace rholm {
 
-// A triangle as in the pass, and its elements that belong to a run. An edge or a vertex belongs to
-// the run of the first triangle of the mesh that has it, so that it is in one run only.
+// A face as in the pass, and its elements that belong to a run. An edge or a vertex belongs to the
+// run of the first face of the mesh that has it, so that it is in one run only.
 struct SampledTriangle {
   std::array<Vec3, 3> p;
   std::array<std::uint32_t, 3> vertices;
@@ -28,7 +28,7 @@ struct SampledTriangle {
   std::array<bool, 3> corners = {};  // the vertex belongs to the run, with all its lumps
 };
 
-// The triangles of a run, then triangles around it that have an edge or a vertex of the run.
+// The faces of a run, then faces around it that have an edge or a vertex of the run.
 struct SampledRun {
   double chance = 1;  // chance of being in the sample
   std::vector<SampledTriangle> triangles;
@@ -36,7 +36,7 @@ struct SampledRun {
 
 struct SampledRuns {
   std::vector<SampledRun> runs;
-  double share = 0;  // part of the mesh's triangles that are in runs
+  double share = 0;  // part of the mesh's faces that are in runs
   // Factor for errors that are alike: the inverse of the mean of sqrt(c c') over pairs of runs,
   // where c is the chance of each. Errors are as in the model, or alike for all runs, whichever
   // gives a larger factor.
@@ -48,7 +48,7 @@ struct RunCount {
   double fewest = 64, most = 80;
 };
 
-// Takes about `share` of the blocks of kTrianglesPerBlock triangles, each as a run: half of them
+// Takes about `share` of the blocks of kTrianglesPerBlock faces, each as a run: half of them
 // evenly, half by `errors`, the model's error of each. `block` has the parameters of the pass.
 SampledRuns sample_runs(const MeshView& mesh, const MeshPassOptions& options,
                         const BlockParameters& block, std::span<const float> errors, double share,

@@ -1,4 +1,4 @@
-// Lets several processes, each of which has the mesh, work the parts of a mesh pass.
+// Lets several processes, each of which has the mesh, compute the parts of a mesh pass.
 //
 // One of them runs the pass: it plans the pass, tells the others what they need (inputs), and adds
 // up their results, as bytes, in the order of the parts. The pass has two rounds: the ranges of
@@ -29,19 +29,19 @@ std::string range_task(const PartWorker<T>& worker, std::size_t part);
 template <typename T>
 std::string part_task(const PartWorker<T>& worker, bool in_common, std::size_t part);
 
-// The name of this work, and the inputs of its rounds.
+// The name of this task, and the inputs of its rounds.
 inline constexpr const char* kPassJob = "mesh pass";
 std::string ranges_job(const MeshPlan& plan, const NonuniformPlan& transform,
                        const Division& division);
 std::string parts_job(const std::vector<IndexRange>& ranges, bool in_common);
 
-// Works parts in another process, for one pass after the other over a mesh; `hooks` as for
+// Computes parts in another process, for one pass after the other over a mesh; `hooks` as for
 // mesh_pass(). Mesh and hooks must outlive this object.
 class PassHelper {
  public:
   PassHelper(const MeshView& mesh, const MeshPassOptions& hooks) : mesh_(mesh), hooks_(hooks) {}
-  // Returns the work of a round, valid as long as this object and until the next round. Throws Io
-  // for bytes that are no input.
+  // Returns the function for the parts of a round, valid as long as this object and until the next
+  // round. Throws Io for bytes that are no input.
   Executor::Work work_of(std::string_view input);
 
  private:

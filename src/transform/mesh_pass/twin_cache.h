@@ -8,8 +8,8 @@
 
 namespace rholm {
 
-// An edge of two triangles is worked once, with the sum of both half-edges. A half-edge whose twin
-// is not among the last few thousand is worked alone: the sum is the same, at the price of more
+// An edge of two faces is processed once, with the sum of both half-edges. A half-edge whose twin
+// is not among the last few thousand is processed alone: the sum is the same, at the price of more
 // work.
 template <typename HalfEdge>
 class TwinCache {
@@ -18,7 +18,7 @@ class TwinCache {
 
   // Adds the half-edge between vertices i and j, in either direction. If its twin waits and
   // join(twin, edge) takes the edge in and is true, calls work(low, high, twin), with the vertices
-  // in order. Otherwise the edge waits, and one that waited in its place is worked.
+  // in order. Otherwise the edge waits, and one that waited in its place is processed.
   template <typename Join, typename Work>
   void add(std::uint32_t i, std::uint32_t j, const HalfEdge& edge, const Join& join,
            const Work& work) {
@@ -33,7 +33,7 @@ class TwinCache {
     slot = {name, edge};
   }
 
-  // Works all half-edges that wait.
+  // Processes all half-edges that wait.
   template <typename Work>
   void flush(const Work& work) {
     for (Slot& slot : slots_) {

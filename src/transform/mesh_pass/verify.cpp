@@ -1,8 +1,8 @@
-// The model of a plan takes errors of triangles for random where nothing else is known. Needles
-// about an axis, walls aligned with the grid, and unknown cases have larger errors, and no model
-// tells. A second reading does. The mesh is turned by a rotation that fits no shape, read with less
-// error allowed, and turned back. The difference of both readings is the error of the first, to
-// within the smaller error of the second. Rules, windows, quanta and rounding are all in it.
+// The model of a plan takes errors of faces for random where nothing else is known. Needles about
+// an axis, walls aligned with the grid, and unknown cases have larger errors, and no model tells. A
+// second reading does. The mesh is turned by a rotation that fits no shape, read with less error
+// allowed, and turned back. The difference of both readings is the error of the first, to within
+// the smaller error of the second. Rules, windows, quanta and rounding are all in it.
 //
 // If this error is above the wish, or far above the model's error, the second reading replaces the
 // first, and a third reading replaces the second.
@@ -27,12 +27,12 @@ namespace {
 
 // Number of vertices that a thread turns at a time, some 50 us (chosen).
 constexpr std::size_t kVertexGrain = 4096;
-// Precision of a reading, relative to the reading before. Elements that both readings work by the
-// same rule do not show in the difference. By the model their errors are below the second reading's
-// limit. An error is missed only if the model is wrong by more than the inverse of this factor.
-// Small meshes can afford a larger step (chosen).
+// Precision of a reading, relative to the reading before. Elements that both readings integrate by
+// the same rule do not show in the difference. By the model their errors are below the second
+// reading's limit. An error is missed only if the model is wrong by more than the inverse of this
+// factor. Small meshes can afford a larger step (chosen).
 constexpr double kFiner = 0.1, kFinerOfSmall = 0.03;
-constexpr std::size_t kSmall = 10'000;  // triangles (chosen)
+constexpr std::size_t kSmall = 10'000;  // faces (chosen)
 constexpr double kLeastPrecision = 1e-14;
 // Two readings may have a part of their errors in common. So this many times the measured error
 // must be within the wish (chosen; bench/counterexamples looks for bodies on which that is too

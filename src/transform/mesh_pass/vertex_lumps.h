@@ -10,7 +10,7 @@
 
 namespace rholm {
 
-// Number of vertices that are worked together: the size of a batch.
+// Number of vertices that are processed together: the size of a batch.
 inline constexpr std::size_t kVerticesPerBlock = SourceBatch<double>::kSize;
 // Largest number of lumps of a block.
 inline constexpr std::size_t kLumpsPerBlock = lumps_per_vertex(true) * kVerticesPerBlock;

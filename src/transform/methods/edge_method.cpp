@@ -1,12 +1,12 @@
-// Computes the coefficients of the radius by edges and faces, (M6), face by face as in (M8):
+// Computes coefficients of the radius by edges and faces, face by face as in (M8). (M6) says:
 //   l(l+1) c_lm = sum_e W_e <conj Y>_e + sum_T F_T <conj Y>_T,   <> = flat mean,
 //   W_e = (a x b) . (n_left/d_left - n_right/d_right),   F_T = -2 |T| / d_T.
-// Faces seen at a grazing angle have large W and F that cancel, and so
-// have large faces near the centre. These faces are taken out of the sum.
-// Their int r conj(Y) dOmega is added without the division by l(l+1). The
-// terms of Green's formula that neighbours would have cancelled,
-//   - int_0^1 (a x b) . grad conj(Y)(x/|x|) dt  per half-edge a -> b,
-// are added to the divided sum (method 3e). So all terms stay bounded, also for d_T = 0.
+// Faces seen at a grazing angle have large W and F that cancel, and so have large faces near the
+// centre. These faces are taken out of the sum. Their int r conj(Y) dOmega is added without the
+// division by l(l+1). The divided sum gets the terms of Green's formula that neighbours would have
+// cancelled (method 3e):
+//   - int_0^1 (a x b) . grad conj(Y)(x/|x|) dt  per half-edge a -> b.
+// So all terms stay bounded, also for d_T = 0.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 // Computes the gauge q = 1/r by integrals over the arcs of the edges alone:
-//   c_lm(q) = 1/(2 - l(l+1)) sum_e s_e int_arc conj(Y_lm) ds,  l != 1      (M4)
-// and computes degree 1 in closed form (M5).
+//   c_lm(q) = 1/(2 - l(l+1)) sum_e s_e int_arc conj(Y_lm) ds,  l != 1      (M4).
+// Degree 1 has a closed form (M5).
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -301,7 +301,7 @@ HWY_INLINE double PrepareBlock(const MeshView& mesh, const Frame& frame, std::si
   return nearest > 0 ? hn::GetLane(hn::MaxOfLanes(d, extents.longest)) / nearest : kInfinity;
 }
 
-// Sums n faces except those that are left out. Writes their numbers to `left` and returns their
+// Sums n faces, but for some that are left out. Writes their numbers to `left` and returns their
 // count.
 HWY_INLINE std::size_t SumBlock(const Block& block, std::size_t n, NormSums& result,
                                 std::size_t* left) {
@@ -393,7 +393,7 @@ constexpr std::size_t kGrain = 32 * kBlock;  // chosen: about 50 us
 constexpr std::size_t kLeastGrains = 4, kMostGrains = 256, kParts = 64;
 static_assert(kBlock % FaceSizes::kGroup == 0);  // parts have whole groups
 
-// Data that another process needs to work parts.
+// Data that another process needs to compute parts.
 struct NormsJob {
   Vec3 center;
   double scale = 1;

@@ -1,7 +1,7 @@
 // Exact integrals by one pass over the faces: int r^2 dOmega, the solid angle, the volume.
 //
 // Source: method 5, (M7). For each face, <> is the mean over its flat area. d2 is twice the area
-// times d_T, which is six times the volume of the face's cone:
+// times d_T, which is six times the volume of the face's cone. Then
 //   int_T r^2 dOmega = d_T Phi_T = d2/2 <1/|x|>,        Omega_T = d2/2 <1/|x|^3>.
 // The logarithms of (M7) cancel on small faces, where cubature of the means has nothing to cancel.
 // Vectors of faces that look small from the centre take a rule of degree 5 or 8 on series of the
@@ -54,8 +54,8 @@ struct FaceSizes {
 // which have the mesh, sum ranges by norms_work().
 ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context = {},
                        FaceSizes* sizes = nullptr, Executor* executor = nullptr);
-// kNormsJob names this work. norms_work() returns the work of another process for the parts' input;
-// the mesh must outlive it. Throws Io for bytes that are no input.
+// kNormsJob names this task. norms_work() returns the function of another process for the parts'
+// input; the mesh must outlive it. Throws Io for bytes that are no input.
 inline constexpr const char* kNormsJob = "norms";
 Executor::Work norms_work(const MeshView& mesh, std::string_view input);
 

@@ -4,11 +4,11 @@
 // square of the centroid's distance. At the barycentric point b
 //   |x|^2 = sum b_i r_i - b_0 b_1 l_2 - b_1 b_2 l_0 - b_2 b_0 l_1,
 //   g = sum r_i / 3 - sum l_i / 9.
-// In units of g, x = c + y with |c| = 1, Gegenbauer's series
-//   |x|^-1 = sum (-1)^n |y|^n P_n,     |x|^-3 = sum (-1)^n |y|^n C_n^(3/2)
-// has a homogeneous polynomial of degree n in y as each term, |P_n| <= 1. Let t = theta = longest
-// edge / |c|. The mean of |y|^n is at most the mean over a needle with its mass towards one end,
-//   int_(-1/3)^(2/3) 2 (2/3 - s) |s|^n ds t^n = 0.0015 t^6, 0.00021 t^9,
+// In units of g, x = c + y with |c| = 1. Gegenbauer's series, homogeneous in y term by term, are:
+//   |x|^-1 = sum (-1)^n |y|^n P_n,     |x|^-3 = sum (-1)^n |y|^n C_n^(3/2).
+// Here |P_n| <= 1. Let t = theta = longest edge / |c|. The mean of |y|^n is at most the mean over a
+// needle with its mass towards one end, which is
+//   int_(-1/3)^(2/3) 2 (2/3 - s) |s|^n ds t^n = 0.0015 t^6, 0.00021 t^9.
 // The sum of a rule is nearly the same. So the rules of degree 5 and 8 err by at most 0.003 t^6 and
 // 0.0005 t^9: 4e-15 and 5e-15 at the reaches below.
 #pragma once

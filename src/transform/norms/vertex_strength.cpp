@@ -1,8 +1,8 @@
 // Computes the largest truncation error, which is at a vertex: method 5.
 //
-// Near a vertex v the Laplacian of f = r or 1/r has the jumps j_e of the normal derivative on the
-// edges at v: j_e = s_e for the gauge, -r^2 s_e for the radius. The projection on degree l is
-// (2l+1)/(4 pi) P_l(u . v), and Lap Y = -l(l+1) Y. So an arc that is long against 1/l adds
+// Near a vertex v the Laplacian of f = r or 1/r has jumps j_e of the normal derivative on the edges
+// at v. The gauge has j_e = s_e, the radius j_e = -r^2 s_e. The projection on degree l is (2l+1)/(4
+// pi) P_l(u . v), and Lap Y = -l(l+1) Y. So an arc that is long against 1/l adds
 //   -(2l+1)/(4 pi l(l+1)) j_e int P_l(cos s) ds,    int P_l(cos s) ds -> 1/(l + 1/2),
 // to f at v. All degrees beyond L together add
 //   (f - f_L)(v) = -sum_e j_e / (2 pi (L+1)) (1 + O(1/L)).
@@ -90,8 +90,9 @@ ErrorStrengths vertex_error_strengths(const MeshView& mesh, const Vec3& center) 
     poll();
     const Vec3 p = local(i);
     const double gauge = std::abs(sums[i].jumps), radius = gauge * dot(p, p);
-    // The gradient of f_L at a vertex is the mean of the faces' gradients over directions. a = sum
-    // / 2 pi, for which a . u = 1/r, is the normal there, and cos gamma = (a . u) / |a|.
+    // The gradient of f_L at a vertex is the mean of the faces' gradients over directions. The
+    // vector a = sum / 2 pi, for which a . u = 1/r, is the normal there, and cos gamma = (a . u) /
+    // |a|.
     const double slope = norm(sums[i].slope) / (2 * std::numbers::pi) * norm(p);
     largest.gauge = std::max(largest.gauge, gauge);
     largest.radius = std::max(largest.radius, radius);

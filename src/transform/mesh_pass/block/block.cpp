@@ -100,7 +100,7 @@ HWY_INLINE void sort_out(D d, const V3 (&p)[3], const Elements& e, size_t at, si
   for (size_t i = 0; i < kLanes; ++i) b.flag[at + i] = static_cast<uint8_t>(values[i]);
 }
 
-// Works one vector of faces. Lanes at and beyond n repeat others and are left out of the sums.
+// Processes one vector of faces. Lanes at and beyond n repeat others and are left out of the sums.
 template <bool kHessians, typename T>
 HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& parameters,
                             TriangleBlock<T>& b, LaneSums& sums, BlockSums& counts) {
@@ -303,7 +303,7 @@ HWY_INLINE void work_any(const MeshView& mesh, size_t first, size_t n,
 }
 
 // Each record but the last is read with 4 bytes beyond it. Prefetches corners, so that they are in
-// the cache when the block is worked.
+// the cache when the block is processed.
 uint32_t LargestIndex(const MeshView& mesh, size_t first, size_t n) {
   const size_t stride = mesh.triangle_stride;
   const std::byte* record = mesh.triangles + first * stride;

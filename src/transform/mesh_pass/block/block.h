@@ -1,4 +1,4 @@
-// The inner loops of the mesh pass (M8), which work one block of faces at a time.
+// The inner loops of the mesh pass (M8), which process one block of faces at a time.
 //
 // Notation of method 3e: corners p_0, p_1, p_2 relative to the centre, e_ij = p_j - p_i,
 //   n = e_01 x e_02,  d2 = n . p_0,  W_ij = n . (p_i x p_j) / d2,  F = -n . n / d2.
@@ -102,14 +102,14 @@ struct TriangleBlock {
 // Sums over blocks; lengths are scaled.
 struct BlockSums {
   double volume6 = 0;      // sum of d2: six times the enclosed volume
-  double mean = 0;         // sum of d2/2 <1/|x|^2> over triangles without kMeanNodes: int r dOmega
-  double face_error2 = 0;  // sum of (F z^4)^2 over lumped triangles
+  double mean = 0;         // sum of d2/2 <1/|x|^2> over faces without kMeanNodes: int r dOmega
+  double face_error2 = 0;  // sum of (F z^4)^2 over lumped faces
   double min_d2 = 0;       // smallest d_T |d_T|
   double min_cos2 = 0;     // smallest cos gamma |cos gamma|
   double max_edge2 = 0;    // largest (edge / radius)^2
   double probe = 0;        // not a number if a coordinate is not finite
-  std::size_t bad = 0;     // triangles with d_T <= 0 beyond rounding
-  std::size_t nodes = 0;   // number of triangles with kNodes
+  std::size_t bad = 0;     // number of faces with d_T <= 0 beyond rounding
+  std::size_t nodes = 0;   // number of faces with kNodes
   // Sums over half-edges of odd functions of the ends' coordinates. They are zero if each edge is
   // used equally often in both directions, and by chance about once in 2^60.
   std::uint32_t hash1 = 0, hash2 = 0;
@@ -118,8 +118,8 @@ struct BlockSums {
 };
 BlockSums no_triangles();
 
-// Reads n faces from `first` on and works them.
-// All indices must be valid: see largest_index().
+// Reads n faces from `first` on and processes them. All indices must be valid: see
+// largest_index().
 template <typename T>
 void work_block(const MeshView& mesh, std::size_t first, std::size_t n,
                 const BlockParameters& parameters, TriangleBlock<T>& block, BlockSums& sums);

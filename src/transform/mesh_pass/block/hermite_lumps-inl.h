@@ -1,5 +1,5 @@
-// Lumps triangles at their corners, by Hermite's rules with gradients (VG) or Hessians as well
-// (VGH, hermite_rules.h), in whole quanta. Inner loops of block.cpp, compiled for each target.
+// Lumps faces at their corners, by Hermite's rules with gradients (VG) or Hessians as well (VGH,
+// hermite_rules.h), in whole quanta. Inner loops of block.cpp, compiled for each target.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -31,9 +31,9 @@ struct Lump {
   V3 gradient;
 };
 
-// Weights and gradients of a triangle add up to zero, if need be together with its nodes. Rounded
-// values must, too: in a lattice all triangles have the same rounding, which would add up. So the
-// third corner has the negative sum of the others.
+// Weights and gradients of a face add up to zero, if need be together with its nodes. Rounded
+// values must, too: in a lattice all faces have the same rounding, which would add up. So the third
+// corner has the negative sum of the others.
 template <bool kNodes>
 HWY_INLINE void store_lumps(D d, const Lump& first, const Lump& second, V nodes, size_t at,
                             TriangleBlock<double>& b) {
@@ -86,7 +86,7 @@ HWY_INLINE void store_four(D, const Lump& l, size_t at, VertexLump<int32_t>* to)
   }
 }
 #else
-// Lumps of even and of odd triangles, four numbers each.
+// Lumps of even and of odd faces, four numbers each.
 struct PackedLump {
   hn::Vec<hn::Repartition<uint32_t, D> > even, odd;
 };

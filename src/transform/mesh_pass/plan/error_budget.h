@@ -32,7 +32,7 @@ struct PassError {
 };
 PassError error_of_pass(const MeshPlan& plan, PassFacts& facts, const Coefficients& coefficients);
 
-// Returns the sum of squares of W z^4 over all edges between lumped triangles, estimated from the
+// Returns the sum of squares of W z^4 over all edges between lumped faces, estimated from the
 // pass's sample of half-edges. Sorts the sample.
 double sampled_error2(std::vector<SampledHalfEdge>& sample, std::uint32_t sampled_names);
 

@@ -12,8 +12,8 @@
 namespace rholm {
 namespace {
 
-// Returns the sum of squares of lumping errors if triangles up to a tolerance are lumped. An edge
-// has the sum of its half-edges, or the half-edge that is lumped. Stops above `enough`.
+// Returns the sum of squares of lumping errors if faces up to a tolerance are lumped. An edge has
+// the sum of its half-edges, or the half-edge that is lumped. Stops above `enough`.
 double lumped_error2(const MeshSample& sample, double tolerance2, double enough) {
   double faces = 0, edges = 0;
   for (const MeshSample::Entry& entry : sample.entries) {
@@ -30,8 +30,8 @@ double lumped_error2(const MeshSample& sample, double tolerance2, double enough)
   return faces + sample.edge_share * edges;
 }
 
-// Returns the energy of all errors if everything is lumped, relative to the energy that triangles
-// have on their own. It is small where the half-edges of each edge nearly cancel.
+// Returns the energy of all errors if everything is lumped, relative to the energy that faces have
+// on their own. It is small where the half-edges of each edge nearly cancel.
 double cancellation(const MeshSample& sample) {
   constexpr double kAll = std::numeric_limits<double>::infinity();
   double own = 0;
@@ -41,11 +41,11 @@ double cancellation(const MeshSample& sample) {
 }
 
 // Returns the largest tolerance that a sample allows, because the sample does not contain the worst
-// triangles. At 95 %, the triangles of a kind that it lacks number at most three times what one of
-// its triangles stands for. They may take a seventh of the allowed error, and cancel as others do,
-// ten times at most. If they do not cancel, they take one and a half times the allowed error. With
-// windows and quanta this is at most 0.9 of the wish. A single triangle may always take a
-// forty-fifth of the error: the pass sees the sum, and there is a second try.
+// faces. At 95 %, the faces of a kind that it lacks number at most three times what one of its
+// faces stands for. They may take a seventh of the allowed error, and cancel as others do, ten
+// times at most. If they do not cancel, they take one and a half times the allowed error. With
+// windows and quanta this is at most 0.9 of the wish. A single face may always take a forty-fifth
+// of the error: the pass sees the sum, and there is a second try.
 double largest_tolerance(const MeshSample& sample, double allowed2) {
   constexpr double kMostCancelled = 0.1;
   return allowed2 * std::max(0.15 / (3 * sample.share), 1.0 / 2000) /
@@ -114,15 +114,15 @@ double power(double z2, int p) {
   return result;
 }
 
-// L^2 times the factors of an edge's Hessians, for the half-edges of the triangles with the smaller
-// and with the larger error.
+// L^2 times the factors of an edge's Hessians, for the half-edges of the faces with the smaller and
+// with the larger error.
 struct EdgeHessian {
   double lower2, upper2;
   double lower, upper;
 };
 
-// Errors, by each rule, of a triangle's half-edges and of its face, whose z^2 is the largest one of
-// the half-edges.
+// Errors, by each rule, of a face's half-edges and of the face itself, whose z^2 is the largest of
+// its half-edges.
 struct RuleErrors {
   std::array<std::array<double, kHermiteEdgeRules>, 3> edges;
   std::array<double, kHermiteFaceRules> face;
@@ -206,7 +206,7 @@ Seen with_hessians(const MeshSample& sample, const std::vector<RuleErrors>& rule
   return result;
 }
 
-// Returns the sum of squares over edges of lumped triangles, at both ends.
+// Returns the sum of squares over edges of lumped faces, at both ends.
 double hessians2(const Seen& seen, double tolerance2) {
   double sum = 0;
   for (const EdgeHessian& edge : seen.hessians) {
@@ -298,13 +298,13 @@ std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allow
                                           double own_nodes) {
   const MeanWeights mean = mean_weights(sample);
   if (!(mean.edge > 0) || !(mean.face > 0) || !(allowed2 > 0)) return {};
-  // Errors of an edge and a face if all were alike; a triangle has one and a half edges.
+  // Errors of an edge and a face if all were alike; a face has one and a half edges.
   const double triangles = sample.share * static_cast<double>(sample.triangles.size());
   const double edge = std::sqrt(allowed2 / (3 * triangles)) / mean.edge;
   const double face = std::sqrt(allowed2 / (2 * triangles)) / mean.face;
   const std::vector<RuleErrors> rules = rule_errors(sample);
-  // With a larger allowed error, rules have fewer nodes between vertices, but more triangles have
-  // to be taken out.
+  // With a larger allowed error, rules have fewer nodes between vertices, but more faces have to be
+  // taken out.
   const auto with_errors = [&](double factor) {
     HermiteLumps lumps{.edge_reach2 = hermite_edge_reach(factor * edge),
                        .face_reach2 = hermite_face_reach(factor * face)};

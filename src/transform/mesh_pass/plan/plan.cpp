@@ -61,8 +61,8 @@ std::uint32_t sampled_names(std::size_t n_triangles) {
   return static_cast<std::uint32_t>(std::min(1.0, part) * 4294967295.0);
 }
 
-// Returns the allowed error of each edge and face with nodes. A kind of triangle that the sample
-// lacks counts as three of its triangles, as in largest_tolerance().
+// Returns the allowed error of each edge and face with nodes. A kind of face that the sample lacks
+// counts as three of its faces, as in largest_tolerance().
 double allowed_of_element(const MeshPlan& plan, const MeshSample& sample, std::size_t n_triangles) {
   const double noded = std::max(plan.node_share * static_cast<double>(n_triangles),
                                 std::max(3 * sample.share, 10.0));
@@ -148,8 +148,8 @@ bool single_suffices(const MeshSample& sample, const AllowedErrors& allowed, int
 }
 
 Quantum choose_quantum(const AllowedErrors& allowed, std::size_t n_vertices, bool single) {
-  // Rounding to quanta adds variance q^2 / 12 at two corners of a triangle and twice that at the
-  // third. The six corners at a vertex add 2/3 q^2.
+  // Rounding to quanta adds variance q^2 / 12 at two corners of a face and twice that at the third.
+  // The six corners at a vertex add 2/3 q^2.
   const double largest = allowed.quanta * std::sqrt(6 * kPi / static_cast<double>(n_vertices));
   const double size = std::exp2(std::floor(std::log2(largest)) - (single ? 0 : 6));
   return {.size = size, .error = allowed.quanta * size / largest};

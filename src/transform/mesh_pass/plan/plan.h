@@ -1,9 +1,9 @@
-// Plans a mesh pass from a sample of its triangles: it divides the wanted error, chooses rules and
-// the size of quanta, and decides if single precision is enough.
+// Plans a mesh pass from a sample of its faces: it divides the wanted error, chooses rules and the
+// size of quanta, and decides if single precision is enough.
 //
 // Each quantity has one name. `precision` is the wish, relative to the norm of the radius without
 // its mean. `allowed` is the error that a part of the work may have, l2 over 1 <= l <= L in scaled
-// lengths. `error` is the error that was found. Squares end in 2; `tolerance2` is for a triangle.
+// lengths. `error` is the error that was found. Squares end in 2; `tolerance2` is for a face.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +18,15 @@
 
 namespace rholm {
 
-// Rounding error of c_00 in double precision. Lumps are whole quanta; a triangle's lump has some
-// eight roundings: corners, their cross product, squares of lengths, a root, a quotient.
+// Rounding error of c_00 in double precision. Lumps are whole quanta; a face's lump has some eight
+// roundings: corners, their cross product, squares of lengths, a root, a quotient.
 inline constexpr double kLumpRounding = rounding_of_sum(8);
 
 // Results of earlier tries.
 struct PlanLimits {
   double tighten = 1;  // divides the allowed errors
   bool forbid_single = false;
-  bool no_lumps = false;  // the sample misleads: nodes for every triangle
+  bool no_lumps = false;  // the sample misleads: nodes for every face
 };
 
 // The first decision divides the wanted error among its causes.
@@ -45,17 +45,17 @@ struct AllowedErrors {
 // Throws InvalidInput if no direction sees the surface.
 AllowedErrors divide_error(const MeshSample& sample, double precision, double tighten);
 
-// The second decision: the largest error of triangles lumped with values and gradients alone.
+// The second decision: the largest error of faces lumped with values and gradients alone.
 struct LumpChoice {
-  double neighbours = 1;  // see neighbours_in_step(), of lumped triangles
+  double neighbours = 1;  // see neighbours_in_step(), of lumped faces
   double allowed2 = 0;    // sum of squares of their errors, in units of lumping
-  double tolerance2 = 0;  // largest square of a triangle's error
-  double node_share = 0;  // part of the triangles beyond the tolerance
+  double tolerance2 = 0;  // largest square of a face's error
+  double node_share = 0;  // part of the faces beyond the tolerance
 };
 LumpChoice choose_lumps(const MeshSample& sample, const AllowedErrors& allowed, int degree);
 
-// The third decision: vertices get Hessians if triangles' own nodes would cost more. Returns
-// nothing if vertices get none.
+// The third decision: vertices get Hessians if faces' own nodes would cost more. Returns nothing if
+// vertices get none.
 std::optional<HermiteLumps> choose_hessians(const MeshSample& sample, const LumpChoice& lumps,
                                             double own_nodes);
 
@@ -74,13 +74,13 @@ struct MeshPlan {
   BlockParameters block;
   NodeAllowance divided, undivided;
   AllowedErrors allowed;
-  double neighbours = 1;    // see LumpChoice
-  double quanta_error = 0;  // error of rounding lumps to quanta
-  double node_share = 0;    // part of the triangles that get nodes, by the sample
-  double between = 0;   // nodes between vertices of lumped triangles, per triangle, by the sample
-  double nodes = 0;     // `between` and other triangles' own nodes, per triangle, by the sample
-  double source2 = 0;   // sum of squares of the nodes' weights, by the sample
-  double hessian2 = 0;  // sum of squares of L^2 times Hessians, by the sample
+  double neighbours = 1;     // see LumpChoice
+  double quanta_error = 0;   // error of rounding lumps to quanta
+  double node_share = 0;     // part of the faces that get nodes, by the sample
+  double between = 0;        // nodes between vertices of lumped faces, per face, by the sample
+  double nodes = 0;          // `between` and other faces' own nodes, per face, by the sample
+  double source2 = 0;        // sum of squares of the nodes' weights, by the sample
+  double hessian2 = 0;       // sum of squares of L^2 times Hessians, by the sample
   double node_modulus = 0;   // sum of the moduli of the nodes' weights
   double aligned = 0;        // part of the edges along meridians or parallels
   double round_modulus = 0;  // sum of moduli of all sources, as far as the body is nearly a ball

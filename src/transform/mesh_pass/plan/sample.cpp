@@ -13,10 +13,10 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kSampleBlocks = 24;  // 3072 triangles: some 1 ms, and planning as much again
+constexpr std::size_t kSampleBlocks = 24;  // 3072 faces: some 1 ms, and planning as much again
 constexpr double kPi = std::numbers::pi;
 
-// Moments of r over the directions of triangles, by corners and centroid, with exact solid angles.
+// Moments of r over the directions of faces, by corners and centroid, with exact solid angles.
 struct Moments {
   double solid = 0, signed_solid = 0, sum = 0, square = 0;
   void add(const std::array<Vec3, 3>& p) {
@@ -50,8 +50,8 @@ struct EdgeStatistics {
   }
 };
 
-// Adds the edges of a block, whose triangles begin at `first` of the sample. Half-edges are matched
-// by the vertices at their ends.
+// Adds the edges of a block, whose faces begin at `first` of the sample. Half-edges are matched by
+// the vertices at their ends.
 void add_edges(const TriangleBlock<double>& block, std::size_t n, std::size_t first,
                MeshSample& sample) {
   struct Half {

@@ -1,4 +1,4 @@
-// Samples some of a mesh's triangles, before a pass over all of them.
+// Samples some of a mesh's faces, before a pass over all of them.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 
 namespace rholm {
 
-// Triangles spread over the mesh, in runs of neighbours in the file's order; scaled lengths.
+// Faces spread over the mesh, in runs of neighbours in the file's order; scaled lengths.
 struct MeshSample {
   // Errors in units of lumping_error(L): see TriangleBlock.
   struct Entry {
-    double error2;        // the triangle's own error, with which the pass decides
+    double error2;        // the face's own error, with its edges: it decides in the pass
     double face_error2;   // (F z^4)^2
     double face_weight2;  // F^2
   };
-  // An edge whose two triangles are in the sample: error2 of the triangles, the lower first; W z^4
-  // of the half-edges in the same order; W of both together.
+  // An edge whose two faces are in the sample: error2 of the faces, the lower first; W z^4 of the
+  // half-edges in the same order; W of both together.
   struct Edge {
     double lower2, upper2;
     double lower, upper;
@@ -26,8 +26,8 @@ struct MeshSample {
   };
   std::vector<Entry> entries;
   std::vector<Edge> edges;
-  // Data of a triangle for rules with Hessians: W and z^2 of the half-edges, see kHermiteBend, and
-  // F. `twins` are the half-edges 3 t + i that belong to one edge.
+  // Data of a face for rules with Hessians: W and z^2 of the half-edges, see kHermiteBend, and F.
+  // `twins` are the half-edges 3 t + i that belong to one edge.
   struct Triangle {
     std::array<double, 3> weight, z2;
     double face;
@@ -41,7 +41,7 @@ struct MeshSample {
   double scale = 1;       // a power of two that brings lengths to about 1
   double mean = 0;        // mean of r over directions
   double norm = 0;        // sqrt(int (r - mean)^2 dOmega)
-  double share = 1;       // triangles of the mesh per triangle of the sample
+  double share = 1;       // faces of the mesh per face of the sample
   bool overlaps = false;  // some faces are seen from behind
   double angle = 0;       // mean angle of an edge as seen from the centre
   double aligned = 0;     // share of the edges, by weight, along meridians or parallels
