@@ -88,7 +88,7 @@ class Ranks {
   // is ignored. Any thread may call it.
   void fail(const std::exception_ptr& what);
 
-  // Mark the begin and the end of work. Progress is expected in between.
+  // Mark the beginning and the end of work. Progress is expected in between.
   void begin_work() { ++working_; }
   void end_work();
 

@@ -56,7 +56,7 @@ bool is_done(std::vector<MPI_Request>& requests, const char* what) {
   return done != 0;
 }
 
-// Calls `take` with the begin and size of each piece of `size` bytes.
+// Calls `take` with the offset and size of each piece of `size` bytes.
 template <typename Take>
 void for_each_piece(std::size_t size, std::size_t piece, const Take& take) {
   for (std::size_t at = 0; at < size; at += piece) {

@@ -1,4 +1,4 @@
-// Watches if ranks live and make progress. Layer: cluster, private. Uses no MPI and no clock.
+// Watches whether ranks live and progress. Layer: cluster, private. Uses no MPI and no clock.
 #pragma once
 
 #include <cstdint>

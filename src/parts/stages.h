@@ -29,7 +29,7 @@ class TimeLeft {
   // `stages` are all stages to come.
   explicit TimeLeft(const std::vector<StageCost>& stages);
   void add(const std::vector<StageCost>& stages);
-  // Records that this part of a stage is done, `seconds` after the begin of the run.
+  // Records that this part of a stage is done, `seconds` after the start of the run.
   void done(std::string_view stage, double part, double seconds);
   // Returns true once this run has done enough work to estimate the time left.
   bool is_known() const;
