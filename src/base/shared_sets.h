@@ -42,7 +42,7 @@ class SharedSets {
   bool is_first(std::uint32_t i) const { return parent_[i] == i; }
 
  private:
-  // The order is relaxed, because threads tell each other nothing but parents.
+  // The order is relaxed, because threads exchange nothing but parents.
   std::atomic_ref<std::uint32_t> at(std::uint32_t i) { return std::atomic_ref(parent_[i]); }
   std::uint32_t parent(std::uint32_t i) { return at(i).load(std::memory_order_relaxed); }
 

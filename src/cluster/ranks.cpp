@@ -71,7 +71,7 @@ int Ranks::run(const std::function<Ending(Ranks&)>& lead,
   try {
     speak();
   } catch (const Error& error) {
-    // The error comes from MPI: no other rank can be told any more.
+    // The error comes from MPI: no other rank can be reached any more.
     program_.error(of_rank(rank(), error.what()));
     code_ = program_.failure;
     abort();

@@ -53,7 +53,7 @@ struct RanksProgram {
   std::function<std::uint64_t()> progress;        // grows while something is computed
   std::function<bool()> keep_going;               // asked while parts are computed; empty: yes
   std::function<int()> interrupted;               // returns the signal that asked to stop, or 0
-  std::function<void(int code)> stop;             // tells that work is to end soon
+  std::function<void(int code)> stop;             // announces that work is to end soon
   std::function<void(const std::string&)> error;  // prints a message
   std::function<void(const RankTotals&)> ended;   // called on rank 0, unless a run was aborted
   std::function<void()> discard;                  // removes unfinished files before an abort
@@ -108,7 +108,7 @@ class Ranks {
   void send_pulse();
   void look_at_others(double now);
   void look_at_own_work();
-  void tell(const Ending& ending);  // tells how this rank's work ended
+  void tell(const Ending& ending);  // reports how this rank's work ended
   void decide(const Ending& ending, int rank);
   void stop(int code);
   void move_on(double now);

@@ -11,9 +11,9 @@
 namespace rholm {
 namespace {
 
-// Steps that took less time were done by an earlier run: their pieces were only looked for.
+// Steps that took less time were done by an earlier run: only their pieces were searched.
 constexpr double kDoneBefore = 0.002;  // seconds for each step
-// Seconds before the time left is told: the first stages tell little about the others.
+// Seconds before the time left is reported: first stages predict little about others.
 constexpr double kSilent = 10;
 
 }  // namespace

@@ -67,7 +67,7 @@ class Stages {
  public:
   using Body = std::function<void(std::size_t part)>;
 
-  // `costs` lists all stages; `context` is told each stage and the time left.
+  // `costs` lists all stages; `context` receives each stage and the time left.
   Stages(Executor& executor, PieceStore& store, const std::vector<StageCost>& costs,
          StageTimes& times, const Context& context);
   Stages(const Stages&) = delete;
@@ -120,7 +120,7 @@ class Stages {
   Context outer_, inner_;
   TimeLeft left_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  std::mutex mutex_;  // guards left_ and what follows: the executor and a body may both tell
+  std::mutex mutex_;  // guards left_ and what follows: the executor and a body may report
   std::string_view stage_;
   std::size_t done_ = 0, n_ = 0;  // parts of the stage
 };

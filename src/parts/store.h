@@ -182,7 +182,7 @@ class PieceStore {
   std::uint64_t most_bytes() const { return bytes_.most(); }
   // Throws Io if there is room for fewer bytes.
   virtual void check_room(std::uint64_t bytes) const = 0;
-  // Sets whether pieces stay for a run that resumes this one. At first they do not stay, and in memory
+  // Sets whether pieces stay for a run that resumes this one. At first they do not, and in memory
   // they never do.
   virtual void keep(bool kept) = 0;
   virtual bool is_kept() const = 0;

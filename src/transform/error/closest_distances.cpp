@@ -87,7 +87,8 @@ std::vector<double> RadialSurface::distances(const std::vector<Vec3>& x, std::ve
 
 namespace {
 
-// For each piece of the mesh: its area on the model, and the distances of both ways to first order.
+// For each piece of the mesh: its area on the model, and the distances to the model and back, to
+// first order.
 struct PieceModel {
   const SurfacePieces& pieces;
   std::vector<double> model_areas, to_model, to_shape;
@@ -135,7 +136,7 @@ struct PieceModel {
       back.add(sample.stand_for[k] * model_areas[i] * change(closest_back[k], to_shape[i]));
     }
   }
-  // Returns the rms over the area, the larger one of both ways.
+  // Returns the rms over the area, the larger one of mesh to model and model to mesh.
   double rms() const {
     return std::sqrt(std::max(area > 0 ? there.value() / area : 0,
                               model_area > 0 ? back.value() / model_area : 0));

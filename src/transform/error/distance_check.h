@@ -6,7 +6,7 @@
 
 namespace rholm {
 
-// Returns true if faces are so few and long that no sample decides for closest points (chosen).
+// Returns true if faces are so few and long that closest points are always needed (chosen).
 bool is_coarse(const MeshView& mesh);
 // Returns true if closest points make sense: the sizes of model and mesh are comparable, and the
 // mesh is not too large for a tree in memory.

@@ -17,7 +17,7 @@ namespace {
 
 // About this many of the points over the area stand for all where little accuracy is needed.
 constexpr std::size_t kPart = 20'000;
-// Number of points that tell if first order holds. They are asked where the error and the limit
+// Number of points that show whether first order holds. They are used where the error and the limit
 // differ by less than the factor kNear.
 constexpr std::size_t kFew = 1000;
 constexpr double kNear = 2.5;
@@ -190,7 +190,7 @@ double ErrorOfDegree::largest_of(const Expansion& expansion, int degree, double 
   return between_points(expansion, degree, limit, all, errors);
 }
 
-// Returns the largest error on the whole surface, where the points say that it may be within the
+// Returns the largest error on the whole surface, if the errors at the points are within the
 // limit.
 double ErrorOfDegree::between_points(const Expansion& expansion, int degree, double limit,
                                      const ErrorPoints& points, const std::vector<double>& errors) {

@@ -58,7 +58,7 @@ constexpr std::size_t kMostWorst = 2048;
 // this many times the precision with which they are computed (chosen).
 constexpr double kEnoughAbove = 1.01, kValueDoubt = 10;
 
-// Points that are looked at closely: `extreme` worst ones of the extreme points, then the worst
+// Points that are examined closely: `extreme` worst ones of the extreme points, then the worst
 // points over the area.
 struct Looked {
   ErrorPoints points;
@@ -151,7 +151,7 @@ LargestRadial largest_error(const Expansion& expansion, const RadialModel& model
   }
   known.append(over_area.subset(indices_of_largest(of_area.radial, kMostWorst)));
   LargestRadial found = largest_radial(expansion, model, known, values, rms, sites, context);
-  // Peaks have no slope of a face: many are at vertices, where the plane of a face tells nothing.
+  // Peaks have no slope of a face: many are at vertices, where the plane of a face is meaningless.
   ErrorPoints peaks = found.peaks.points;
   std::ranges::fill(peaks.cosines, 0.0);
   worst.points.append(peaks);

@@ -82,7 +82,7 @@ class Sieve {
 
   // Adds the point x, relative to the centre and times the scale. For `owner` see ErrorPoints.
   void add(const Vec3& x, std::int64_t owner) {
-    if (!(dot(x, x) > 0)) return;  // no direction sees it
+    if (!(dot(x, x) > 0)) return;  // the centre has no direction
     batch_.x[0][n_] = x.x;
     batch_.x[1][n_] = x.y;
     batch_.x[2][n_] = x.z;

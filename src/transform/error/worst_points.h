@@ -21,7 +21,7 @@ struct WorstOptions {
 struct WorstPoints {
   ErrorPoints points;    // all of extreme_points(), or some: the largest radial errors first
   PointErrors errors;    // with distances
-  std::size_t seen = 0;  // number of points looked at
+  std::size_t seen = 0;  // number of points examined
 };
 // Returns the points of the largest radial error and of the largest distance. Adds points of the
 // next radial errors, at which climbs and closest points can begin. All points first have values to
@@ -34,8 +34,8 @@ WorstPoints worst_points(const MeshView& mesh, const FaceScan& scan, const Expan
 
 // Points on faces that are long against 1/L, where the points of worst_points() are far apart.
 struct DensePoints {
-  ErrorPoints points;    // some, the largest first values of radial errors first
-  std::size_t seen = 0;  // number of points looked at, at most 1.5/L apart
+  ErrorPoints points;    // some, in descending order of approximate radial errors
+  std::size_t seen = 0;  // number of points examined, at most 1.5/L apart
 };
 // Returns the points from which climbs may reach the largest radial error. `rms` is about the rms
 // of the radial errors; the largest radial error is at least `largest_known`.

@@ -15,7 +15,7 @@ struct FaceGeometry {
   Vec3 twice_area;          // normal of length 2 |T|
   double d = 0;             // d_T, signed distance of its plane from the centre
   double solid_angle = 0;   // signed
-  bool degenerate = false;  // has no area: seen as nothing from everywhere
+  bool degenerate = false;  // has no area: its solid angle is 0
 };
 
 struct StarGeometry {

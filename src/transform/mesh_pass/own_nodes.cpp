@@ -14,7 +14,7 @@ namespace rholm {
 namespace {
 
 // Elements longer than half their distance are halved. In longer elements x/|x| bends so much that
-// rules for plane waves say little.
+// rules for plane waves are not reliable.
 constexpr double kLongest = 0.5;
 constexpr int kMaxDepth = 100;  // doubles resolve nothing after these halvings
 

@@ -36,13 +36,13 @@ struct PartMesh {
   };
   Places places(const IndexRange& range) const;
   // Returns the numbers, among the part's vertices, of the corners of n faces of the mesh. They are
-  // written to `room` if the mesh's own numbers do not tell them.
+  // written to `room` unless the mesh's own numbers serve.
   CornerPlaces corners(const MeshView& mesh, std::size_t first, std::size_t n,
                        BlockPlaces& room) const;
 };
 // Describes faces first ... first + n - 1 of the mesh, whose indices have that range and are valid.
-// Calls `check` for blocks of the faces before it looks at them. The mesh alone decides if names
-// are given.
+// Calls `check` for blocks of the faces before it reads them. The mesh alone decides if names are
+// given.
 PartMesh part_mesh(const MeshView& mesh, std::size_t first, std::size_t n, const IndexRange& range,
                    const std::function<void(std::size_t first, std::size_t n)>& check);
 

@@ -74,7 +74,7 @@ class PartWorker {
   LumpSums sums_of(const BorderLumps<Lump>& border) const {
     return sums_of(border.lumps.data(), border.vertices.size());
   }
-  // Throws an error that says what is wrong with the mesh.
+  // Throws an error that describes what is wrong with the mesh.
   [[noreturn]] void refuse_mesh() const;
 
  private:

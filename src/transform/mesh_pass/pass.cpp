@@ -18,7 +18,8 @@ namespace {
 // Largest number of tries to keep the precision: a second is rare, a third needs no sample.
 constexpr int kMostTries = 3;
 
-// The error from a sample, times this or with its doubt, must be within the wish (chosen).
+// The error from a sample, times this or with its uncertainty, must be within the precision
+// (chosen).
 constexpr double kSampleMargin = 2;
 
 // A mesh with a sample of it. Faces in random order are sorted: otherwise every corner misses the
@@ -59,8 +60,8 @@ PassInput pass_input(const MeshView& mesh, const MeshPassOptions& options, const
 }
 
 // Returns the factor that divides the allowed errors of the next pass, after a pass that missed the
-// wish. The plan may have allowed far more error than the pass made; the new limit must be below
-// the latter. It is half as much again, because not all errors follow the limit.
+// precision. The plan may have allowed far more error than the pass made; the new limit must be
+// below the latter. It is half as much again, because not all errors follow the limit.
 double tightened(double error, double modelled, const MeshPlan& plan, double precision,
                  double norm) {
   const double planned =
@@ -70,7 +71,7 @@ double tightened(double error, double modelled, const MeshPlan& plan, double pre
 }
 
 // Measures the error of rules on a sample of a large mesh, and window errors that add up. Returns
-// the error that must be within the wish, relative as in FastReport::error.
+// the error that must be within the precision, relative as in FastReport::error.
 double measure(const PassInput& input, const MeshPlan& plan, const Context& context, double norm,
                MeshPassResult& result) {
   FastReport& report = result.report;

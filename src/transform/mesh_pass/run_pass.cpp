@@ -26,7 +26,7 @@ constexpr std::size_t kPartsAtATime = 8;
 // Number of vertices whose lumps in common are added up at a time (chosen: some 100 us).
 constexpr std::size_t kCommonGrain = 64 * kVerticesPerBlock;
 // Number of vertices that are spread one after the other, in file order. Chosen among 4 to 64
-// blocks: rows of 1000 want the most, subdivided bodies the least, a tenth of the time of spreading
+// blocks: rows of 1000 need the most, subdivided bodies the least, a tenth of the time of spreading
 // either way.
 constexpr std::size_t kRun = 16 * kVerticesPerBlock;
 // The window is chosen before the squares of sources are known. They are assumed to be this many

@@ -1,11 +1,12 @@
 // The model of a plan takes errors of faces for random where nothing else is known. Needles about
-// an axis, walls aligned with the grid, and unknown cases have larger errors, and no model tells. A
-// second reading does. The mesh is turned by a rotation that fits no shape, read with less error
-// allowed, and turned back. The difference of both readings is the error of the first, to within
-// the smaller error of the second. Rules, windows, quanta and rounding are all in it.
+// an axis, walls aligned with the grid, and unknown cases have larger errors, which no model
+// predicts. A second reading measures them. The mesh is turned by a rotation that fits no shape,
+// read with less error allowed, and turned back. The difference of both readings is the error of
+// the first, to within the smaller error of the second. Rules, windows, quanta and rounding are all
+// in it.
 //
-// If this error is above the wish, or far above the model's error, the second reading replaces the
-// first, and a third reading replaces the second.
+// If this error is above the precision, or far above the model's error, the second reading replaces
+// the first, and a third reading replaces the second.
 #include "transform/mesh_pass/verify.h"
 
 #include <algorithm>
@@ -35,17 +36,17 @@ constexpr double kFiner = 0.1, kFinerOfSmall = 0.03;
 constexpr std::size_t kSmall = 10'000;  // faces (chosen)
 constexpr double kLeastPrecision = 1e-14;
 // Two readings may have a part of their errors in common. So this many times the measured error
-// must be within the wish (chosen; bench/counterexamples looks for bodies on which that is too
+// must be within the precision (chosen; bench/counterexamples looks for bodies on which that is too
 // little).
 constexpr double kMargin = 2;
-// A difference of two readings is believed if it is at most this many times the model's error of
-// the first. It is also believed if it is less than the difference before by this factor (chosen).
+// A difference of two readings is accepted if it is at most this many times the model's error of
+// the first. It is also accepted if it is less than the difference before by this factor (chosen).
 constexpr double kBelieved = 3;
 // Where rounding is this large a part of the norm, degrees above 0 consist of rounding alone: they
 // are zero by symmetry. Each reading differs from zero by the rounding, both differ by twice that,
-// which counts kMargin-fold; the same again is doubt (chosen: 8 for 6).
+// which counts kMargin-fold; the same again is uncertainty (chosen: 8 for 6).
 constexpr double kMostlyRounding = 0.1, kOfTwoReadings = 8;
-constexpr int kMostReadings = 4;  // chosen: the last is 10 000 times finer than the wish
+constexpr int kMostReadings = 4;  // chosen: the last is 10 000 times finer than wanted
 
 // Rounding coordinates once more turns the planes of needles, by more than this on prisms of 200
 // sides as wide as a hundredth of their length. Below, axes change places, which is exact.

@@ -1,4 +1,4 @@
-// Computes coefficients of the radius by edges and faces, face by face as in (M8). (M6) says:
+// Computes coefficients of the radius by edges and faces, face by face as in (M8). By (M6):
 //   l(l+1) c_lm = sum_e W_e <conj Y>_e + sum_T F_T <conj Y>_T,   <> = flat mean,
 //   W_e = (a x b) . (n_left/d_left - n_right/d_right),   F_T = -2 |T| / d_T.
 // Faces seen at a grazing angle have large W and F that cancel, and so have large faces near the

@@ -22,7 +22,7 @@ CoefficientErrors coefficient_errors(double norm_squared, const Coefficients& co
                                      double mean, double varying);
 
 struct ParsevalRest {
-  double value = 0;  // ||f||^2 - sum |c|^2; negative at most within the doubt
+  double value = 0;  // ||f||^2 - sum |c|^2; negative at most by `doubt`
   // Bound on the difference from the rest of exact coefficients: 2 |c| |dc| + |dc|^2, for c_00 and,
   // by Cauchy and Schwarz, for the other coefficients, and the rounding of the norms.
   double doubt = 0;
@@ -30,11 +30,11 @@ struct ParsevalRest {
 ParsevalRest parseval_rest(double norm_squared, const Coefficients& coefficients,
                            const CoefficientErrors& errors);
 
-// Returns sqrt(rest / 4 pi) if the rest is at least `least` times its doubt.
+// Returns sqrt(rest / 4 pi) if the rest is at least `least` times its error bound.
 std::optional<double> rms_of(const ParsevalRest& rest, double least);
-// A rest of at least 4 times its doubt is believed: its root is off by 13 % at most.
+// A rest is reported from 4 times its error bound on: its root is then off by 13 % at most.
 inline constexpr double kBelieved = 4;
-// Returns the largest error of sqrt(rest / 4 pi), for a rest above its doubt.
+// Returns the largest error of sqrt(rest / 4 pi), for a rest above its error bound.
 double rms_doubt(const ParsevalRest& rest);
 
 }  // namespace rholm

@@ -9,7 +9,8 @@
 namespace rholm {
 namespace {
 
-// An rms by Parseval is called exact where its doubt is a fiftieth of the rest (truncation.cpp).
+// An rms by Parseval is called exact where its error bound is at most a fiftieth of the rest
+// (truncation.cpp).
 constexpr double kExact = 50;
 
 double rms_of_energy(double energy) {
@@ -66,7 +67,8 @@ bool RmsBeyond::is_exact(int l) const {
   return value && 4 * std::numbers::pi * *value * *value >= kExact * *doubt;
 }
 
-// A rest that is not believed is below kBelieved doubts; the true rest may be one doubt larger.
+// A rest that is not reported is below kBelieved error bounds; the true rest may be one bound
+// larger.
 std::optional<double> RmsBeyond::bound() const {
   if (!doubt) return std::nullopt;
   return rms_of_energy((kBelieved + 1) * *doubt);

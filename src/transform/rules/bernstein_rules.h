@@ -35,7 +35,7 @@ double quadrature_error(int exactness, double half_length, double distance, int 
 
 // The error that an integral is allowed to have. Its error is taken as
 //   first * E(p; l = 1) + last * E(p; l = L).
-// The weights say how errors of a low degree and of the highest degree enter the result.
+// The weights describe how errors of a low degree and of the highest degree enter the result.
 struct Allowance {
   double allowed = 0;
   double first = 1;

@@ -13,7 +13,7 @@
 namespace rholm {
 
 // `pilot` has the coefficients of first_pilot(). Pilots of higher degrees follow until their error,
-// measured at points, is within the tolerance, and tell the smallest degree. Coefficients of that
+// measured at points, is within the tolerance, and give the smallest degree. Coefficients of that
 // degree in full precision follow. Their `errors` are set unless the tolerance is decided by
 // Parseval's equation.
 ToleranceAnalysis search_tolerance(const ToleranceProblem& problem, const Tolerance& tolerance,

@@ -28,7 +28,7 @@ struct ToleranceProblem {
   Vec3 center;
   double norm_squared = 0;       // squared norm of the radius
   double diagonal = 0;           // diagonal of the bounding box
-  double precision = 0;          // precision that the caller wants at least
+  double precision = 0;          // precision that the caller needs at least
   TransformTo pilot, transform;  // fast coarse coefficients; final coefficients
 };
 // Returns all but the transforms. The mesh must outlive the result.

@@ -1,5 +1,5 @@
-// Hashes of corners and half-edges, which tell in the pass if a surface is closed, and name edges.
-// Inner loops of block.cpp, compiled for each target.
+// Hashes of corners and half-edges, which show in the pass whether a surface is closed, and name
+// edges. Inner loops of block.cpp, compiled for each target.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

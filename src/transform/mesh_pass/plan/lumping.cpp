@@ -44,8 +44,8 @@ double cancellation(const MeshSample& sample) {
 // faces. At 95 %, the faces of a kind that it lacks number at most three times what one of its
 // faces stands for. They may take a seventh of the allowed error, and cancel as others do, ten
 // times at most. If they do not cancel, they take one and a half times the allowed error. With
-// windows and quanta this is at most 0.9 of the wish. A single face may always take a forty-fifth
-// of the error: the pass sees the sum, and there is a second try.
+// windows and quanta this is at most 0.9 of the wanted error. A single face may always take a
+// forty-fifth of the error: the pass knows the sum, and there is a second try.
 double largest_tolerance(const MeshSample& sample, double allowed2) {
   constexpr double kMostCancelled = 0.1;
   return allowed2 * std::max(0.15 / (3 * sample.share), 1.0 / 2000) /

@@ -1,9 +1,9 @@
 // Plans a mesh pass from a sample of its faces: it divides the wanted error, chooses rules and the
 // size of quanta, and decides if single precision is enough.
 //
-// Each quantity has one name. `precision` is the wish, relative to the norm of the radius without
-// its mean. `allowed` is the error that a part of the work may have, l2 over 1 <= l <= L in scaled
-// lengths. `error` is the error that was found. Squares end in 2; `tolerance2` is for a face.
+// Each quantity has one name. `precision` is wanted, relative to the norm of the radius without its
+// mean. `allowed` is the error that a part of the work may have, l2 over 1 <= l <= L in scaled
+// lengths. `error` is the error found. Squares end in 2; `tolerance2` is for a face.
 #pragma once
 
 #include <cstddef>
@@ -42,7 +42,7 @@ struct AllowedErrors {
   double mean = 0;      // relative error of c_00
   double rounding = 0;  // smallest possible error in double precision, in the mesh's unit
 };
-// Throws InvalidInput if no direction sees the surface.
+// Throws InvalidInput if the surface has no solid angle.
 AllowedErrors divide_error(const MeshSample& sample, double precision, double tighten);
 
 // The second decision: the largest error of faces lumped with values and gradients alone.
