@@ -40,7 +40,7 @@ class PartWorker {
   PartWorker(const PartWorker&) = delete;
   PartWorker& operator=(const PartWorker&) = delete;
 
-  // Returns the indices of part p, for set_ranges(). Throws InvalidInput for an index out of range.
+  // Returns the range of part p for set_ranges(). Throws InvalidInput for an index out of range.
   IndexRange range_of(std::size_t p) const;
   void set_ranges(std::vector<IndexRange> ranges) { ranges_ = std::move(ranges); }
   const std::vector<IndexRange>& ranges() const { return ranges_; }

@@ -23,7 +23,7 @@ struct MeshPassResult {
   double error_beside = 0, band_error_beside = 0;
   std::vector<float> block_errors;  // of kTrianglesPerBlock faces, see MeshPart
   NonuniformPlan transform;         // the windows that were used
-  double least_error = 0;           // smallest possible error by rounding, relative as error
+  double least_error = 0;           // least error by rounding, relative as FastReport::error
   StageTimes times;  // "triangles", "spread", "fourier"; "order" if faces were sorted
 };
 

@@ -166,8 +166,8 @@ class Pass {
   }
 
   // Spreads runs of vertices from pole to pole, an equal number to each grid. Files may have
-  // vertices of the whole sphere once and again, level by level; here, rows of a grid that are left
-  // are not used again.
+  // vertices of the whole sphere again and again, level by level. In the order of heights, rows of
+  // a grid that have been left are not needed again.
   void spread_common() {
     const std::vector<std::size_t> runs = runs_by_height();
     const std::size_t n = grids_.size();

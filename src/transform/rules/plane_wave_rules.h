@@ -43,7 +43,7 @@ struct Crowd {
 };
 
 // Extent of an edge or face. Along a straight piece, x/|x| bends: a harmonic along it is ((1 +
-// is)/(1 - is))^(l/2). Its derivative p at 0, b_{p+1} = l b_p + p(p-1) b_{p-1}, is about (l^2 +
+// is)/(1 - is))^(l/2). Its derivative p at 0 is b_p, b_{p+1} = l b_p + p(p-1) b_{p-1}, about (l^2 +
 // (0.6 p)^2)^(p/2). This is within 0.5 ... 1.3 for l >= 4, and up to 20 times too large for p = 14,
 // l = 1. So a rule of power p has z^2 = wave2 + (0.6 p)^2 bend2.
 struct Extent {

@@ -92,7 +92,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
 
 // Returns the window error, relative to windows' own error, of nodes in rows along meridians and
 // parallels; `node_modulus` is the sum of their moduli. Edges and faces have rows of their own,
-// whose errors do not cancel as sums do on a ball. Near-balls count all sources.
+// whose errors do not cancel as sums do on a ball. A near-ball counts all sources.
 double rows_in_step(const MeshPlan& plan, double node_modulus);
 
 // Returns the window error that keeps the plan's share; `source2` is the sum of squared weights.
