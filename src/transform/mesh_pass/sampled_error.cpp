@@ -1,5 +1,5 @@
-// A second reading of a large mesh would take as long as the first, so its error is measured on a
-// sample. Elements are edges and faces. The error of an element is the adjoint of its sources by
+// A second reading of a large mesh would take as long as the first, so a sample shows the error of
+// the pass. Elements are edges and faces. The error of an element is the adjoint of its sources by
 // the rule of the plan minus their adjoint by a much finer rule. Runs of faces are taken, run b of
 // error e_b with the chance c_b: half of them evenly, half by the model's error of each. An edge or
 // a vertex belongs to the run of the first face that has it, so that the runs of all faces add up
