@@ -8,7 +8,7 @@
 namespace rholm {
 
 // Returns memory aligned to a cache line. Blocks of 4 MiB and more are placed on huge pages where
-// the system offers them: the first touch of small pages costs far more per byte. Throws
+// the system offers them. The first touch of small pages costs far more per byte. Throws
 // std::bad_alloc. The memory is not initialised, but see poison.h.
 void* allocate_aligned(std::size_t bytes);
 void free_aligned(void* data) noexcept;

@@ -19,10 +19,11 @@ namespace {
 // hundred bytes.
 constexpr int kCallers = 64;
 
-// Returns the arena for a number of threads, which is kept for good. oneTBB (2021.8) keeps a
-// finished arena, 7 kB, in its lists while any of its threads looks for work. It walks all of them
-// for each new arena. Callers have slots of their own beside the slots of the `threads` - 1 other
-// threads. A caller without a slot would wait in oneTBB until another thread runs its loop.
+// Returns the arena for a number of threads, which is kept for good. The reason is that oneTBB
+// (2021.8) keeps a finished arena, 7 kB, in its lists while any of its threads looks for work. It
+// walks all of them for each new arena. Callers have slots of their own beside the slots of the
+// `threads` - 1 other threads. A caller without a slot would wait in oneTBB until another thread
+// runs its loop.
 tbb::task_arena& arena_of(int threads) {
   static std::mutex mutex;
   static auto& arenas = *new std::map<int, tbb::task_arena>;

@@ -197,8 +197,8 @@ const Mesh& ClosestDistances::sphere(int degree) {
   return sphere_;
 }
 
-// Points at which distances of both ways were measured: to the model at points of the mesh, and
-// back to the mesh at the opposite points of the model.
+// Points at which distances were measured. Distances to the model are from points of the mesh;
+// distances to the shape are from the opposite points of the model.
 struct ClosestDistances::Seen {
   ErrorPoints points;  // lengths scaled
   std::vector<double> to_model, to_shape;

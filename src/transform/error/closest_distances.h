@@ -63,8 +63,8 @@ class ClosestDistances {
   struct Model;
   struct Seen;
   const Mesh& sphere(int degree);
-  // Measures at some pieces; then at the extreme points that may be farther than the points before;
-  // then climbs from all of them to the largest distance.
+  // Measures at some pieces, then at extreme points that may be farther than the points before.
+  // Then climbs from all of these points to the largest distance.
   Seen see_pieces(const Model& model, const RadialPoints& opposite,
                   const std::vector<std::size_t>& indices, const Context& context) const;
   void see_extreme(const Model& model, const ErrorPoints& extreme, const Context& context,

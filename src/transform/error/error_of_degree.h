@@ -27,9 +27,9 @@ class ErrorOfDegree {
   // All arguments must outlive this object. `size` is the root mean square of the function.
   ErrorOfDegree(const Tolerance& tolerance, ErrorSites& sites, double size, const Context& context);
 
-  // Returns the error of the first `degree` degrees at all points, or at a part of them if these
-  // show that it is above or below the limit. A part is enough for root mean squares not close to
-  // the limit. It is also enough if the largest error is above the limit or well within it at
+  // Returns the error of the first `degree` degrees at all points. Takes a part of the points if
+  // they show that it is above or below the limit. A part is enough for root mean squares not close
+  // to the limit. It is also enough if the largest error is above the limit or well within it at
   // former worst points, or far above it at the first degree. Near the limit, distances are to
   // closest points: of a sample or, where that is not enough and for coarse meshes, of trees.
   double of(const Expansion& expansion, int degree, double limit);

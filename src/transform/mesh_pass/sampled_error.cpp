@@ -2,8 +2,8 @@
 // the pass. Elements are edges and faces. The error of an element is the adjoint of its sources by
 // the rule of the plan minus their adjoint by a much finer rule. Runs of faces are taken, run b of
 // error e_b with the chance c_b: half of them evenly, half by the model's error of each. An edge or
-// a vertex belongs to the run of the first face that has it, so that the runs of all faces add up
-// to the whole error e. Every other run of the sample is summed into p, the others into q, as e_b /
+// a vertex belongs to the run of the first face that has it. So the runs of all faces add up to the
+// whole error e. Every other run of the sample is summed into p, the others into q, as e_b /
 // sqrt(c_b). Then |p|^2 + |q|^2 has the mean sum |e_b|^2, which is |e|^2 if errors of runs are
 // independent. Errors that add up over the mesh, as for needles about an axis, are in p and q
 // alike. The product p . q has the mean 1/4 of the sum of e_b . e_b' sqrt(c_b c_b') over all pairs.
@@ -11,7 +11,7 @@
 // the variance sum p_i^2 q_i^2, small beside |p|^2 |q|^2 where the error has many coefficients. So
 // an error that adds up is seen although the sample is a hundredth of the mesh.
 //
-// A source, a vertex with all its lumps or a node, has a window error: its adjoint on the plan's
+// A source is a node, or a vertex with all its lumps. Its window error is its adjoint on the plan's
 // grid minus its adjoint on a much finer grid. The squares of all sources give the error of random
 // sources, better than a sample does. Errors add up where sources crowd in a few directions or are
 // aligned with the grid. This shows in the products g_i . g_j of the sums of G groups of runs.

@@ -16,7 +16,7 @@
 namespace rholm {
 
 // A face as in the pass, and its elements that belong to a run. An edge or a vertex belongs to the
-// run of the first face of the mesh that has it, so that it is in one run only.
+// run of the first face of the mesh that has it. So it is in one run only.
 struct SampledTriangle {
   std::array<Vec3, 3> p;
   std::array<std::uint32_t, 3> vertices;

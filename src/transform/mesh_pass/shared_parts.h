@@ -1,9 +1,9 @@
 // Lets several processes, each of which has the mesh, compute the parts of a mesh pass.
 //
-// One of them runs the pass: it plans the pass, tells the others what they need (inputs), and adds
-// up their results, as bytes, in the order of the parts. The pass has two rounds: the ranges of
-// vertices of all parts; then the parts, with the grids to which they are spread. The process that
-// runs the pass adds up and spreads lumps in common.
+// One of them runs the pass: it plans the pass and tells the others what they need (inputs). It
+// adds up their results, as bytes, in the order of the parts. The pass has two rounds: the ranges
+// of vertices of all parts; then the parts, with the grids to which they are spread. The process
+// that runs the pass adds up and spreads lumps in common.
 #pragma once
 
 #include <cstddef>

@@ -6,7 +6,7 @@
 // in it.
 //
 // If this error is above the precision, or far above the model's error, the second reading replaces
-// the first, and a third reading replaces the second.
+// the first. A third reading then replaces the second.
 #include "transform/mesh_pass/verify.h"
 
 #include <algorithm>

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kBlock = 1 << 16;  // chosen: 2 MiB of sources at a time
 
 // A piece whose half-length exceeds this many times its distance is halved before a rule is tried.
-// At larger ratios the ellipses of the bound are so thin that halving is cheaper: at ratio 1 a
+// At larger ratios the ellipses of the bound are so thin that halving is cheaper. At ratio 1 a
 // digit costs 2.6 degrees of exactness, at ratio 4 it costs 9.3.
 constexpr double kLongest = 1.0;
 

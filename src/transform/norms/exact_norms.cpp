@@ -49,7 +49,7 @@ struct Frame {
   double scale = 1;  // a power of two
 };
 
-// Values of a block's faces for the means, in units of g: squares of corners less 1, squares of
+// Values of a block's faces for the means. In units of g: squares of corners less 1, squares of
 // edges, and the largest square of an edge. Further 1/sqrt(g), d2 and twice the area.
 struct Block {
   alignas(64) double r[3][kBlock], l[3][kBlock];

@@ -1,5 +1,5 @@
-// Energy of a function beyond the known degrees: its squared norm less the energy of the known
-// degrees, (M7), and a bound on the error of this difference.
+// Energy of a function beyond the known degrees, and its error bound. The energy is the squared
+// norm less the energy of the known degrees, (M7).
 #pragma once
 
 #include <optional>
@@ -23,8 +23,8 @@ CoefficientErrors coefficient_errors(double norm_squared, const Coefficients& co
 
 struct ParsevalRest {
   double value = 0;  // ||f||^2 - sum |c|^2; negative at most by `doubt`
-  // Bound on the difference from the rest of exact coefficients: 2 |c| |dc| + |dc|^2, for c_00 and,
-  // by Cauchy and Schwarz, for the other coefficients, and the rounding of the norms.
+  // Bound on the difference from the rest of exact coefficients: 2 |c| |dc| + |dc|^2 for c_00 and,
+  // by Cauchy and Schwarz, for the other coefficients. It includes the rounding of the norms.
   double doubt = 0;
 };
 ParsevalRest parseval_rest(double norm_squared, const Coefficients& coefficients,

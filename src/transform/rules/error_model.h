@@ -1,7 +1,7 @@
 // Error model of quadrature rules for harmonics, which decides the choice of rules.
 //
 // Locally a harmonic of degree l is a superposition of plane waves of wave number l. A rule on an
-// edge or face of extent z = L theta has the error C z^p times its weight, in the mean over
+// edge or face of extent z = L theta has the error C z^p times its weight. This is a mean over
 // directions of waves. Over all degrees, divided by l(l+1), the errors add up to
 //   weight C (L theta)^p sqrt(1 / (4 pi (p - 1))) / L                                       (l2).
 // This uses that sum (2l+1)/(4 pi) (l/L)^2p / (l(l+1))^2 = 1 / (4 pi (p - 1) L^2).

@@ -198,7 +198,7 @@ const Factors& factors_for(const NodeAllowance& allowance) {
 }
 
 // Returns z^p of an element, whose bending counts as for derivative p. For long waves this is
-// divided by e^u, u = 0.035 z^2 / p up to 2, for the next terms of the remainder; the exponential
+// divided by e^u, u = 0.035 z^2 / p up to 2, for the next terms of the remainder. The exponential
 // is by its series. Gauss's rule with n = p/2 nodes falls by e^(-0.03 z^2 / n), within a factor of
 // 3 for z <= 30 (computed).
 double extent_power(const Extent& z, int p) {

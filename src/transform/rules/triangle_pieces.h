@@ -1,7 +1,7 @@
 // Cuts triangles into pieces for rules, which need them short against the distance from the centre.
 //
 // Halving only the longest edge takes exponentially many pieces for needles that pass near the
-// centre: the halves lie side by side, and both are as near. Instead a needle is cut across its
+// centre. The halves lie side by side, and both are as near. Instead a needle is cut across its
 // length into sections that grow with their distance. Their number is the logarithm of the length
 // over the larger of width and distance.
 #pragma once

@@ -6,8 +6,8 @@
 // half-edges) + F/3. It gets the gradient (W/12 + F/24) e for both edge vectors e that leave it.
 // With Hessians (VGH) the rules of hermite_rules.h have nodes between the vertices of long edges.
 //
-// Lumps are rounded to whole multiples of a quantum, so that their sums are exact: the same in any
-// order and for any number of threads.
+// Lumps are rounded to whole multiples of a quantum, so that their sums are exact. Sums are the
+// same in any order and for any number of threads.
 #pragma once
 
 #include <array>

@@ -25,8 +25,8 @@ constexpr double kQuantumShare = 0.2;
 // prisms, lattices and balls (bench/mesh_plan_bench).
 constexpr double kLatticeShare = 0.4;
 // Sources along a meridian or a parallel, as on extruded shapes, are all alike to the grid. The
-// parts, which cancel in the whole, set the error: 4 to 8 times the error of a cube-sphere for a
-// box, a sixth of whose edges are aligned. It grows with the share of aligned edges.
+// parts, which cancel in the whole, set the error. It is 4 to 8 times the error of a cube-sphere
+// for a box, a sixth of whose edges are aligned. The error grows with the share of aligned edges.
 constexpr double kAlignedTimes = 7, kAlignedShare = 0.2;
 double lattice_share(double aligned) {
   return kLatticeShare / (1 + kAlignedTimes * std::min(1.0, aligned / kAlignedShare));

@@ -1,4 +1,4 @@
-// Plans a mesh pass from a sample of its faces: it divides the wanted error, chooses rules and the
+// Plans a mesh pass from a sample of its faces. Divides the wanted error, chooses rules and the
 // size of quanta, and decides if single precision is enough.
 //
 // Each quantity has one name. `precision` is wanted, relative to the norm of the radius without its
