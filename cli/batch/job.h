@@ -44,7 +44,7 @@ struct BatchJob {
   std::filesystem::path folder;         // base of relative paths
   std::vector<std::size_t> rows;        // rows to process, by number: all, or those of a shard
   std::vector<std::string> file_names;  // names of the command's output files, for all rows
-  std::string extension;                // of these files; empty: the command writes none
+  std::string extension;                // extension of these files; empty: the command writes none
   std::string job;                      // fingerprint of everything except the shard
 };
 

@@ -29,7 +29,7 @@ struct Options {
   std::optional<int> subdivisions;
   std::string grid;
   std::string like;
-  std::optional<double> resolution;  // for an atlas
+  std::optional<double> resolution;  // only for an atlas
   std::optional<int> degree_limit;
   std::string simplify;  // empty: as in the model
   std::string output;

@@ -23,15 +23,15 @@ namespace rholm {
 // degree 2 only; the axes of inertia from inertia() are near them but not the same.
 struct PrincipalAxes {
   std::array<Vec3, 3> axes;      // right-handed, orthonormal
-  std::array<double, 3> values;  // of the form along each axis, descending; their sum is 0
+  std::array<double, 3> values;  // values of the form along the axes, descending; their sum is 0
   Rotation to_axes;              // turns axes[0] to x, axes[1] to y, axes[2] to z
-  // Axes about which the form can turn without changing: none, the one axis of revolution, or three
-  // where the form has no direction at all (a sphere, a cube).
+  // Axes about which the form can turn without changing. There are none, or the one axis of
+  // revolution, or three if the form has no direction at all (a sphere, a cube).
   std::vector<Vec3> free_axes = {};
 };
 // Computes the axes. Each axis points to the larger part of degree 3; where that part vanishes, the
-// sign is arbitrary. Values that differ by less than 1e-10 of the mean (c_00) count as equal: then
-// to_axes is the smallest rotation that suffices, the identity for three equal values. For a gauge,
+// sign is arbitrary. Values that differ by less than 1e-10 of the mean (c_00) count as equal. Then
+// to_axes is the smallest sufficient rotation, the identity for three equal values. For a gauge,
 // 1/r, the sign of the form is reversed.
 PrincipalAxes principal_axes(const Coefficients& coefficients,
                              RadialFunction function = RadialFunction::kRadius);
@@ -51,7 +51,7 @@ struct AlignOptions {
   int refine_degree = 64;  // degrees used by Newton's iteration
   // Another rotation is reported if its correlation (-1 ... 1) is at most this below the best one.
   double margin = 0.01;
-  bool mirror = false;  // also try the mirror image of a (x -> -x, then rotated)
+  bool mirror = false;  // true: also try the mirror image of a (x -> -x, then rotated)
   // Root mean square over the sphere of the unknown part of a and b. A function that is constant up
   // to this, or up to 1e-10 of its mean, gets three free axes and no rotation.
   double unknown_a = 0, unknown_b = 0;
@@ -97,9 +97,9 @@ void visit_fields(FieldsOf<AlignOptions>, const Visitor& field) {
 
 // A rotation of a, and how closely it brings a to b.
 struct AlignedRotation {
-  Rotation rotation;       // of the mirror image, if mirrored
+  Rotation rotation;       // rotation of the mirror image, if mirrored
   bool mirrored = false;   // true if the reflection x -> -x comes first; y and z stay
-  double correlation = 0;  // of degrees 1 ... refine_degree, normalised: 1 is equal up to a factor
+  double correlation = 0;  // of degrees 1 ... refine_degree; 1: equal up to a factor
   double distance = 0;     // root mean square of R a - b over the sphere, all degrees
 };
 

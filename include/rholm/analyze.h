@@ -31,7 +31,7 @@ struct FastReport {
   bool single = false;               // true if sources were spread in single precision
   int width = 0;                     // number of grid points of the spreading window
   double oversampling = 0;           // oversampling factor of the grid
-  std::size_t lumped_triangles = 0;  // triangles whose sources were moved to their vertices
+  std::size_t lumped_triangles = 0;  // triangles represented by sources at their vertices
   std::size_t nodes = 0;             // number of sources that are not at vertices
   std::size_t vertices = 0;          // number of sources at vertices
   // l2 error over 1 <= l <= L, relative to the norm of the function without its mean.
@@ -115,7 +115,7 @@ void visit_fields(FieldsOf<AnalyzeOptions>, const Visitor& field) {
 
 // Coefficients, and how they were computed.
 struct Analysis {
-  Expansion expansion;         // with centre and method, and with norm and tail if known
+  Expansion expansion;         // expansion with centre and method, and with norm and tail if known
   std::size_t edge_nodes = 0;  // number of quadrature nodes on edges
   std::size_t face_nodes = 0;  // number of quadrature nodes on faces
   // |sum_e s_e int_arc u ds| / sum_e |s_e| int_arc ds, (M5). It is zero for a closed, consistently
@@ -178,8 +178,8 @@ double tail_strength(const MeshView& mesh, const Vec3& center, const Context& co
 // on finer meshes. Edges between saddle vertices may have larger errors than the vertices: 2 |s_e|
 // r^2 instead of the sum.
 struct ErrorStrengths {
-  double radius = 0;  // of the radius, in the mesh's unit
-  double gauge = 0;   // of 1/r, in 1/unit
+  double radius = 0;  // strength for the radius, in the mesh's unit
+  double gauge = 0;   // strength for 1/r, in 1/unit
   // For the distance between the surfaces: `radius` times cos gamma of the mean slope. A vertex
   // seen obliquely is rounded unevenly: the value is 16 % too small for a box with cos gamma = 0.6.
   double distance = 0;

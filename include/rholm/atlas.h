@@ -92,8 +92,8 @@ EnumNames names_of(CapExtension extension);  // "zero", "sphere"
 
 // The caps of a surface. Lengths are in the unit of the points.
 struct Atlas {
-  std::vector<Cap> caps;               // in any order
-  std::vector<double> coefficients;    // of all caps, each starting at its Cap::first
+  std::vector<Cap> caps;               // caps in any order
+  std::vector<double> coefficients;    // coefficients of all caps, each starting at its Cap::first
   CapBlend blend = CapBlend::kSmooth;  // blend weights where supports overlap
   double spacing = 0;   // median point spacing, from the circle of nearest neighbours
   double noise = 0;     // standard deviation of the points' distances to the surface; 0 if clean
@@ -116,7 +116,7 @@ struct CapValue {
   // g = (|x - c| - r(u)) / sqrt(1 + |grad r|^2 / r^2): a signed distance to first order, positive
   // outside (method 7.5).
   double distance = 0;
-  Vec3 gradient;       // of g, to first order: a unit vector across the surface
+  Vec3 gradient;       // gradient of g, to first order: a unit vector across the surface
   bool valid = false;  // false at the centre, behind it, and where r(u) <= 0
 };
 // Evaluates a cap with these coefficients at the point x, also where the cap has no weight.

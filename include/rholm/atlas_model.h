@@ -14,8 +14,8 @@ namespace rholm {
 
 // Measured errors of a model. Lengths in the shape's unit.
 struct AtlasErrors {
-  double rms_from = 0, max_from = 0;  // from the shape to the model's surface
-  double rms_to = 0, max_to = 0;      // from the model's surface to the shape; 0 if it is points
+  double rms_from = 0, max_from = 0;  // distances from the shape to the model's surface
+  double rms_to = 0, max_to = 0;      // distances from that surface to the shape; 0 for points
   // Return the larger of both directions.
   double rms() const { return rms_from > rms_to ? rms_from : rms_to; }
   double max() const { return max_from > max_to ? max_from : max_to; }

@@ -124,7 +124,7 @@ void visit_fields(FieldsOf<GravityField>, const Visitor& field) {
 
 // A surface as coefficients: the content of a model file.
 struct Expansion {
-  Coefficients coefficients = {};  // in the unit of lengths; for a gauge in 1/unit
+  Coefficients coefficients = {};  // coefficients in the unit of lengths; for a gauge in 1/unit
   RadialFunction function = RadialFunction::kRadius;  // meaning of the function
   Vec3 center = {};       // centre of the expansion, in the coordinates of the shape
   std::string unit = {};  // unit of lengths, free text; empty if unknown
@@ -137,8 +137,8 @@ struct Expansion {
   std::optional<double> tail_strength = {};
   // Errors of the expansion with all its degrees; a truncated expansion has others.
   std::optional<TruncationErrors> errors = {};
-  // True if the surface is not star-shaped. The function is then the signed sum of the radii along
-  // each direction; volume and area of its graph are not the volume and area of the body.
+  // True if the surface is not star-shaped: the function is the signed sum of the radii along each
+  // direction. Volume and area of its graph differ from the body's.
   bool signed_sum = false;
   // Set for a gravity field (kOther) with known reference values; empty for all others.
   std::optional<GravityField> gravity = {};

@@ -29,7 +29,7 @@ std::optional<CoefficientsFormat> coefficients_format_of(const std::filesystem::
 // How to interpret a file that does not state its convention (bare text, .npy). A convention stated
 // in the file takes precedence unless `override_file` is set.
 struct CoefficientsReadOptions {
-  Convention convention = {};  // for files that state none
+  Convention convention = {};  // convention of files that state none
   bool override_file = false;  // true: use `convention` for all files
 };
 
@@ -46,7 +46,7 @@ void visit_fields(FieldsOf<CoefficientsReadOptions>, const Visitor& field) {
 
 // Coefficients read from a file, and the metadata found in it.
 struct CoefficientsFile {
-  Expansion expansion;                                       // in the library's own convention
+  Expansion expansion;                                       // in the library's convention
   CoefficientsFormat format = CoefficientsFormat::kShtools;  // found from the content
   Convention convention;                                     // convention of its numbers
   std::vector<std::string> assumed;  // not stated in the file: "normalization 4pi", ...
@@ -71,7 +71,7 @@ bool looks_like_coefficients(std::span<const char> bytes);
 // How coefficients are written.
 struct CoefficientsWriteOptions {
   std::optional<CoefficientsFormat> format = {};  // empty: from the extension
-  Convention convention = {};                     // of the numbers; stored in the file if possible
+  Convention convention = {};                     // convention of the numbers; stored if possible
 };
 // Lists the fields of CoefficientsWriteOptions (fields.h).
 template <typename Visitor>

@@ -57,8 +57,8 @@ struct Comparison {
   std::size_t samples = 0;  // number on each surface
   std::uint64_t seed = 0;   // seed of the samples
   double diagonal = 0;      // diagonal of A's bounding box
-  Distances a_to_b;         // from samples of A to their exact closest points on B; shape's unit
-  Distances b_to_a;         // from samples of B to their exact closest points on A
+  Distances a_to_b;         // distances from samples of A to their exact closest points on B
+  Distances b_to_a;         // distances from samples of B to their exact closest points on A
   double hausdorff = 0;     // larger of the two max: a lower bound of the Hausdorff distance
   double threshold = 0;     // distance for precision and recall; shape's unit
   double precision = 0;     // share of B's samples within the threshold of A

@@ -64,7 +64,7 @@ void visit_fields(FieldsOf<CompressOptions>, const Visitor& field) {
 // Size of a model: nonzero coefficients, and the numbers of the caps' frames.
 struct AtlasSize {
   std::size_t caps = 0, coefficients = 0, frame_numbers = 0;            // counts
-  std::size_t numbers() const { return coefficients + frame_numbers; }  // of the whole model
+  std::size_t numbers() const { return coefficients + frame_numbers; }  // size of the whole model
 };
 
 // Lists the fields of AtlasSize.
@@ -88,7 +88,7 @@ struct CompressReport {
   double gap = 0;     // between facing sheets; smaller on a twentieth of the area
   double aimed = 0;   // tolerance used; for thin shapes smaller than the wanted one
   double uncovered = 0;                   // share of samples beyond 4 tolerances of each cap
-  std::size_t components = 0, genus = 0;  // of the extracted surface
+  std::size_t components = 0, genus = 0;  // numbers of the extracted surface
   bool met = false;                       // true if the tolerance is met
   // True if the surface has as many parts and handles as the shape. Compared only for a closed
   // manifold without hidden parts; true for other shapes.
@@ -124,8 +124,8 @@ void visit_fields(FieldsOf<CompressReport>, const Visitor& field) {
 
 // A compressed shape, and its report.
 struct Compressed {
-  AtlasModel model;       // with the errors of its surface
-  CompressReport report;  // how it was computed
+  AtlasModel model;       // model with the errors of its surface
+  CompressReport report;  // statistics of the computation
 };
 
 // Computes a model of a small number of caps. It covers the shape with caps, fits them, drops
@@ -181,12 +181,12 @@ void visit_fields(FieldsOf<AtlasSynthesisOptions>, const Visitor& field) {
                          .in_program = false});
 }
 
-// Extracts the surface from a model: closed, oriented outwards, with normals nx,
-// ny, nz. A reconstruction gives the surface of reconstruct(), the same to the
-// bit if neither `step` nor `degree` is given: open or simplified if that surface
-// is, unless `simplify` is given. Throws InvalidInput for a step so large that no
-// surface is left, OutOfMemory for a step too small. Throws Unsupported, with the
-// least sufficient degree, for a degree at which caps no longer join.
+// Extracts the surface from a model: closed, oriented outwards, with normals nx, ny, nz. A
+// reconstruction gives the surface of reconstruct(), also if that is open or simplified. It
+// is the same to the bit if `step`, `degree` and `simplify` are not given. Throws
+// InvalidInput for a step so large that no surface is left, OutOfMemory for a step too small.
+// Throws Unsupported, with the least sufficient degree, for a degree at which caps no longer
+// join.
 Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options = {},
                 const Context& context = {});
 

@@ -8,9 +8,9 @@
 
 namespace rholm {
 
-// Called from time to time with the name of the running stage and the part of it that is done, 0
-// ... 1; never from two threads at once. Return false to cancel: the computation then throws
-// Error{kCancelled} and leaves its outputs untouched.
+// Called from time to time, never from two threads at once. The arguments are the name of the
+// running stage and the finished part of it, 0 ... 1. Return false to cancel: the computation then
+// throws Error{kCancelled} and leaves its outputs untouched.
 using ProgressCallback = std::function<bool(std::string_view stage, double fraction)>;
 
 // Results are the same bits for every number of threads.

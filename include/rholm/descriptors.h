@@ -8,8 +8,8 @@
 
 namespace rholm {
 
-// A number that describes the solid and does not change when the shape is moved or rotated. rholm
-// info, batches, Python and docs/reference.md take their descriptors from descriptors().
+// A number that describes the solid and does not change when the shape is moved or rotated. The
+// tables of rholm info, batches, Python and docs/reference.md come from descriptors().
 struct Descriptor {
   const char* name;        // key in JSON, column of a batch, property in Python
   int length_power;        // its unit is the unit of length to this power

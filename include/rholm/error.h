@@ -1,7 +1,7 @@
 // Errors of the library. Layer: base.
 //
-// Bad input is answered by an exception with a code from a closed list and a message that names
-// the value, the limit and what to do next. The library never prints and never exits.
+// Bad input throws an exception. It has a code from a closed list, and a message that names the
+// value, the limit and what to do next. The library never prints and never exits.
 #pragma once
 
 #include <stdexcept>

@@ -38,7 +38,7 @@ struct WindowOptions {
 
 // A parameter of a window.
 struct WindowParameter {
-  const char* name;    // of the field, the program's option, and the Python argument
+  const char* name;    // name of the field, the program's option, and the Python argument
   const char* symbol;  // symbol in formulas
   const char* help;    // one sentence without a full stop
   std::variant<int WindowOptions::*, std::optional<double> WindowOptions::*> field;  // member set

@@ -20,8 +20,8 @@ struct FileExtension {
 };
 // A file format.
 struct FileFormat {
-  std::string name = {};                       // in options and reports: "ply"
-  std::string title = {};                      // for people: "PLY"
+  std::string name = {};                       // name in options and reports: "ply"
+  std::string title = {};                      // name for people: "PLY"
   std::vector<FileExtension> extensions = {};  // new files get the first one
   bool text = false;                           // text files are supported
   bool binary = false;                         // binary files are supported

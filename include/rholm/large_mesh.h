@@ -39,9 +39,9 @@ std::vector<std::string> write_shape(const MappedMesh& mesh, const std::filesyst
 
 // Metadata and messages of convert_mesh().
 struct ConvertedMesh {
-  std::vector<Attribute> attributes = {};  // of the mesh, without values
-  std::vector<std::string> warnings = {};  // the warnings of read_shape()
-  std::vector<std::string> written = {};   // and the messages of write_shape()
+  std::vector<Attribute> attributes = {};  // attributes of the mesh, without values
+  std::vector<std::string> warnings = {};  // warnings of read_shape()
+  std::vector<std::string> written = {};   // warnings of write_shape()
 };
 // Converts the mesh of a binary PLY without reading it into memory. It writes the same bytes as
 // read_shape() with write_shape(). Vertices and faces are stored as for map_mesh(), but faces may
@@ -59,7 +59,7 @@ struct MeshSurvey {
   bool closed = false;   // every edge is used equally often in both directions, by a hash with
                          // false positives at 2^-60: closed and oriented
   double volume = 0;     // signed; meaningful if closed
-  Vec3 volume_centroid;  // of the solid; meaningful if closed and with volume
+  Vec3 volume_centroid;  // centroid of the solid; meaningful if closed and with volume
 };
 // Reads the vertices once and the faces a few times. Throws InvalidInput for coordinates that are
 // not finite, indices out of range, and faces with other than three corners; Cancelled. Same bits

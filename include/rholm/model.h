@@ -29,7 +29,7 @@ struct EncodeOptions {
   std::optional<Tolerance> tolerance = {};
   bool errors = true;         // measure and predict Expansion::errors, for star-shaped surfaces
   ChartOptions chart = {};    // the centre, and whether other than star-shaped surfaces are allowed
-  double weld_tolerance = 0;  // in the shape's unit; 0 merges bit-identical vertices
+  double weld_tolerance = 0;  // tolerance in the shape's unit; 0 merges bit-identical vertices
 };
 
 // Lists the fields of EncodeOptions (fields.h), with the lists of their parts.
@@ -84,7 +84,7 @@ struct Encoded {
   double diagonal = 0;                       // diagonal of the bounding box
   std::size_t vertices = 0;                  // number after welding, if the mesh was welded
   std::size_t faces = 0, edges = 0;          // numbers after welding
-  std::size_t merged_vertices = 0, collapsed_triangles = 0;  // by welding, as in Welded
+  std::size_t merged_vertices = 0, collapsed_triangles = 0;  // results of welding, as in Welded
   bool flipped = false;                                      // true if the mesh was inside out
   // Stages "read", "topology", "center", "transform" and its parts; "rays" for a surface that is
   // not star-shaped.
@@ -116,9 +116,9 @@ Encoded encode(const Mesh& mesh, const EncodeOptions& options = {}, const Contex
 Encoded encode(const MeshView& mesh, const EncodeOptions& options = {},
                const Context& context = {});
 // Same for a mesh in a mapped file, without a copy. Returns nothing if the file must be read.
-// Causes: a mesh not closed, not oriented outwards or not star-shaped (unless allowed with a given
-// centre), welding wanted, or not the method edge with the fast engine. Throws errors that do not
-// concern the mesh (options, memory, Cancelled).
+// Causes: a mesh not closed, not oriented outwards, or not star-shaped (unless allowed with a given
+// centre). Further causes: welding wanted, or not the method edge with the fast engine. Throws
+// errors that do not concern the mesh (options, memory, Cancelled).
 std::optional<Encoded> encode_mapped(const MappedMesh& mesh, const EncodeOptions& options = {},
                                      const Context& context = {});
 // Same for a file. A large binary PLY file is mapped, not read (mapped_mesh.h), if its mesh needs

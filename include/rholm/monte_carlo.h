@@ -131,8 +131,8 @@ void visit_fields(FieldsOf<MonteCarlo>, const Visitor& field) {
 }
 
 // Computes coefficients with the same bits for the same chart, options and seed, for every number
-// of threads. Throws InvalidInput for options out of range, a surface without solid angle, or one
-// that comes too near to the centre.
+// of threads. Throws InvalidInput for options out of range, a surface without solid angle as seen
+// from the centre, or one that comes too near to the centre.
 MonteCarlo monte_carlo(const StarChart& chart, const MonteCarloOptions& options = {},
                        const Context& context = {});
 

@@ -53,7 +53,7 @@ void visit_fields(FieldsOf<PatchAtlasOptions>, const Visitor& field) {
 // The caps, and the surface extracted from them.
 struct PatchAtlas {
   AtlasModel model;           // blended by the paper's weights; errors measured on its surface
-  Mesh surface;               // with normals nx, ny, nz
+  Mesh surface;               // surface with normals nx, ny, nz
   double rms_along_rays = 0;  // rms distance of the cells' points to their caps' series, (P42)
 };
 
@@ -75,7 +75,7 @@ EnumNames names_of(PatchView view);  // "patches", "triangles", "spheres"
 
 // A mesh that shows patches, each patch in a colour of its own.
 struct PatchPicture {
-  Mesh mesh;                // with red, green, blue; patches share no vertices
+  Mesh mesh;                // mesh with red, green, blue; patches share no vertices
   std::size_t patches = 0;  // number of patches
 };
 // Makes the picture; ignores options.degree, extension and overlap. Throws as patch_atlas().

@@ -56,8 +56,8 @@ class PointStream {
 // Metadata and messages of convert_points().
 struct ConvertedPoints {
   std::uint64_t points = 0;                // number of points
-  std::vector<Attribute> attributes = {};  // of the input, without values
-  std::vector<std::string> warnings = {};  // of read_shape(), without other elements
+  std::vector<Attribute> attributes = {};  // attributes of the input, without values
+  std::vector<std::string> warnings = {};  // warnings of read_shape() on points
   TableColumns table = {};                 // as in ShapeFile
 };
 // Converts the points of a file to PLY or XYZ (options.format, or the extension), with at most 30

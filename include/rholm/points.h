@@ -52,7 +52,7 @@ struct SampleOptions {
   // Step between rows divided by the step along rows, 1 ... kMaxPatternRatio. For rings at their
   // mean distance from the axis, for lines in angles.
   double pattern_ratio = 1;
-  Vec3 pattern_axis = {0, 0, 1};  // of any length but 0; rows of scanners run across it
+  Vec3 pattern_axis = {0, 0, 1};  // axis of any length but 0; rows of scanners run across it
   // Number of scanners around the surface, at three times the radius of its bounding ball. Each
   // gets its part of the points, where it sees the surface. 0: no scanners. Otherwise points get
   // the attribute `scan`, 0 ... scans - 1. Allowed for random points and lines.
@@ -267,7 +267,7 @@ struct OrientReport {
   std::size_t points = 0;      // number of given points
   std::size_t duplicates = 0;  // points at the place of an earlier one; they share its normal
   int neighbors = 0;           // number of neighbours in a fit
-  std::size_t components = 0;  // of the neighbour graph; 0 with a centre or a sensor
+  std::size_t components = 0;  // parts of the neighbour graph; 0 with a centre or a sensor
   std::size_t computed = 0;    // normals with a new direction
   std::size_t flipped = 0;     // normals whose sign changed
   // Isolated points, far from all others: they get the normal of the nearest point that is not

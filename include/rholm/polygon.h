@@ -15,8 +15,8 @@ namespace rholm {
 //
 // A quadrilateral is cut along the shorter of its inner diagonals, a convex polygon as a fan from
 // its first corner. Other polygons are cut by ear clipping in the plane of the mean (Newell)
-// normal. A polygon that crosses itself, has no area, or is not convex with more than
-// kMaxClippedCorners corners is cut as a fan, even if that is wrong.
+// normal. Clipping is impossible for a polygon that crosses itself, has no area, or is not convex
+// with more than kMaxClippedCorners corners. It is cut as a fan, right or not.
 void triangulate_polygon(const std::vector<Vec3>& vertices, std::span<const std::uint32_t> corners,
                          std::vector<Triangle>& triangles);
 

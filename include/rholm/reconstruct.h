@@ -235,7 +235,7 @@ struct ReconstructReport {
   double inward_normals = 0;
   double spacing = 0;  // median distance of neighbours, as on a square grid
   double noise = 0;    // standard deviation along the normal; 0 if within the shape's own variation
-  double normal_noise_degrees = 0;     // of normals against the surface
+  double normal_noise_degrees = 0;     // angle of normals against the surface
   std::size_t neighbours = 0;          // number of points of a typical cap
   std::size_t caps = 0;                // number of caps of the atlas
   double step = 0;                     // edge of the grid's cubes
@@ -244,7 +244,7 @@ struct ReconstructReport {
   std::size_t cut_handles = 0;         // bridges and tunnels too small for the points
   std::size_t dropped_components = 0;  // number of parts of the surface that were too small
   std::size_t faces = 0;               // number, before simplification
-  double simplify_error = 0;           // by simplify(), as Simplification::error
+  double simplify_error = 0;           // Simplification::error of simplify()
   // Area of the surface, area of its parts that close holes, and area represented by the points, by
   // the circles of their neighbours. The first minus the second is about the third, unless the
   // points contradict each other: misaligned scans, double walls.
@@ -255,12 +255,12 @@ struct ReconstructReport {
   double unseen_area = 0, thin_area = 0, unsure_area = 0;
   std::size_t memory = 0;    // estimate for points, grid and surface, bytes
   StageTimes times;          // "points", "caps", "surface", "attributes"; tiles: "survey", ...
-  Bounds bounds = {};        // of finite points; several tiles: without far isolated points
+  Bounds bounds = {};        // box of finite points; several tiles: without far isolated points
   std::uint64_t tiles = 1;   // number of tiles
   std::uint64_t stored = 0;  // largest amount of bytes stored between steps of tiles
-  std::uint64_t vertices = 0, triangles = 0;  // of the surface
+  std::uint64_t vertices = 0, triangles = 0;  // numbers, of the surface
   std::uint64_t coefficients = 0;             // number, in all caps
-  std::vector<std::string> warnings = {};     // of the file that the points were read from
+  std::vector<std::string> warnings = {};     // warnings of the reader of the points' file
 };
 
 // Lists the fields of ReconstructReport (fields.h).

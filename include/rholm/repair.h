@@ -42,22 +42,22 @@ void visit_fields(FieldsOf<RepairOptions>, const Visitor& field) {
 // Counts of repairs and of remaining defects.
 struct RepairReport {
   Inspection before;                     // state of the mesh after exact welding
-  std::size_t merged_vertices = 0;       // by welding
-  std::size_t collapsed_triangles = 0;   // by welding: two corners were merged
-  std::size_t isolated_vertices = 0;     // dropped: not used by a face
-  std::size_t duplicate_triangles = 0;   // dropped: same three vertices as an earlier face
-  std::size_t degenerate_triangles = 0;  // thinner than rounding; dropped or swapped
+  std::size_t merged_vertices = 0;       // vertices merged by welding
+  std::size_t collapsed_triangles = 0;   // faces dropped by welding: two corners were merged
+  std::size_t isolated_vertices = 0;     // vertices dropped: not used by a face
+  std::size_t duplicate_triangles = 0;   // faces dropped: same three vertices as an earlier face
+  std::size_t degenerate_triangles = 0;  // faces thinner than rounding; dropped or swapped
   std::size_t junctions = 0;             // joined T-junctions: vertices on edges of other faces
-  std::size_t flipped_triangles = 0;     // turned to orient their part consistently and outwards
+  std::size_t flipped_triangles = 0;     // faces turned: their part is now consistent and outward
   std::size_t inside_out_parts = 0;      // closed parts turned as a whole, in flipped_triangles too
   std::size_t cavities = 0;              // closed parts inside another part: oriented inwards
   std::size_t split_vertices = 0;        // new vertices where sheets met in one vertex
-  std::size_t closed_holes = 0;          // closed by new faces
+  std::size_t closed_holes = 0;          // holes closed by new faces
   std::size_t hole_triangles = 0;        // new faces in closed holes
-  std::size_t large_holes = 0;           // not closed: more edges than allowed
+  std::size_t large_holes = 0;           // holes not closed: more edges than allowed
   std::size_t largest_hole = 0;          // number of edges of the largest of these
   std::size_t sheets = 0;                // holes not closed: borders of open sheets, see repair()
-  std::size_t one_sided_parts = 0;       // without orientation (Moebius strips); not changed
+  std::size_t one_sided_parts = 0;       // parts without orientation (Moebius strips); not changed
   std::optional<double> closes_at{};     // closing_tolerance() for the remaining borders
   Inspection after;                      // state of the result, exactly welded
 };

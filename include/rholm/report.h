@@ -27,7 +27,7 @@ struct ReportOptions {
   std::vector<ReportCommand> commands = {};  // shown unchanged, in this order
   std::vector<std::string> notes = {};       // facts on the input, a sentence each
   std::optional<double> tolerance = {};  // wanted rms error of the function: a line in the plots
-  double weld_tolerance = 0;             // for welding the shape, in its unit
+  double weld_tolerance = 0;             // tolerance for welding the shape, in its unit
   int picture_size = 480;                // side of each picture in pixels, 16 ... 4096
   std::optional<std::uint64_t> file_bytes = {};  // size of an atlas's file
   // JavaScript that shows view_data() in the page: the file viewer/viewer.js of the studio. It lets
@@ -82,10 +82,10 @@ void visit_fields(FieldsOf<ReportOptions>, const Visitor& field) {
          .in_python = false});
 }
 
-// Returns a page of HTML (UTF-8) that needs no other file and no script except the viewer. It has
-// pictures of the shape, of the model at several degrees and of their difference, the spectrum, a
-// table of degrees and errors, figures, conventions, and commands. It suits screens of any width
-// and paper.
+// Returns a page of HTML (UTF-8) that needs no other file and no script except the viewer. Its
+// pictures show the shape, the model at several degrees, and their difference. It has the spectrum,
+// a table of degrees and errors, further numbers, conventions, and commands. It suits screens of
+// any width and paper.
 //
 // `shape` is the mesh of the model, or nullptr: then its picture is missing,
 // and errors are those stored in the expansion. The page is below 3 MB with

@@ -15,9 +15,9 @@ namespace rholm {
 struct SimplifyOptions {
   std::size_t triangles = 0;  // largest number of faces in the result; 0: any
   double share = 0;           // largest share of the given faces in the result, 0 ... 1
-  // Largest error, in the mesh's unit. A vertex is not removed if its place in the result would be
-  // farther than this from the planes of the faces it represents (root mean square, weighted by
-  // area).
+  // Largest error, in the mesh's unit. It is the distance of a vertex's place in the result from
+  // the planes of its original faces (root mean square, weighted by area). A vertex with a larger
+  // error is not removed.
   double max_error = std::numeric_limits<double>::infinity();
 };
 

@@ -35,7 +35,7 @@ struct PatchOptions {
   double wavelength = 0;
   // Width of the region's transition; by default the wavelength. kAround needs no transition.
   std::optional<double> transition = {};
-  PatchFitting fitting = PatchFitting::kRobust;  // how the caps are fitted
+  PatchFitting fitting = PatchFitting::kRobust;  // fitting of the caps
   // True: moves only outliers of a robust fit, and fades within a quarter of a wavelength around
   // them. Scratches are removed, the texture around them stays.
   bool repair = false;

@@ -27,7 +27,7 @@ enum class CenterKind {
 
 // Choice of the centre, and number of test directions.
 struct CenterOptions {
-  CenterKind kind = CenterKind::kAuto;  // how the centre is chosen
+  CenterKind kind = CenterKind::kAuto;  // choice of the centre
   Vec3 point = {};                      // centre for kGiven
   int rays = 100000;                    // number of directions tested by check_star(); 0: none
 };
@@ -64,7 +64,7 @@ void visit_fields(FieldsOf<CenterOptions>, const Visitor& field) {
 
 // Visibility of a mesh from a centre.
 struct StarReport {
-  Vec3 center;  // in the coordinates of the mesh
+  Vec3 center;  // centre in the coordinates of the mesh
   // Smallest d_T = n_T . (v - c) over all faces: the distance to the nearest plane of a face,
   // negative if a face points away from the centre. For kKernel it is the radius of the inscribed
   // ball of the kernel. In the shape's unit.
@@ -122,7 +122,7 @@ struct StarChart {
 
 // The centre, and whether surfaces that are not star-shaped are accepted.
 struct ChartOptions {
-  CenterOptions center = {};  // how the centre is chosen
+  CenterOptions center = {};  // choice of the centre
   bool allow_signed = false;  // accept a surface that is not star-shaped: the signed sum
 };
 

@@ -30,9 +30,9 @@ Mesh directions_of(const Mesh& mesh, const Vec3& center);
 // Measures of the solid bounded by the surface of an expansion, in its unit. All are empty for a
 // signed sum (Expansion::signed_sum), whose graph bounds another solid than the body.
 struct SurfaceMeasures {
-  std::optional<double> volume;  // in the cubed unit
-  std::optional<double> area;    // of the surface, in the squared unit
-  std::optional<Vec3> centroid;  // of the solid, in the coordinates of the shape
+  std::optional<double> volume;  // volume in the cubed unit
+  std::optional<double> area;    // area of the surface, in the squared unit
+  std::optional<Vec3> centroid;  // centroid of the solid, in the coordinates of the shape
 
   // Returns the area of the ball of equal volume divided by the area, at most 1 (Wadell 1935). 0
   // for a solid without volume, empty if volume or area is empty.

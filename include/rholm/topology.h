@@ -15,7 +15,7 @@ namespace rholm {
 
 // A mesh in which coinciding vertices are merged.
 struct Welded {
-  Mesh mesh;                            // with the remaining vertices
+  Mesh mesh;                            // mesh with the remaining vertices
   std::size_t merged_vertices = 0;      // removed vertices
   std::size_t collapsed_triangles = 0;  // faces dropped because two corners were merged
 };
@@ -80,7 +80,7 @@ struct Inspection {
   double area = 0;          // sum over all faces
   double volume = 0;        // signed; meaningful if closed and oriented
   Vec3 vertex_centroid;     // mean of the used vertices
-  Vec3 volume_centroid;     // of the solid; meaningful if closed and the volume is not zero
+  Vec3 volume_centroid;     // centroid of the solid; meaningful if closed with volume
 };
 // Lists the fields of Inspection.
 template <typename Visitor>

@@ -127,13 +127,13 @@ void visit_fields(FieldsOf<TransferUpdate>, const Visitor& field) {
 
 // Findings of the analysis. Lengths are in the units of the two meshes.
 struct TransferReport {
-  double source_radius = 0, target_radius = 0;  // of discs with the bases' areas
+  double source_radius = 0, target_radius = 0;  // radii of discs with the bases' areas
   double scale = 1;                             // length on the target per length on the source
-  double source_wavelength = 0, target_wavelength = 0;  // of the bases
+  double source_wavelength = 0, target_wavelength = 0;  // wavelengths of the bases
   double source_edge = 0, target_edge = 0;  // median lengths, of the target after refinement
   double source_rms = 0;                    // rms height of the texture in its region
   double angle = 0;                         // angle of best correlation, radians
-  double correlation = 0;                   // with the target's own detail at that angle, -1 ... 1
+  double correlation = 0;                   // correlation with the target's detail there, -1 ... 1
   std::size_t new_vertices = 0;             // number, by refinement
 };
 
@@ -172,9 +172,9 @@ struct TransferState;
 
 // A texture extracted from its source, for any number of targets.
 struct TransferSource {
-  int from_degree = 0;                               // as in the options
-  double radius = 0;                                 // of a disc with the area of the region
-  double wavelength = 0, edge = 0, rms = 0;          // as source_... in TransferReport
+  int from_degree = 0;                               // degree in the options
+  double radius = 0;                                 // radius of a disc with the area of the region
+  double wavelength = 0, edge = 0, rms = 0;          // source_... of TransferReport
   std::shared_ptr<const TransferSourceState> state;  // the texture; shared by copies
 };
 

@@ -25,7 +25,7 @@ struct TruncationOptions {
   // difference of two large numbers is meaningful. By default the precision of the expansion, or
   // 1e-8 if that is unknown.
   std::optional<double> precision = {};
-  bool predict = true;  // also predict the largest errors in closed form; about 300 ns per face
+  bool predict = true;  // also predict largest errors in closed form; about 300 ns per face
 };
 
 // Lists the fields of TruncationOptions (fields.h).
@@ -59,7 +59,7 @@ enum class ErrorNorm {
 // How the error at a place is measured.
 enum class ErrorMeasure {
   kRadius,   // radial, rms over solid angle: exact, by Parseval
-  kDistance  // to the closest point, rms over area, the larger of both directions
+  kDistance  // distance to the closest point, rms over area, the larger of both directions
 };
 EnumNames names_of(ErrorNorm norm);        // "rms", "max"
 EnumNames names_of(ErrorMeasure measure);  // "radius", "distance"
@@ -76,8 +76,8 @@ EnumNames names_of(ToleranceUnit unit);  // "absolute", "diagonal", "radius"
 struct Tolerance {
   double error = 0;                               // above 0
   ToleranceUnit unit = ToleranceUnit::kAbsolute;  // unit of `error`
-  ErrorNorm norm = ErrorNorm::kRms;               // how errors are combined
-  ErrorMeasure measure = ErrorMeasure::kRadius;   // how each is measured
+  ErrorNorm norm = ErrorNorm::kRms;               // combination of the errors
+  ErrorMeasure measure = ErrorMeasure::kRadius;   // measure of each error
   int max_degree = 1024;                          // largest degree tried, 0 ... kMaxDegree
 };
 
