@@ -1,4 +1,4 @@
-// Bytes in and out.
+// Input and output of files.
 #include <rholm/coefficients_io.h>
 #include <rholm/compare.h>
 #include <rholm/file.h>
@@ -58,7 +58,8 @@ void point_stream() {
 }
 
 void coefficients_io() {
-  const std::string_view sphere = "0 0 2 0\n1 0 0 0\n1 1 0 0\n";  // 4-pi: C_00 is the radius
+  // 4-pi normalised: C_00 is the radius
+  const std::string_view sphere = "0 0 2 0\n1 0 0 0\n1 1 0 0\n";
   const rholm::CoefficientsFile file = rholm::parse_coefficients(sphere, "sphere.sh");
   expect_near(file.expansion.coefficients.c(0, 0), 2 * std::sqrt(4 * std::numbers::pi), 1e-12,
               "C_00 of a sphere of radius 2");
