@@ -25,7 +25,7 @@ std::vector<Triangle> canonical(std::vector<Triangle> triangles) {
   return triangles;
 }
 
-// Van Oosterom and Strackee.
+// Returns the sum of solid angles (Van Oosterom and Strackee).
 double solid_angle(const std::vector<Vec3>& u, const std::vector<Triangle>& triangles) {
   double sum = 0;
   for (const auto& [a, b, c] : triangles) {
@@ -35,7 +35,7 @@ double solid_angle(const std::vector<Vec3>& u, const std::vector<Triangle>& tria
   return sum;
 }
 
-// The octant x, y, z > 0: random directions, its corners, and points of its sides.
+// The octant x, y, z > 0: random directions, its corners, and points on its sides.
 std::vector<Vec3> octant(std::size_t n) {
   std::vector<Vec3> points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (int k = 1; k < 8; ++k) {
