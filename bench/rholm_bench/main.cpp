@@ -1,4 +1,4 @@
-// rholm_bench: how fast is rholm on this machine? The instruction set is the best one, or the one
+// rholm_bench measures the speed of rholm on this machine, with the best instruction set or the one
 // that RHOLM_TEST_TARGET names.
 #include <algorithm>
 #include <cstdio>
@@ -40,7 +40,7 @@ struct Options {
   bool json = false;
 };
 
-constexpr const char* kFaces = "82000,1300000";  // chosen: in the cache, and beyond it; seconds
+constexpr const char* kFaces = "82000,1300000";  // chosen: in cache, and beyond it; seconds
 constexpr double kMostFaces = 2e8;               // what can be numbered in a cube of squares
 
 // A list of numbers within bounds, both inclusive.
