@@ -198,7 +198,7 @@ void direct() {
   }
 }
 
-// Cost of a face in addition to that of a mesh whose faces are all lumped.
+// Additional cost of a face, compared with a mesh whose faces are all lumped.
 struct Faces {
   double beyond = 0, nodes = 0;  // nanoseconds; number
   bool all_lumped = false, none_lumped = false;

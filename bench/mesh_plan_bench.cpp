@@ -1,8 +1,8 @@
 // Window errors of vertices and nodes whose spacing matches the grid, relative to the same rules
-// with windows a thousand times as precise. Units: the share of the precision that the plan allows
-// windows (below 1 if the constants of src/transform/mesh_pass/plan/plan.cpp are right); the
-// window's error of the norm (kLatticeShare, kAlignedTimes); the moduli of nodes in rows
-// (kRowsInStep); and, in single precision, the moduli of all sources (kSingleInStep).
+// with windows a thousand times as precise. The first unit is the share of the precision that the
+// plan allows windows: below 1 if the constants of src/transform/mesh_pass/plan/plan.cpp are right.
+// Others are the window's error of the norm (kLatticeShare, kAlignedTimes), the moduli of nodes in
+// rows (kRowsInStep) and, in single precision, the moduli of all sources (kSingleInStep).
 //
 // With the operand `turned`: time and error if the mesh is turned by a generic rotation and the
 // coefficients are turned back, on aligned bodies.

@@ -1,5 +1,5 @@
-// Throughput of the readers of shapes compared with a plain copy of the same file, one thread, from
-// the page cache. bytes_per_second is the size of the file over the time.
+// Throughput of the readers of shapes, compared with a plain copy of the same file, on one thread
+// from the page cache. The counter bytes_per_second is the size of the file over the time.
 //
 // The copy is a lower bound for the time of a reader: read() into new memory, then memcpy to other
 // new memory (a reader, too, must fill its own arrays).

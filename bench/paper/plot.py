@@ -41,8 +41,8 @@ def until_floor(points, floor):
 
 
 def ratio(above, below):
-    """Returns the error of the first point over that of the second at the same number of samples. Edges
-    have slightly more samples, because faces that contain a pole are cut there."""
+    """Returns the ratio of both points' errors at the same number of samples. Edges have slightly more
+    samples, because faces that contain a pole are cut there."""
     return above["error"] / below["error"] * math.sqrt(above["samples"] / below["samples"])
 
 

@@ -25,8 +25,8 @@ struct Data {
 };
 
 // Returns the first mesh, by name, whose file's name contains `key` (lower case), or the stand-in.
-// A file with less than half of `faces` triangles gets its triangles split into four until it has
-// as many as the paper's mesh; the surface stays the same. 0 faces: no split.
+// If it has less than half of `faces` triangles, they are split into four, repeatedly, until it has
+// at least half. The surface stays the same. With 0 faces nothing is split.
 Subject subject(const std::string& name, const std::string& key, const Data& data,
                 std::size_t faces, const Mesh& stand_in, const std::string& made,
                 const Context& context);

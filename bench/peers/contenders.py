@@ -336,8 +336,7 @@ def rays(data: Arrays) -> Job:
     from scipy.spatial import cKDTree
 
     corners = data["vertices"][data["triangles"]]
-    # converts a direction to its coordinates in the corners
-    inverse = np.linalg.inv(corners.transpose(0, 2, 1))
+    inverse = np.linalg.inv(corners.transpose(0, 2, 1))  # direction to coordinates in the corners
     places = corners / np.linalg.norm(corners, axis=2, keepdims=True)
     places = places.sum(axis=1) / np.linalg.norm(places.sum(axis=1), axis=1, keepdims=True)
 

@@ -60,8 +60,7 @@ LONGEST = 300  # seconds a process may take; chosen: four times the slowest run 
 
 
 def environment() -> Path:
-    """Returns the interpreter of an environment with the packages of requirements.txt; makes it if
-    necessary."""
+    """Returns the interpreter of an environment with requirements.txt, which is made if necessary."""
     pinned = (HERE / "requirements.txt").read_text()
     key = hashlib.sha256(f"{pinned}{sys.version_info[:2]}".encode()).hexdigest()[:12]
     cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "rholm-bench-python" / key

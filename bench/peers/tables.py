@@ -165,8 +165,8 @@ def oracle(prepare: Prepare) -> dict[str, float]:
 
 
 def surface_columns(result: Result, truth: rholm.Mesh, samples: int = 100_000) -> dict[str, float]:
-    """Returns distances between a surface and the true one, relative to the diagonal, and its topology and
-    volume."""
+    """Returns distances between a surface and the true one, relative to the diagonal, and the volume's
+    error."""
     mesh = rholm.Mesh(result["vertices"], result["triangles"])
     c = rholm.compare(truth, mesh, samples=samples)
     return {
@@ -178,7 +178,7 @@ def surface_columns(result: Result, truth: rholm.Mesh, samples: int = 100_000) -
 
 
 def voxels(data: Path | None, prepare: Prepare) -> Iterator[Group]:
-    """Compares ways from a solid to coefficients and back to a surface: by voxels, and by the mesh."""
+    """Compares ways from a solid to coefficients and back to a surface: by voxels, by the mesh."""
     name, mesh = read(data, "asteroid-bennu.ply", lambda: rholm.bumpy_sphere(5))
     arrays = arrays_of(mesh)
     given = {"mesh": arrays}
@@ -248,8 +248,7 @@ def sources(mesh: Result, points: int) -> Result:
 
 
 def sums(data: Path | None, prepare: Prepare) -> Iterator[Group]:
-    """Compares coefficients by sums over given sources: a general library, and a transform with its own
-    sources."""
+    """Compares coefficients by sums over given sources with a transform that places its own sources."""
     del prepare
     shapes: list[tuple[str, int, int, dict[str, Any], tuple[str, ...]]] = [
         ("asteroid-bennu.ply", 180, 6, {}, ("1", "2")),
@@ -364,8 +363,7 @@ def normals(data: Path | None, prepare: Prepare) -> Iterator[Group]:
         yield Group(title, {"": {"points": arrays["points"]}}, entries, judge)
 
 
-# relative to the diagonal
-WAVELENGTHS = (0.005, 0.007, 0.01, 0.015, 0.025, 0.04, 0.06, 0.1, 0.15, 0.25, 0.4)
+WAVELENGTHS = (0.005, 0.007, 0.01, 0.015, 0.025, 0.04, 0.06, 0.1, 0.15, 0.25, 0.4)  # over the diagonal
 
 
 def smoothing(data: Path | None, prepare: Prepare) -> Iterator[Group]:

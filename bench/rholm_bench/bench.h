@@ -41,10 +41,10 @@ void check(const BenchOptions& options);
 // Times of runs from the bytes of a file to coefficients, with a given centre.
 struct BenchRuns {
   int threads = 0;
-  // Times of stages. "coefficients": everything except the norms; "norms"; the known parts of
-  // "coefficients": "read" (mapping or reading the file), "topology", "center" (only of meshes that
-  // cannot be used in place), "order" (of triangles in random order), "triangles", "spread",
-  // "fourier", "verify"; "write": writing a model file.
+  // Times of stages. "coefficients" is everything except the norms, which are "norms". Its known
+  // parts are "read" (mapping or reading the file), "topology", "center" (of meshes that cannot be
+  // used in place), "order" (of triangles in random order), "triangles", "spread", "fourier" and
+  // "verify". "write" is the time of writing a model file.
   Timings stages;
   // Wall time at the first number of threads over wall time at this one: median over pairs of runs.
   double speedup = 1;
@@ -85,7 +85,7 @@ struct FloorsBench {
   Timing file_read;  // the file's bytes, page cache to a small buffer
   Timing copy;       // as many bytes from one array to another
   // Updates of the cells under the window of each vertex with constant taps: spreading without its
-  // window. The number of grid points and the precision are those of `fast`.
+  // window. `fast` has the number of grid points and the precision.
   Timing row_updates;
   Timing legendre;             // the Legendre sums of the transform, on as many rings
   std::size_t grid_bytes = 0;  // bytes of one grid
@@ -112,8 +112,8 @@ struct Reference {
 Reference bench_reference(const std::filesystem::path& path, const Vec3& center,
                           const BenchOptions& options, const Context& context = {});
 
-// Returns the error of such a fast reference: its distance from direct sums with their own
-// quadrature, on a mesh of 5120 triangles at degree 64.
+// Returns the error of a fast reference: its distance from direct sums with their own quadrature,
+// on a mesh of 5120 triangles at degree 64.
 CoefficientsError bench_reference_error(const Context& context = {});
 
 // Returns the vector instructions of inner loops: "AVX3" (which is AVX-512), "AVX2", ...

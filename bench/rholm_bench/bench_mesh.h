@@ -8,8 +8,8 @@
 
 namespace rholm::cli {
 
-// Returns a smooth body, star-shaped about the origin, with 12 n^2 triangles, about as many as
-// wanted. The faces of a cube are listed row by row, like shape models that are made from pictures.
+// Returns a smooth body, star-shaped about the origin, with 12 n^2 triangles, near the given
+// number. The faces of a cube are listed row by row, like shape models that are made from pictures.
 // Coordinates have single precision.
 Mesh smooth_mesh(int triangles);
 

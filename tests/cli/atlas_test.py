@@ -60,7 +60,7 @@ class Atlas(CliTest):
         self.assertEqual(surface["genus"], 1)
         found = self.rholm("compare", "t.ply", "s.ply", "--json").json()
         for way in ("a_to_b", "b_to_a"):
-            # Samples differ from those of the report: measured errors differ by 1 % at 100000 samples.
+            # Samples are other than in the report: measured errors differ by 1 % at 100000 samples.
             self.assertLess(found["relative"][way]["rms"], 5.1e-3)
 
     def test_wrong_sides_are_turned_or_said(self):

@@ -21,8 +21,8 @@ def made(folder):
         subprocess.run(["localedef", "-i", name, "-f", "UTF-8", str(folder / f"{name}.UTF-8")],
                        check=True, capture_output=True)
     os.environ["LOCPATH"] = str(folder)
-    # A library loaded by HDF5 (p11-kit) keeps a locale until the end. The same tests search for leaks in the
-    # C locale.
+    # A library loaded by HDF5 (p11-kit) keeps a locale until the end. In the C locale these tests do search
+    # for leaks.
     if "ASAN_OPTIONS" in os.environ:
         os.environ["ASAN_OPTIONS"] += ":detect_leaks=0"
     # Checks that the locale is in effect.

@@ -164,8 +164,7 @@ class NoShape(Meaning):
                    .replace("gravity_constant", "a").replace("reference_radius", "b"))
         self.write("bare.sh", BARE)
         given = ("--gravity-constant", "4.9e12", "--reference-radius", "1738000")
-        # the first file says that it is no surface, the others say nothing
-        for source in ("1.json", "plain.json", "bare.sh"):
+        for source in ("1.json", "plain.json", "bare.sh"):  # one says that it is no surface, two say nothing
             self.rholm("convert", source, "p.gfc", *given)
             self.assertEqual(header("p.gfc")["product_type"], "gravity_field")
             self.assertEqual(float(header("p.gfc")["earth_gravity_constant"]), 4.9e12)

@@ -1,5 +1,6 @@
-"""Every command of the program for a mesh, and for the results of commands. trial.do(name, words, out=...,
-codes=...) runs a command, checks it, and returns true if it succeeded."""
+"""Every command of the program for a mesh, and for the results of commands.
+
+trial.do(name, words, out=..., codes=...) runs a command, checks it, and returns true if it succeeded."""
 
 import json
 

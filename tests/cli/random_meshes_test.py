@@ -1,9 +1,10 @@
-"""Random closed meshes through every command, within 60 s and 4 GiB each: a documented exit code, a clear
-message with each refusal, outputs that can be read and contain finite numbers only.
+"""Random closed meshes through every command, within 60 s and 4 GiB each. Exit codes must be documented,
+refusals must have a clear message, and outputs must be readable and contain finite numbers only.
 
 Without options a few meshes and cheap commands are tested. Options test all:
   random_meshes_test.py --count 500 [--first N] [--seed S] [--jobs J] [--table FILE] [--keep DIR]
     [--steps everything|all_but_caps|caps|patches|cheap]
+
 The output lists how often each command ended with which exit code, and the ten slowest commands."""
 
 import argparse

@@ -276,7 +276,7 @@ class Render(CliTest):
 
 
 class Size(CliTest):
-    """The same shape in any unit: the same figures times powers of the unit, or a clear refusal."""
+    """A shape in any unit has the same figures, times powers of the unit, or a clear refusal."""
 
     def octahedron(self, size):
         self.write("shape.off", off(*scaled(OCTAHEDRON, size)))

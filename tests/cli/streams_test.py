@@ -73,7 +73,7 @@ class Closed(Streams):
                 self.assertEqual(self.outputs("out"), made, str(result))
                 self.check_decent(result) if closed != 2 else None
                 if closed == 1 and plain.bytes:
-                    # The exit code is that of an output that cannot be written; an earlier error takes
+                    # As for any output that cannot be written, the exit code is 1; an earlier error takes
                     # precedence.
                     self.assertEqual(result.code, plain.code or 1, str(result))
                     self.assertIn("standard output", result.err)

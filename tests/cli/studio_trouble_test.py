@@ -277,8 +277,7 @@ class Bodies(CliTest):
         piece = b"100000\r\n" + bytes(MIB) + b"\r\n"
         self.assertIn(self.pieces(studio, "api/file?name=a.ply", piece, 400), (411, None))
         self.assertIn(self.pieces(studio, "api/step", piece, 400), (413, None))
-        # the length is unbounded
-        self.assertIn(self.pieces(studio, "api/step", b"0" * MIB, 400), (400, None))
+        self.assertIn(self.pieces(studio, "api/step", b"0" * MIB, 400), (400, None))  # an unbounded length
         has_taken_less(self, studio, before + 300 * MIB)
         self.assertEqual(studio.ask("GET", "api/state")[0], 200)
 

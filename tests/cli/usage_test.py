@@ -245,8 +245,7 @@ class Talk(CliTest):
                            ("smooth no.ply --region ball:0,0,0,1 --wavelength 1 --fit=mean -o o.ply", "--fitting")):
             said = self.rholm(*line.split(), code=1).err
             self.assertIn(f" is {name} now; the next version refuses the old name", said)
-            # the message is about the missing file, not the option
-            self.assertIn("no.", said.splitlines()[-1])
+            self.assertIn("no.", said.splitlines()[-1])  # the file is missing
 
     def test_quiet_says_nothing(self):
         self.rholm("make", "sphere", "--subdivisions", "2", "-o", "s.ply")

@@ -1,4 +1,4 @@
-// Checks of public headers, and the functions by which they report.
+// Checks of public headers, and functions that report their failures.
 #pragma once
 
 #include <string>

@@ -58,8 +58,7 @@ void point_stream() {
 }
 
 void coefficients_io() {
-  // 4-pi normalised: C_00 is the radius
-  const std::string_view sphere = "0 0 2 0\n1 0 0 0\n1 1 0 0\n";
+  const std::string_view sphere = "0 0 2 0\n1 0 0 0\n1 1 0 0\n";  // 4-pi: C_00 is the radius
   const rholm::CoefficientsFile file = rholm::parse_coefficients(sphere, "sphere.sh");
   expect_near(file.expansion.coefficients.c(0, 0), 2 * std::sqrt(4 * std::numbers::pi), 1e-12,
               "C_00 of a sphere of radius 2");

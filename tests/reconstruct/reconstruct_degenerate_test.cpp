@@ -146,8 +146,7 @@ TEST(ReconstructDegenerate, the_same_places_again) {
   EXPECT_EQ(made.report.dropped_points, 99 * 300U);
   const Mesh once = reconstruct(sphere).mesh;
   ASSERT_EQ(made.mesh.vertices.size(), once.vertices.size());
-  // means of a hundred normals are rounded
-  for (std::size_t i = 0; i < once.vertices.size(); ++i) {
+  for (std::size_t i = 0; i < once.vertices.size(); ++i) {  // mean of hundred normals, rounded
     EXPECT_LT(norm(made.mesh.vertices[i] - once.vertices[i]), 1e-6);
   }
   PointCloud opposite = sphere;

@@ -463,8 +463,8 @@ TEST(Reconstruct, place_and_size_do_not_matter) {
 }
 
 TEST(Reconstruct, direction_does_not_matter) {
-  // Other points become seeds, so that the error is that of about five hundred other caps. Its
-  // square scatters by twice 1 / sqrt(500). The same caps would be exact to rounding, as above.
+  // Other points become seeds: the error belongs to about five hundred other caps, and its square
+  // scatters by twice 1 / sqrt(500). With the same caps it would be exact to rounding, as above.
   const double expected = error_after({}, 5000);
   for (const double angle : {0.7, 2.0}) {
     EXPECT_NEAR(error_after(test::rotation({1, 2, 3}, angle), 5000) / expected, 1, 0.1);

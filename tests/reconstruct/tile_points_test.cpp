@@ -108,7 +108,7 @@ TEST(tile_points, are_merged_as_the_whole_cloud_is) {
   EXPECT_EQ(tiles.counts.opposite_normals, report.opposite_normals);
   EXPECT_GT(report.duplicates, 1000u);
   EXPECT_GT(report.opposite_normals, 100u);
-  // Attributes of a place are those of its first point in the file.
+  // Each place has the attributes of its first point in the file.
   std::map<testing::Row, double> index_at;
   const auto place = [&](const Vec3& p) {
     const Vec3 cell = lattice.cell_of(p);

@@ -279,8 +279,7 @@ TEST(CapEval, its_surface_is_that_of_the_coefficients) {
     const Samples expected = sample(frame, truth.f, directions(30));
     CapPoints points;
     for (const Vec3& p : expected.points) {
-      // farther out on the ray
-      points.add(p + 0.1 * (p - frame.center) - frame.seed(), frame.z, 1);
+      points.add(p + 0.1 * (p - frame.center) - frame.seed(), frame.z, 1);  // farther on the ray
     }
     points.pad();
     const std::size_t stride = points.padded();

@@ -117,8 +117,7 @@ TEST(CapCover, both_sides_of_a_plate_have_caps_of_their_own) {
   EXPECT_LE(made.rejected.size(), 8U);  // at the border of both planes
   for (const Cap& cap : made.caps) {
     EXPECT_GT(cap.frame.seed().z * cap.frame.z.z, 0.009);
-    // points of the other plate side would give errors of the thickness
-    EXPECT_LT(cap.error, 1e-4);
+    EXPECT_LT(cap.error, 1e-4);  // the thickness, for points of the other side
   }
 }
 
@@ -160,8 +159,7 @@ TEST(CapCover, caps_of_both_sides_of_a_plate_have_all_the_points_they_are_to_hav
   // The sheets are much nearer than the points: half of the nearest points lie on the other sheet.
   const Ordered points = ordered(box_points(0.001, 8000));
   const Cover made = cover(points.view(), {}, {});
-  // for 24 points of one sheet
-  const double wanted = std::sqrt(24 * 4.0 / 8000 / std::numbers::pi);
+  const double wanted = std::sqrt(24 * 4.0 / 8000 / std::numbers::pi);  // 24 points of one sheet
   double sum = 0;
   std::size_t n = 0;
   for (const Cap& cap : made.caps) {

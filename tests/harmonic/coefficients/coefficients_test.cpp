@@ -75,10 +75,10 @@ TEST(coefficients, resized_cuts_off_or_fills_with_zeros) {
   }
 }
 
-// The constant function 1 has the coefficient sqrt(4 pi) in the orthonormal basis, whose Y_00 is
-// 1/sqrt(4 pi), and 1 where Y_00 = 1. z = cos theta = sqrt(4 pi / 3) Y_10: 1/sqrt(3) where Y_10 =
-// sqrt(3) z (mean square 1), and 1 where Y_10 = z (mean square 1/3). The same holds for x and C_11,
-// y and S_11, with the opposite sign where the phase is part of the basis.
+// The constant function 1 has the coefficient sqrt(4 pi) in the orthonormal basis, where Y_00 is
+// 1/sqrt(4 pi). It has the coefficient 1 where Y_00 = 1. The function z is cos theta, or sqrt(4 pi
+// / 3) Y_10. Its coefficient is 1/sqrt(3) where Y_10 = sqrt(3) z (mean square 1), and 1 where Y_10
+// = z (mean square 1/3). For x and C_11, y and S_11 the sign changes if the basis has the phase.
 TEST(conventions, constant_and_coordinates_have_their_textbook_coefficients) {
   Coefficients f(1);
   f.c(0, 0) = std::sqrt(4 * kPi);

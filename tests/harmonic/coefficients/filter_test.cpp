@@ -54,8 +54,7 @@ Coefficients step(int degree) {
   }
   add_adjoint({.directions = directions, .weights = weights}, f, {.engine = Engine::kDirect});
   for (int l = 0; l <= degree; ++l) {
-    // one meridian contributes to m = 0 only
-    for (int m = 1; m <= l; ++m) f.c(l, m) = f.s(l, m) = 0;
+    for (int m = 1; m <= l; ++m) f.c(l, m) = f.s(l, m) = 0;  // constant in phi
   }
   return f;
 }

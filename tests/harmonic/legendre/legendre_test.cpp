@@ -59,8 +59,8 @@ TEST(legendre_row, addition_theorem_holds_to_degree_2000_at_every_colatitude) {
   }
 }
 
-// The same recurrence in long double has 11 more bits of mantissa and exponents to 1e-4932, so that
-// the colatitudes below need no scaling.
+// Long double has 11 more bits of mantissa and exponents to 1e-4932, so that the same recurrence
+// needs no scaling for the colatitudes below.
 TEST(legendre_row, agrees_with_a_recurrence_in_extended_precision_at_degree_2000) {
   constexpr int L = 2000;
   const std::vector<double> mu = legendre_mu(L);

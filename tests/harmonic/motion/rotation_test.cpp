@@ -201,8 +201,7 @@ TEST(rotation, quarter_turns_are_orthogonal_for_all_orders) {
 // d^1(pi/2) and d^2(pi/2) as in Varshalovich, Moskalev, Khersonskii, tables 4.3 and 4.4.
 TEST(rotation, quarter_turns_of_degrees_one_and_two_are_those_of_tables) {
   const double h = 0.5, r = std::sqrt(0.5), q = 0.25, s = std::sqrt(6.0) / 4;
-  // orders m1 = 1, 0, -1; m2 in the same order
-  const double one[3][3] = {{h, -r, h}, {r, 0, -r}, {h, r, h}};
+  const double one[3][3] = {{h, -r, h}, {r, 0, -r}, {h, r, h}};  // m1 and m2 are 1, 0, -1
   const double two[5][5] = {
       {q, -h, s, -h, q}, {h, -h, 0, h, -h}, {s, 0, -h, 0, s}, {h, h, 0, -h, -h}, {q, h, s, h, q}};
   QuarterTurn turn;

@@ -309,8 +309,8 @@ TEST(nonuniform, high_degrees_agree_with_legendre_rows) { check_high_degrees(204
 
 TEST(nonuniform, high_degrees_agree_with_legendre_rows_nightly) { check_high_degrees(4096); }
 
-// f = x^T B x / |x|^2, with B = z z^T, (x y^T + y x^T) / 2 and (x z^T + z x^T) / 2 in turn, has few
-// coefficients; its Hessian at |x| = 1 is
+// f = x^T B x / |x|^2 has few coefficients, with B = z z^T, (x y^T + y x^T) / 2 and (x z^T + z x^T)
+// / 2 in turn. Its Hessian at |x| = 1 is
 //   2 B - 4 (B x x^T + x x^T B) - 2 q 1 + 8 q x x^T,  q = x^T B x.
 TEST(direct_sums, hessians_of_quadratic_forms_have_their_closed_form) {
   const auto directions = hard_directions(40);

@@ -133,7 +133,7 @@ TEST(ring_sums, agree_with_legendre_row_at_degree_4096) {
   }
 }
 
-// The same recurrence in long double: exponents reach 2^-16382, far below any value that matters.
+// In long double the same recurrence has exponents to 2^-16382, far below any value that matters.
 TEST(ring_sums, agree_with_extended_precision_at_degree_16384) {
   constexpr int L = 16384;
   for (const double theta : {0.9, 1.2, 1.5}) {

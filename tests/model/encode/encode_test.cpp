@@ -222,7 +222,7 @@ TEST(encode, surfaces_that_fold_are_the_same_as_by_a_chart) {
   EXPECT_EQ(fast.edges, slow.edges);
 }
 
-// Of two centres the better one is used; neither sees the whole surface.
+// The better of two centres is used; neither sees the whole surface.
 TEST(encode, surfaces_without_a_kernel_are_the_same_as_by_a_chart) {
   EncodeOptions folded{.analyze = {.degree = 12, .precision = 1e-8}};
   folded.chart.allow_signed = true;

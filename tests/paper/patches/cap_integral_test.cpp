@@ -138,8 +138,8 @@ TEST(CapIntegral, on_the_dilated_sphere_it_is_the_indicator_of_the_opened_cap) {
 }
 
 // Degree 512 on triangles that are long compared with its waves. A plane at height 1 over the
-// square with sides |x| < 1, |y| < 1 has r = 1/cos; there is no closed form of its coefficients.
-// The same square in 2 and in 800 triangles is the same function.
+// square with sides |x| < 1, |y| < 1 has r = 1/cos; there is no closed form of its coefficients. A
+// square in 2 triangles and the same square in 800 are the same function.
 TEST(CapIntegral, the_triangulation_of_a_flat_patch_does_not_matter) {
   const auto square = [](int n) {
     Mesh mesh;
@@ -221,8 +221,7 @@ TEST(CapErrors, are_those_of_the_paper) {
   frame.dilation = 3;
   Coefficients constant(4);
   constant.c(0, 0) = std::sqrt(4 * kPi) * 2;
-  // at the distances 3, 2 and 4
-  const std::vector<Vec3> points = {{1, 2, 6}, {1, 4, 3}, {-3, 2, 3}};
+  const std::vector<Vec3> points = {{1, 2, 6}, {1, 4, 3}, {-3, 2, 3}};  // distances 3, 2 and 4
   const CapErrors errors = cap_errors(frame, constant, points);
   EXPECT_NEAR(errors.along_rays[0], 1, 1e-14);
   EXPECT_NEAR(errors.sum, std::sqrt(5), 1e-14);

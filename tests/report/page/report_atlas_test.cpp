@@ -73,8 +73,7 @@ TEST(report_atlas, is_one_page_that_needs_nothing_else) {
   options.commands = {{"This page", "rholm report a.h5 -o a.html"}};
   const std::string html = report_html(model, &shape, options);
   expect_decent(html);
-  // degrees 1 and 2, the shape, two pictures of caps, two maps
-  EXPECT_EQ(count(html, "<img "), 7U);
+  EXPECT_EQ(count(html, "<img "), 7U);  // degrees 1 and 2, the shape, two caps, two maps
   EXPECT_EQ(count(html, "<table"), 2U);
   EXPECT_EQ(count(html, "4.26&nbsp;kB"), 1U);
   EXPECT_EQ(count(html, "rholm report a.h5 -o a.html"), 1U);

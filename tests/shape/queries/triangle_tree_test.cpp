@@ -182,8 +182,7 @@ TEST(closest_point, of_portions_is_that_of_the_whole) {
     mesh.triangles.push_back({first, first + 1, first + 2});
     for (const std::uint32_t corner : t) mesh.vertices.push_back(more.vertices[corner]);
   }
-  // each triangle a second time
-  for (const Triangle& t : cube().triangles) mesh.triangles.push_back(t);
+  for (const Triangle& t : cube().triangles) mesh.triangles.push_back(t);  // repeated
   const UnitFrame frame = unit_frame(bounds(mesh.vertices));
   const TriangleTree whole(mesh);
   const std::size_t n = mesh.triangles.size();

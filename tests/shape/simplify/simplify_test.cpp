@@ -89,7 +89,8 @@ TEST(simplify, a_square_becomes_two_triangles_within_its_border) {
 }
 
 TEST(simplify, topology_stays_down_to_the_smallest_meshes_there_are) {
-  // A closed surface has at least the triangles of a tetrahedron, a torus those of Csaszar's.
+  // A closed surface has at least 4 triangles, as a tetrahedron; a torus 14, as Csaszar's
+  // polyhedron.
   const Mesh sphere = simplify(icosphere(3), {.triangles = 1}).mesh;
   EXPECT_EQ(expect_closed_manifold(sphere, 2).triangles, 4U);
   const Mesh ring = simplify(torus(1, 0.3, 48, 24), {.triangles = 1}).mesh;

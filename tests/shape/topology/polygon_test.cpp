@@ -42,7 +42,7 @@ void expect_tiles(const std::vector<Vec3>& p) {
   EXPECT_NEAR(sum, norm(polygon), 1e-12 * norm(polygon));
 }
 
-// The same polygon is tested in six planes: coordinate planes from both sides, tilted.
+// Tests a polygon in six planes: the coordinate planes from both sides, tilted.
 void expect_tiles_in_every_plane(const std::vector<Vec3>& flat) {
   for (int plane = 0; plane < 6; ++plane) {
     std::vector<Vec3> p;

@@ -282,7 +282,7 @@ TEST(inspect, degenerate_triangles_are_those_flat_within_rounding) {
   EXPECT_EQ(count({0, 0, 0}, {1, 1e-12, 0}, {2, 0, 0}), 0u);
   EXPECT_EQ(count({0, 0, 0}, {1e-14, 0, 0}, {0, 1, 0}), 0u);
   EXPECT_EQ(count({0, 0, 0}, {1e-200, 0, 0}, {0, 1, 0}), 1u);
-  // The same thickness at a distance of 1e5 is rounding: an ulp there is 1.5e-11.
+  // At a distance of 1e5 this thickness is rounding: an ulp there is 1.5e-11.
   EXPECT_EQ(count({1e5, 1e5, 0}, {1e5 + 1, 1e5 + 1e-12, 0}, {1e5 + 2, 1e5, 0}), 1u);
   const Mesh repeated{
       .vertices = {{0, 0, 0}, {1, 0, 0}}, .triangles = {{0, 0, 1}}, .attributes = {}};

@@ -35,7 +35,7 @@ TEST(seen_space, is_empty_before_the_points_and_not_behind_or_beside) {
   // Lines end 0.2 before the plane; the transition takes three cubes.
   EXPECT_EQ(seen.emptiness({0.3, 0.3, 0.08}), 0);
   EXPECT_EQ(seen.emptiness({0.3, 0.3, 0.32}), 1);
-  // Far outside, the value is that of the border.
+  // Far outside, the emptiness is as at the border.
   EXPECT_EQ(seen.emptiness({0, 0, 50}), 1);
   EXPECT_EQ(seen.emptiness({0, 0, -50}), 0);
 }

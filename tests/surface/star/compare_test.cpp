@@ -126,10 +126,10 @@ TEST(compare, concentric_spheres_differ_by_their_radii) {
   EXPECT_LE(result.normal_mean_degrees, 3 * facet);
 }
 
-// A cube of edge 2 moved by s along x. Of its faces, x = 1 + s is at distance s; x = -1 + s is at
-// min(s, distance from the square's border), whose level sets are squares. The strips beyond x = 1
-// of the other four are at x - 1; all other points touch. The bound is 6 standard deviations of
-// distances within 0 ... s, each at most s / 2.
+// A cube of edge 2 moved by s along x. Its face x = 1 + s is at distance s. Its face x = -1 + s is
+// at min(s, distance from the square's border), whose level sets are squares. The strips beyond x =
+// 1 of the other four faces are at x - 1; all other points touch. The bound is 6 standard
+// deviations of distances within 0 ... s, each at most s / 2.
 TEST(compare, shifted_cubes_have_the_distances_of_the_closed_form) {
   const double s = 0.2;
   const Mesh a = box({2, 2, 2}), b = moved(a, 1, {s, 0, 0});
@@ -193,8 +193,9 @@ TEST(compare, a_flipped_mesh_has_opposite_normals_and_no_distance) {
 }
 
 // A cube whose top has a tent of height h on four squares of edge 1. The apex is h from the cube. A
-// sample within a distance d of the apex is at least h (1 - d) from the cube. 200 000 samples on an
-// area near 24 lie closer than 0.05 together (a disc of that radius is 65 shares of area).
+// sample within a distance d of the apex is at least h (1 - d) from the cube. There are 200 000
+// samples on an area near 24. They lie closer than 0.05 together (a disc of that radius is 65
+// shares of area).
 TEST(compare, finds_a_bump_from_the_side_that_has_it) {
   const double h = 0.5;
   const Mesh plain = box({2, 2, 2}, 2);

@@ -113,8 +113,7 @@ TEST(truncation_errors, distances_of_steep_polyhedra_are_those_of_closest_points
   }
 }
 
-// There are so many faces that a sample suffices: bumps of half the radius, truncated at two
-// degrees.
+// The mesh has enough faces for a sample: bumps of half the radius, truncated at two degrees.
 TEST(truncation_errors, distances_of_bumpy_meshes_are_those_of_closest_points) {
   const Mesh mesh = bumpy_sphere(4, 0.5, 3);
   const StarChart chart =

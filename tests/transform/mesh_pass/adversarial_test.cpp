@@ -1,5 +1,5 @@
-// The mesh pass on difficult meshes: the true error is within the requested precision, and the
-// reported error is at least half of it, for all degrees and for the degrees above 3L/4. The
+// The mesh pass on difficult meshes. The true error is within the requested precision, and the
+// reported error is at least half of it, over all degrees and over the degrees above 3L/4. The
 // reference is direct sums with their own quadrature.
 #include <gtest/gtest.h>
 

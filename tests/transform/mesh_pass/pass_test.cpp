@@ -27,8 +27,8 @@ namespace {
 using test::relative_error;
 using test::rough_sphere;
 
-// Adds flat triangles: each of the first n triangles loses its edge a -> b to a triangle a, b, m,
-// where m is in the middle of the edge except for rounding.
+// Adds flat triangles. Each of the first n triangles loses its edge a -> b to a triangle a, b, m.
+// The vertex m is in the middle of the edge, except for rounding.
 Mesh with_flat_triangles(Mesh mesh, std::size_t n) {
   for (std::size_t t = 0; t < n; ++t) {
     const auto [a, b, c] = mesh.triangles[t];

@@ -162,8 +162,7 @@ TEST(shared_parts, bytes_that_are_no_input_are_refused) {
   Other other(icosphere(2));
   EXPECT_THROW(other.helper.work_of(""), Error);
   EXPECT_THROW(other.helper.work_of("nonsense"), Error);
-  // the job of its ranges must come first
-  EXPECT_THROW(other.helper.work_of(parts_job({}, false)), Error);
+  EXPECT_THROW(other.helper.work_of(parts_job({}, false)), Error);  // ranges must come first
   const NonuniformPlan transform = plan_nonuniform({.degree = 4});
   const std::string input =
       ranges_job({}, transform, divide_triangles(other.mesh.triangles.size(), 2));

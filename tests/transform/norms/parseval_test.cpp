@@ -91,7 +91,7 @@ TEST(rms_beyond, is_by_parseval_where_the_rest_is_four_times_its_doubt) {
   EXPECT_NEAR(some.bound().value(), std::sqrt(5 * 0.3 * kBeyond / kSphere), 1e-14);
 }
 
-// Without measured errors the uncertainty is that of the default precision: 2 |c| |dc|.
+// Without measured errors the uncertainty follows from the default precision: 2 |c| |dc|.
 TEST(rms_beyond, has_the_doubt_of_the_default_precision_or_of_an_exact_error) {
   Expansion e = known_expansion();
   const double varying = std::sqrt(16 + kBeyond);

@@ -1,5 +1,5 @@
 // The kernels of the mesh pass with 1 ... 33 triangles or vertices, with every instruction set, on
-// memory full of NaN. Results are compared with those of single elements.
+// memory full of NaN. The reference processes single elements one after the other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
