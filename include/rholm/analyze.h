@@ -37,9 +37,9 @@ struct FastReport {
   // l2 error over 1 <= l <= L, relative to the norm of the function without its mean.
   double error = 0;
   double band_error = 0;  // error of the degrees above 3L/4, relative to the norm of these degrees
-  // Share of the triangles on which both errors were measured. 1: a second, finer pass over the
-  // rotated mesh, as for small meshes. Below 1: rule errors come from a sample of a larger mesh
-  // (sizes in docs/performance.md). 0: both errors are estimates of the error model.
+  // Share of the triangles that both errors come from. 1: a second, finer pass over the rotated
+  // mesh, as for small meshes. Below 1: rule errors come from a sample of a larger mesh (method
+  // 3h). 0: both errors are estimates of the error model.
   double measured_share = 0;
   double error_doubt = 0;  // the true error may exceed the measured error by this much
   int passes = 0;          // number of passes over the triangles
