@@ -17,8 +17,8 @@
 #include "harmonic/nonuniform/cost_model.h"
 #include "harmonic/rings/ring_sums.h"
 #include "mesh_sources.h"
-#include "rholm/analyze.h"
 #include "rholm/primitives.h"
+#include "rholm/transform.h"
 #include "transform/error/error_points.h"
 #include "transform/mesh_pass/pass.h"
 

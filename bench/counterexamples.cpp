@@ -14,8 +14,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "rholm/analyze.h"
 #include "rholm/topology.h"
+#include "rholm/transform.h"
 #include "support/random_bodies.h"
 #include "transform/mesh_pass/plan/error_budget.h"
 #include "transform/mesh_pass/verify.h"
@@ -42,12 +42,12 @@ Tried try_body(const test::BodyGenes& genes) {
   const StarChart chart{.mesh = moved, .edges = pair_edges(moved), .report = {}};
   // Returns the relative error by direct sums.
   const auto error_by = [&](Method method) {
-    const Coefficients exact = analyze(chart,
-                                       {.degree = body.degree,
-                                        .method = method,
-                                        .engine = Engine::kDirect,
-                                        .precision = 1e-3 * body.precision},
-                                       one)
+    const Coefficients exact = expand(chart,
+                                      {.degree = body.degree,
+                                       .method = method,
+                                       .engine = Engine::kDirect,
+                                       .precision = 1e-3 * body.precision},
+                                      one)
                                    .expansion.coefficients;
     Coefficients error = found.coefficients;
     for (std::size_t i = 0; i < error.values().size(); ++i) error.values()[i] -= exact.values()[i];

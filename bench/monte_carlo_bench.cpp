@@ -75,7 +75,7 @@ void edges_against_triangles(benchmark::State& state) {
   state.SetLabel(s.name);
   const StarChart chart = chart_of(s);
   const Coefficients exact =
-      analyze(chart, {.degree = degree, .precision = 1e-10}, kOneThread).expansion.coefficients;
+      expand(chart, {.degree = degree, .precision = 1e-10}, kOneThread).expansion.coefficients;
   double edges = 0, triangles = 0;
   for (auto _ : state) {
     const auto error = [&](SamplePlaces places, std::size_t samples) {

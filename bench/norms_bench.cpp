@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "chart/center/view_scan.h"
-#include "rholm/analyze.h"
 #include "rholm/primitives.h"
+#include "rholm/transform.h"
 #include "transform/norms/exact_norms.h"
 
 namespace rholm {

@@ -1,5 +1,5 @@
 // The cost of one small mesh, which bench/python/overhead.py compares with Python: CPU and wall
-// time of `count` calls of encode() at 320 faces and degree 16, as JSON on standard output. Usage:
+// time of `count` calls of expand() at 320 faces and degree 16, as JSON on standard output. Usage:
 // small_meshes_bench [COUNT [THREADS]]
 #include <chrono>
 #include <cstdio>
@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
   const auto begin = std::chrono::steady_clock::now();
   const std::clock_t cpu = std::clock();
   for (long i = 0; i < count; ++i) {
-    const auto encoded = rholm::encode(mesh, {.analyze = {.degree = 16}}, {.threads = threads});
-    sum += encoded.analysis.expansion.coefficients.c(0, 0);
+    const auto expanded = rholm::expand(mesh, {.degree = 16}, {.threads = threads});
+    sum += expanded.transform.expansion.coefficients.c(0, 0);
   }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   std::printf("{\"wall\": %.6f, \"cpu\": %.6f, \"sum\": %.17g}\n", wall.count(),

@@ -1,7 +1,7 @@
 // Writes a displaced sphere of any number of triangles as binary PLY to standard output, ring by
 // ring: for meshes larger than memory.
 //
-//   build/release/bench/sphere_stream 11180 | rholm analyze - --degree 480 -o large.h5
+//   build/release/bench/sphere_stream 11180 | rholm expand - --degree 480 -o large.h5
 //
 // The mesh is an octahedron with each edge cut into n: 8 n^2 triangles, 4 n^2 + 2 vertices, in
 // rings from the north pole. The radius is 1 + a sum of waves whose lengths go down to 1/30.

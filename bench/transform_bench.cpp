@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "rholm/analyze.h"
 #include "rholm/harmonic.h"
 #include "rholm/primitives.h"
+#include "rholm/transform.h"
 
 namespace rholm {
 namespace {
@@ -69,19 +69,19 @@ void values_and_gradients(benchmark::State& state) {
 BENCHMARK(values_and_gradients)->Arg(64)->Arg(180)->Unit(benchmark::kMillisecond);
 
 // Measures a mesh of 5 120 triangles to degree 64, with the default precision.
-void analyze_by(benchmark::State& state, Method method) {
+void expand_by(benchmark::State& state, Method method) {
   const StarChart chart = make_star_chart(bumpy_sphere(4));
   std::size_t nodes = 0;
   for (auto _ : state) {
-    const Analysis analysis = analyze(chart, {.degree = 64, .method = method}, kOneThread);
-    nodes = analysis.edge_nodes + analysis.face_nodes;
+    const Transform transform = expand(chart, {.degree = 64, .method = method}, kOneThread);
+    nodes = transform.edge_nodes + transform.face_nodes;
   }
   state.counters["nodes"] = static_cast<double>(nodes);
 }
-BENCHMARK_CAPTURE(analyze_by, edge, Method::kEdge)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(analyze_by, gauge, Method::kGauge)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(analyze_by, curl, Method::kCurl)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(analyze_by, area, Method::kArea)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(expand_by, edge, Method::kEdge)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(expand_by, gauge, Method::kGauge)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(expand_by, curl, Method::kCurl)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(expand_by, area, Method::kArea)->Unit(benchmark::kMillisecond);
 
 void center_of(benchmark::State& state, CenterKind kind) {
   const Mesh mesh = bumpy_sphere(6);

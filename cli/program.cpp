@@ -8,6 +8,7 @@
 
 #include "cli/commands/commands.h"
 #include "cli/grammar/help.h"
+#include "cli/grammar/old_names.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/run.h"
 #include "cli/grammar/suggest.h"
@@ -48,22 +49,26 @@ bool asks_for_help(std::span<const std::string> words) {
                      [](const std::string& word) { return word == "--help" || word == "-h"; });
 }
 
-int dispatch(const Command& command, std::span<const std::string> words) {
+int dispatch(const Command& command, std::span<const std::string> words,
+             std::span<const std::string> notes = {}) {
   if (asks_for_help(words)) return print(command_help(command));
   const CancelScope scope(keep_going);
-  return run_command(command, words);
+  return run_command(command, words, notes);
 }
 
 int dispatch(const ProgramText& program, std::span<const Command> commands,
-             std::span<const std::string> words) {
+             std::vector<std::string> words) {
   if (words.empty()) return print(program_help(program, commands), stderr);
+  const std::vector<std::string> notes = replace_old_command(words);
   const std::string& first = words.front();
-  const auto rest = words.subspan(1);
+  const auto rest = std::span<const std::string>(words).subspan(1);
   if (first == "--version") return print(version_text(program));
   if (first == "--help" || first == "-h") return print(program_help(program, commands));
   if (first == "help") {
-    return print(rest.empty() ? program_help(program, commands)
-                              : command_help(command_of(commands, rest.front())));
+    std::vector<std::string> name(rest.begin(), rest.end());
+    replace_old_command(name);
+    return print(name.empty() ? program_help(program, commands)
+                              : command_help(command_of(commands, name.front())));
   }
   if (first.starts_with('-')) {
     throw UsageError(fmt::format(
@@ -71,7 +76,7 @@ int dispatch(const ProgramText& program, std::span<const Command> commands,
         "commands",
         program.name, first));
   }
-  return dispatch(command_of(commands, first), rest);
+  return dispatch(command_of(commands, first), rest, notes);
 }
 
 // Flushes standard output: printed text may be in a buffer, and the disk may be full.

@@ -9,9 +9,9 @@
 namespace {
 
 rholm::Expansion expansion_of(const std::string& path) {
-  rholm::EncodeOptions options;
-  options.analyze.degree = 32;
-  return rholm::encode_file(path, options).analysis.expansion;
+  rholm::ExpandOptions options;
+  options.degree = 32;
+  return rholm::expand_file(path, options).transform.expansion;
 }
 
 void run(const std::string& path, const std::string& onto, const std::string& out) {

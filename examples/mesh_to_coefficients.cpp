@@ -12,10 +12,10 @@ namespace {
 
 void run(const std::string& mesh, int degree, const std::string& model, const std::string& out) {
   // From faces to coefficients. The mesh must be closed, and star-shaped from some centre.
-  rholm::EncodeOptions options;
-  options.analyze.degree = degree;
-  const rholm::Encoded encoded = rholm::encode_file(mesh, options);
-  rholm::write_model(encoded.analysis.expansion, model);
+  rholm::ExpandOptions options;
+  options.degree = degree;
+  const rholm::Expanded expanded = rholm::expand_file(mesh, options);
+  rholm::write_model(expanded.transform.expansion, model);
 
   // The model file has everything that the surface needs.
   const rholm::Expansion expansion = rholm::read_model(model);
@@ -25,7 +25,7 @@ void run(const std::string& mesh, int degree, const std::string& model, const st
   // The library's harmonics are orthonormal: c_00 is the mean radius times sqrt(4 pi).
   const double mean_radius = expansion.coefficients.c(0, 0) / std::sqrt(4 * std::numbers::pi);
   const rholm::SurfaceMeasures measures = rholm::measure(expansion);
-  std::printf("faces %zu\n", encoded.faces);
+  std::printf("faces %zu\n", expanded.faces);
   std::printf("centre %.6g %.6g %.6g\n", expansion.center.x, expansion.center.y,
               expansion.center.z);
   std::printf("mean radius %.6g\n", mean_radius);

@@ -18,7 +18,7 @@ void run(const std::string& path, const std::string& region, double wavelength,
   if (mesh == nullptr) {
     throw rholm::Error(rholm::ErrorCode::kInvalidInput, path + " has points, not faces");
   }
-  // The analysis is slow, updates are fast: a slider for wavelength and strength can use them.
+  // The transform is slow, updates are fast: a slider for wavelength and strength can use them.
   const std::vector<rholm::Region> regions = {rholm::parse_region(region)};
   const rholm::Patch patch = rholm::analyze_patch(*mesh, regions, {.wavelength = wavelength});
   const std::vector<rholm::Vec3> positions = rholm::update(patch, {.strength = 1});

@@ -11,10 +11,10 @@ namespace {
 
 // Expands about the centroid of the solid, a centre that rotates with the shape.
 rholm::Coefficients coefficients_of(const std::string& path, int degree) {
-  rholm::EncodeOptions options;
-  options.analyze.degree = degree;
+  rholm::ExpandOptions options;
+  options.degree = degree;
   options.chart.center.kind = rholm::CenterKind::kVolume;
-  return rholm::encode_file(path, options).analysis.expansion.coefficients;
+  return rholm::expand_file(path, options).transform.expansion.coefficients;
 }
 
 void run(const std::string& path, const std::string& other, int degree) {

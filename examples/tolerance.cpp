@@ -9,15 +9,15 @@
 namespace {
 
 void run(const std::string& mesh, double percent) {
-  rholm::EncodeOptions options;
+  rholm::ExpandOptions options;
   options.tolerance = rholm::Tolerance{.error = percent / 100,
                                        .unit = rholm::ToleranceUnit::kRadius,
                                        .norm = rholm::ErrorNorm::kRms,
                                        .measure = rholm::ErrorMeasure::kRadius,
                                        .max_degree = 512};
-  const rholm::Encoded encoded = rholm::encode_file(mesh, options);
-  const rholm::Expansion& expansion = encoded.analysis.expansion;
-  const rholm::ToleranceReport& report = *encoded.tolerance;
+  const rholm::Expanded expanded = rholm::expand_file(mesh, options);
+  const rholm::Expansion& expansion = expanded.transform.expansion;
+  const rholm::ToleranceReport& report = *expanded.tolerance;
 
   std::printf("degree %d\n", expansion.coefficients.degree());
   std::printf("allowed %.4g\n", report.allowed);

@@ -4,9 +4,9 @@
 
 #include "cli/commands/commands.h"
 #include "cli/terminal/session.h"
-#include "mpi/analyze.h"
 #include "mpi/batch.h"
 #include "mpi/compare.h"
+#include "mpi/expand.h"
 #include "mpi/reconstruct.h"
 
 namespace rholm::mpi {
@@ -35,7 +35,7 @@ Command man_page_command() {
 }  // namespace
 
 std::vector<Command> commands(Ranks* ranks, const std::shared_ptr<RankOptions>& options) {
-  return {over_ranks(analyze_command(ranks), ranks, options),
+  return {over_ranks(expand_command(ranks), ranks, options),
           over_ranks(batch_command(ranks), ranks, options),
           over_ranks(compare_command(ranks, options), ranks, options),
           over_ranks(reconstruct_command(ranks), ranks, options),
@@ -44,7 +44,7 @@ std::vector<Command> commands(Ranks* ranks, const std::shared_ptr<RankOptions>& 
 }
 
 Services services() {
-  return {{kAnalyzeService, analyze_service()},
+  return {{kExpandService, expand_service()},
           {kBatchService, serve_batch},
           {kCompareService, serve_compare},
           {kReconstructService, serve_reconstruct}};
@@ -54,7 +54,7 @@ cli::ProgramText about() {
   return {.name = "rholm-mpi",
           .summary = "commands of rholm on many processors and machines, by MPI",
           .usage = "COMMAND ... [--threads N] [--quiet] [--patience S] [--timings]",
-          .examples = {"mpirun -n 16 rholm-mpi analyze huge.ply --degree 480 -o huge.h5",
+          .examples = {"mpirun -n 16 rholm-mpi expand huge.ply --degree 480 -o huge.h5",
                        "mpirun -n 16 rholm-mpi batch shapes.csv -o results.h5 -- --degree 32"},
           .description =
               "The same commands as those of rholm, with the same results to the byte, on as many "

@@ -5,9 +5,9 @@
 #include "experiments.h"
 #include "fixed_nodes.h"
 #include "paper/monte_carlo/edge_terms.h"
-#include "rholm/analyze.h"
 #include "rholm/monte_carlo.h"
 #include "rholm/primitives.h"
+#include "rholm/transform.h"
 #include "transform/geometry/star_geometry.h"
 #include "transform/rules/bernstein_rules.h"
 
@@ -139,7 +139,7 @@ Json by_degree(const Settings& settings) {
       std::fprintf(stderr, "Figure 4: %s, degree %d\n", body.name, degree);
       c.degree = degree;
       const Coefficients exact =
-          analyze(c.shape.chart, {.degree = degree, .precision = 1e-10}).expansion.coefficients;
+          expand(c.shape.chart, {.degree = degree, .precision = 1e-10}).expansion.coefficients;
       const Json triangles = random_points(c, SamplePlaces::kTriangles, exact)[0];
       const Json edges = random_points(c, SamplePlaces::kEdges, exact)[0];
       ratios.push_back({{"triangles", triangles}, {"edges", edges}});
@@ -158,7 +158,7 @@ Json figure_four(const Settings& settings) {
     std::fprintf(stderr, "Figure 4: %s\n", c.shape.name.c_str());
     const StarChart& chart = c.shape.chart;
     const Coefficients exact =
-        analyze(chart, {.degree = c.degree, .precision = 1e-12}).expansion.coefficients;
+        expand(chart, {.degree = c.degree, .precision = 1e-12}).expansion.coefficients;
     const StarGeometry geometry = star_geometry(chart);
     result.push_back({{"name", c.shape.name},
                       {"source", c.shape.source},

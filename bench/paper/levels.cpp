@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "experiments.h"
-#include "rholm/analyze.h"
 #include "rholm/compare.h"
 #include "rholm/file.h"
 #include "rholm/monte_carlo.h"
 #include "rholm/primitives.h"
 #include "rholm/render.h"
 #include "rholm/synthesize.h"
+#include "rholm/transform.h"
 
 namespace rholm::paper {
 namespace {
@@ -65,7 +65,7 @@ Json figure(const std::string& file, const Subject& shape, const std::vector<int
             const View& view, const Settings& settings) {
   std::fprintf(stderr, "Levels of detail: %s\n", shape.name.c_str());
   const int degree = degrees.back();
-  const Expansion expansion = without_center(analyze(shape.chart, {.degree = degree}).expansion);
+  const Expansion expansion = without_center(expand(shape.chart, {.degree = degree}).expansion);
   Json levels = Json::array();
   Scene scene;
   std::vector<Mesh> surfaces = synthesize(expansion, icosphere(subdivisions_for(degree)), degrees);
@@ -95,7 +95,7 @@ Json vase_picture(const std::string& file, const View& view, const Settings& set
   const int degree = settings.quick ? 20 : 100;
   const Subject shape =
       subject("Vase", "vase", settings.data, faces, vase(faces, {}), "made here", {});
-  const Coefficients exact = analyze(shape.chart, {.degree = degree}).expansion.coefficients;
+  const Coefficients exact = expand(shape.chart, {.degree = degree}).expansion.coefficients;
   Scene scene;
   Json errors;
   const Mesh sphere = icosphere(settings.quick ? 5 : 7);

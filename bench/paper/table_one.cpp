@@ -9,10 +9,10 @@
 #include "base/stopwatch.h"
 #include "expected_error.h"
 #include "experiments.h"
-#include "rholm/analyze.h"
 #include "rholm/harmonic.h"
 #include "rholm/monte_carlo.h"
 #include "rholm/primitives.h"
+#include "rholm/transform.h"
 
 namespace rholm::paper {
 namespace {
@@ -50,13 +50,13 @@ Measured measure_edge(const StarChart& chart, int degree, double precision, int 
   Measured result{std::numeric_limits<double>::max(), 0};
   for (int i = 0; i < repeat; ++i) {
     const double begin = cpu_seconds();
-    const Analysis analysis =
-        analyze(chart, {.degree = degree, .precision = precision}, kOneThread);
-    const auto norms = analysis.times.find("norms");
+    const Transform transform =
+        expand(chart, {.degree = degree, .precision = precision}, kOneThread);
+    const auto norms = transform.times.find("norms");
     const double cpu =
-        cpu_seconds() - begin - (norms == analysis.times.end() ? 0 : norms->second.cpu);
+        cpu_seconds() - begin - (norms == transform.times.end() ? 0 : norms->second.cpu);
     result.cpu = std::min(result.cpu, cpu);
-    result.error = radius_error(analysis.expansion.coefficients, exact);
+    result.error = radius_error(transform.expansion.coefficients, exact);
   }
   return result;
 }
@@ -117,7 +117,7 @@ Json measure_row(const Row& row, const Settings& settings) {
   const Subject shape =
       subject(row.name, row.key, settings.data, faces, stand_in(row, faces, {}), "made here", {});
   const StarChart& chart = shape.chart;
-  const Analysis reference = analyze(chart, {.degree = degree, .precision = 1e-11});
+  const Transform reference = expand(chart, {.degree = degree, .precision = 1e-11});
   const Coefficients& exact = reference.expansion.coefficients;
   const int repeat = settings.quick ? 1 : 3;
   const Measured coarse = measure_edge(chart, degree, 1e-3, repeat, exact);

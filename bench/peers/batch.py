@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Many shapes at once: rholm batch compared with a shell loop over rholm analyze, in Markdown.
+"""Many shapes at once: rholm batch compared with a shell loop over rholm expand, in Markdown.
 
     bench/peers/batch.py                          # 1000 meshes of 5120 faces, degree 32
     bench/peers/batch.py --count 10000 --broken 2 # per cent of truncated files
@@ -61,7 +61,7 @@ def compare(program: str, options: argparse.Namespace) -> None:
     degree = str(options.degree)
     loop = (
         "tail -n +2 shapes.csv | tr -d '\\r' | while IFS=, read -r id path; do "
-        f'"{program}" analyze "$path" --threads 1 --degree {degree} --json -o "$id.h5" > "$id.json" '
+        f'"{program}" expand "$path" --threads 1 --degree {degree} --json -o "$id.h5" > "$id.json" '
         f'&& "{program}" spectrum "$id.h5" --json > "$id.spectrum.json"; done'
     )
     ways = {} if options.batch_only else {"a loop of a shell": ["bash", "-c", loop]}
@@ -98,7 +98,7 @@ def sizes(program: str, options: argparse.Namespace) -> None:
             times: dict[int, list[tuple[float, float]]] = {1: [], 2: []}
             for _ in range(options.rounds):
                 for threads, list_ in times.items():
-                    words = [program, "analyze", "a.ply", "--degree", str(options.degree), "-o", "a.h5"]
+                    words = [program, "expand", "a.ply", "--degree", str(options.degree), "-o", "a.h5"]
                     list_.append(seconds([*words, "--threads", str(threads)], folder))
             one, two = (statistics.median(t[0] for t in times[n]) for n in (1, 2))
             cost = statistics.median(t[1] for t in times[2]) / statistics.median(t[1] for t in times[1])

@@ -9,7 +9,7 @@ SHAPES is a folder with asteroid-bennu.ply, igea.ply, bunny-closed-cgal.off, arm
 stanford-dragon.ply; a missing file has no row. Made inputs (points, a mesh of 5.2 million triangles, models)
 are in a temporary folder of 0.4 GB. Programs and numbers of threads take turns, round by round, so that
 other load of the machine affects all of them. Medians and quartiles of the rounds are given.
-scripts/performance measures the stages of analyze; bench/peers/libraries.py measures other packages.
+scripts/performance measures the stages of expand; bench/peers/libraries.py measures other packages.
 """
 
 from __future__ import annotations
@@ -38,30 +38,30 @@ class Row:
 
 
 LARGE = "make bumpy --subdivisions 9 -o {made}/large.ply"
-ANALYZE_LARGE = "analyze {made}/large.ply --precision 1e-6 --center none -o {made}/o.h5 --degree "
-BENNU_MODEL = "analyze {shapes}/asteroid-bennu.ply --degree 64 -o {made}/bennu.h5"
+ANALYZE_LARGE = "expand {made}/large.ply --precision 1e-6 --center none -o {made}/o.h5 --degree "
+BENNU_MODEL = "expand {shapes}/asteroid-bennu.ply --degree 64 -o {made}/bennu.h5"
 
 ROWS = {
     "small": Row(
-        "`analyze`, 320 faces, degree 16",
-        "analyze {made}/small.ply --degree 16 -o {made}/o.h5",
+        "`expand`, 320 faces, degree 16",
+        "expand {made}/small.ply --degree 16 -o {made}/o.h5",
         ("make bumpy --subdivisions 2 -o {made}/small.ply",),
     ),
     "bennu": Row(
-        "`analyze` Bennu, degree 180",
-        "analyze {shapes}/asteroid-bennu.ply --degree 180 -o {made}/o.h5",
+        "`expand` Bennu, degree 180",
+        "expand {shapes}/asteroid-bennu.ply --degree 180 -o {made}/o.h5",
     ),
     "igea": Row(
-        "`analyze --signed` Igea, degree 256",
-        "analyze {shapes}/igea.ply --signed --degree 256 -o {made}/o.h5",
+        "`expand --signed` Igea, degree 256",
+        "expand {shapes}/igea.ply --signed --degree 256 -o {made}/o.h5",
     ),
     "igea4": Row(
         "the same, precision 1e-4",
-        "analyze {shapes}/igea.ply --signed --degree 256 --precision 1e-4 -o {made}/o.h5",
+        "expand {shapes}/igea.ply --signed --degree 256 --precision 1e-4 -o {made}/o.h5",
     ),
-    "large480": Row("`analyze` 5.2M faces, degree 480, 1e-6", ANALYZE_LARGE + "480", (LARGE,)),
+    "large480": Row("`expand` 5.2M faces, degree 480, 1e-6", ANALYZE_LARGE + "480", (LARGE,)),
     "transform480": Row("the same, `--no-errors`", ANALYZE_LARGE + "480 --no-errors", (LARGE,)),
-    "large64": Row("`analyze` 5.2M faces, degree 64, 1e-6", ANALYZE_LARGE + "64", (LARGE,)),
+    "large64": Row("`expand` 5.2M faces, degree 64, 1e-6", ANALYZE_LARGE + "64", (LARGE,)),
     "render": Row("`render` a model", "render {made}/bennu.h5 -o {made}/o.png", (BENNU_MODEL,)),
     "report": Row(
         "`report` of Bennu at 64 beside its shape",
@@ -74,13 +74,13 @@ ROWS = {
         (BENNU_MODEL,),
     ),
     "bunny": Row(
-        "`analyze --atlas` bunny, 1e-3",
-        "analyze {shapes}/bunny-closed-cgal.off --atlas --tolerance 1e-3 --unit diagonal -o {made}/o.h5",
+        "`compress` bunny, 1e-3",
+        "compress {shapes}/bunny-closed-cgal.off --tolerance 1e-3 --unit diagonal -o {made}/o.h5",
         rounds=3,
     ),
     "armadillo": Row(
-        "`analyze --atlas` Armadillo, 3e-4",
-        "analyze {shapes}/armadillo-43k.obj --atlas --tolerance 3e-4 --unit diagonal -o {made}/o.h5",
+        "`compress` Armadillo, 3e-4",
+        "compress {shapes}/armadillo-43k.obj --tolerance 3e-4 --unit diagonal -o {made}/o.h5",
         rounds=1,
     ),
     "points": Row(

@@ -15,15 +15,16 @@ namespace {
 
 using Runs = std::map<std::string, std::vector<StageTime>>;
 
-EncodeOptions encode_options(const BenchOptions& options) {
-  EncodeOptions wanted;
-  wanted.analyze = {.degree = options.degree, .precision = options.precision};
+ExpandOptions expand_options(const BenchOptions& options) {
+  ExpandOptions wanted;
+  wanted.degree = options.degree;
+  wanted.precision = options.precision;
   wanted.errors = false;  // a separate stage, not part of the transform
   wanted.chart.allow_signed = options.allow_signed;
   return wanted;
 }
 
-EncodeOptions about(const Vec3& center, EncodeOptions wanted) {
+ExpandOptions about(const Vec3& center, ExpandOptions wanted) {
   wanted.chart.center = {.kind = CenterKind::kGiven, .point = center, .rays = 0};
   return wanted;
 }
@@ -31,17 +32,17 @@ EncodeOptions about(const Vec3& center, EncodeOptions wanted) {
 StageTime minus(const StageTime& a, const StageTime& b) { return {a.wall - b.wall, a.cpu - b.cpu}; }
 
 // Runs once and notes the stages.
-Encoded run(const std::filesystem::path& path, const EncodeOptions& wanted, const Context& context,
-            Runs& runs) {
+Expanded run(const std::filesystem::path& path, const ExpandOptions& wanted, const Context& context,
+             Runs& runs) {
   StageTimes times;
-  Encoded encoded =
-      timed(times, "coefficients", [&] { return encode_file(path, wanted, context); });
-  times.insert(encoded.times.begin(), encoded.times.end());
-  times.insert(encoded.analysis.times.begin(), encoded.analysis.times.end());
+  Expanded expanded =
+      timed(times, "coefficients", [&] { return expand_file(path, wanted, context); });
+  times.insert(expanded.times.begin(), expanded.times.end());
+  times.insert(expanded.transform.times.begin(), expanded.transform.times.end());
   times["coefficients"] = minus(times["coefficients"], times["norms"]);
   times.erase("transform");  // time outside its parts is small
   for (const auto& [name, time] : times) runs[name].push_back(time);
-  return encoded;
+  return expanded;
 }
 
 void write_once(const Expansion& expansion, const std::filesystem::path& folder, Runs& runs) {
@@ -95,10 +96,10 @@ FileBench bench_file(const std::filesystem::path& path, const BenchOptions& opti
   check(options);
   FileBench bench;
   bench.file_bytes = std::filesystem::file_size(path);
-  const EncodeOptions search = encode_options(options);
+  const ExpandOptions search = expand_options(options);
   // The first run is not counted: it loads the file into memory, plans transforms, starts threads.
   Runs first, searched;
-  const EncodeOptions given =
+  const ExpandOptions given =
       about(run(path, search, measured(context, 0, 0), first).star.center, search);
   std::vector<Runs> runs(options.threads.size());
   std::optional<TemporaryFolder> folder;
@@ -108,10 +109,10 @@ FileBench bench_file(const std::filesystem::path& path, const BenchOptions& opti
     for (std::size_t t = 0; t < runs.size(); ++t) {
       const bool watched = i == 0 && t == 0 && restart_peak_memory();
       if (watched) bench.memory_before = resident_memory();
-      bench.encoded = run(path, given, measured(context, options.threads[t], fraction), runs[t]);
+      bench.expanded = run(path, given, measured(context, options.threads[t], fraction), runs[t]);
       if (watched) bench.memory_peak = peak_memory();
     }
-    if (folder) write_once(bench.encoded.analysis.expansion, folder->path(), runs[0]);
+    if (folder) write_once(bench.expanded.transform.expansion, folder->path(), runs[0]);
     run(path, search, measured(context, options.threads[0], fraction), searched);
   }
   for (std::size_t t = 0; t < runs.size(); ++t) {

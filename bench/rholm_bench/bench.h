@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "rholm/analyze.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "rholm/model.h"
+#include "rholm/transform.h"
 #include "rholm_bench/bench_timing.h"
 
 namespace rholm {
@@ -51,7 +51,7 @@ struct BenchRuns {
 };
 
 struct FileBench {
-  Encoded encoded;  // result of the last run
+  Expanded expanded;  // result of the last run
   std::uintmax_t file_bytes = 0;
   std::vector<BenchRuns> runs;  // one for each number of threads
   Timing center;                // the stage that finds the centre, where it is searched
@@ -61,7 +61,7 @@ struct FileBench {
   std::optional<std::size_t> memory_before, memory_peak;
 };
 
-// Measures encode_file() after a first run that is not counted. Throws the errors of encode_file(),
+// Measures expand_file() after a first run that is not counted. Throws the errors of expand_file(),
 // and InvalidInput for options out of range.
 FileBench bench_file(const std::filesystem::path& path, const BenchOptions& options,
                      const Context& context = {});

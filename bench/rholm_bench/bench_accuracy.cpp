@@ -70,24 +70,27 @@ Reference bench_reference(const std::filesystem::path& path, const Vec3& center,
   reference.precision =
       direct ? kDirectReference
              : std::max(kLeastPrecision, std::min(kFastReference, options.precision / 10));
-  EncodeOptions wanted;
-  wanted.analyze = {
-      .degree = options.degree, .engine = reference.engine, .precision = reference.precision};
+  ExpandOptions wanted;
+  wanted.degree = options.degree;
+  wanted.engine = reference.engine;
+  wanted.precision = reference.precision;
   wanted.chart.center = {.kind = CenterKind::kGiven, .point = center, .rays = 0};
   wanted.chart.allow_signed = options.allow_signed;
   wanted.errors = false;
-  reference.coefficients = encode_file(path, wanted, context).analysis.expansion.coefficients;
+  reference.coefficients = expand_file(path, wanted, context).transform.expansion.coefficients;
   return reference;
 }
 
 CoefficientsError bench_reference_error(const Context& context) {
   const Mesh mesh = bumpy_sphere(4);
   const auto coefficients = [&](Engine engine, double precision) {
-    EncodeOptions wanted;
-    wanted.analyze = {.degree = 64, .engine = engine, .precision = precision};
+    ExpandOptions wanted;
+    wanted.degree = 64;
+    wanted.engine = engine;
+    wanted.precision = precision;
     wanted.chart.center.kind = CenterKind::kNone;
     wanted.errors = false;
-    return encode(mesh, wanted, context).analysis.expansion.coefficients;
+    return expand(mesh, wanted, context).transform.expansion.coefficients;
   };
   return compare_coefficients(coefficients(Engine::kFast, kFastReference),
                               coefficients(Engine::kDirect, kDirectReference));

@@ -18,9 +18,9 @@ struct Row {
 };
 
 std::size_t sources_of(const FileBench& file) {
-  const Analysis& analysis = file.encoded.analysis;
-  return analysis.fast ? analysis.fast->vertices + analysis.fast->nodes
-                       : analysis.edge_nodes + analysis.face_nodes;
+  const Transform& transform = file.expanded.transform;
+  return transform.fast ? transform.fast->vertices + transform.fast->nodes
+                        : transform.edge_nodes + transform.face_nodes;
 }
 
 double per(double amount, std::size_t n) { return n > 0 ? amount / static_cast<double>(n) : 0; }
@@ -96,7 +96,7 @@ Json memory_json(const BenchCase& run) {
 void add_floors(const BenchCase& run, std::size_t faces, Json& json) {
   const FloorsBench& floors = *run.floors;
   const double bytes = static_cast<double>(run.file.file_bytes);
-  json["floors"] = rows_json(floor_rows(floors), faces, run.file.encoded.vertices);
+  json["floors"] = rows_json(floor_rows(floors), faces, run.file.expanded.vertices);
   json["floors"]["file_read"]["gigabytes_per_second"] =
       gigabytes_per_second(bytes, floors.file_read);
   json["floors"]["copy"]["gigabytes_per_second"] = gigabytes_per_second(bytes, floors.copy);
@@ -145,7 +145,7 @@ std::string table_head(const std::string& title, const std::string& source) {
 }
 
 std::string error_text(const BenchCase& run) {
-  const auto& fast = run.file.encoded.analysis.fast;
+  const auto& fast = run.file.expanded.transform.fast;
   const char* kind = fast && fast->measured_share > 0 ? "measured" : "estimated";
   std::string text =
       line("error", fmt::format("{:.2g} of the wanted {:.2g}{}; of the degrees above {}: {:.2g}{}",
@@ -168,7 +168,7 @@ std::string memory_text(const BenchCase& run) {
 }
 
 std::string engine_text(const BenchCase& run) {
-  const auto& fast = run.file.encoded.analysis.fast;
+  const auto& fast = run.file.expanded.transform.fast;
   if (!fast) return line("sums", "direct");
   return line("sums", fmt::format("in {} precision, windows of {} points, oversampling {:.3g}; {} "
                                   "vertices, {} further nodes",
@@ -178,7 +178,7 @@ std::string engine_text(const BenchCase& run) {
 
 std::string runs_text(const BenchCase& run) {
   const FileBench& file = run.file;
-  const std::size_t faces = file.encoded.faces, sources = sources_of(file);
+  const std::size_t faces = file.expanded.faces, sources = sources_of(file);
   std::string text;
   for (const BenchRuns& runs : file.runs) {
     text += table_head(
@@ -209,7 +209,7 @@ std::string sums_text(const BenchCase& run) {
       note = fmt::format("{:.2f} times the adjoint",
                          ratio(sums.forward_with_gradient, sums.adjoint_with_gradient));
     }
-    text += table_line(row, run.file.encoded.faces, sums.directions, note);
+    text += table_line(row, run.file.expanded.faces, sums.directions, note);
   }
   return text;
 }
@@ -222,7 +222,7 @@ std::string floors_text(const BenchCase& run) {
       note = fmt::format("{:.1f} GB/s",
                          gigabytes_per_second(static_cast<double>(run.file.file_bytes), row.total));
     }
-    text += table_line(row, run.file.encoded.faces, run.file.encoded.vertices, note);
+    text += table_line(row, run.file.expanded.faces, run.file.expanded.vertices, note);
   }
   return text;
 }
@@ -254,14 +254,14 @@ std::string machine_text() {
 
 Json case_json(const BenchCase& run) {
   const FileBench& file = run.file;
-  const std::size_t faces = file.encoded.faces, sources = sources_of(file);
+  const std::size_t faces = file.expanded.faces, sources = sources_of(file);
   Json json;
   json["mesh"] = run.mesh;
   json["order"] = run.random_order ? "random" : "file";
-  json["counts"] = {{"vertices", file.encoded.vertices}, {"faces", faces}, {"sources", sources}};
+  json["counts"] = {{"vertices", file.expanded.vertices}, {"faces", faces}, {"sources", sources}};
   json["degree"] = run.degree;
   json["precision"] = run.precision;
-  if (file.encoded.analysis.fast) json["fast"] = json_of(*file.encoded.analysis.fast);
+  if (file.expanded.transform.fast) json["fast"] = json_of(*file.expanded.transform.fast);
   json["accuracy"] = json_of(run.error);
   json["accuracy"]["reference"] = run.reference;
   json["runs"] = Json::array();
@@ -283,8 +283,8 @@ Json case_json(const BenchCase& run) {
 std::string case_text(const BenchCase& run) {
   std::string text =
       fmt::format("\n{}{}: {} vertices, {} faces; degree {}, precision {:g}\n", run.mesh,
-                  run.random_order ? " in random order" : "", run.file.encoded.vertices,
-                  run.file.encoded.faces, run.degree, run.precision);
+                  run.random_order ? " in random order" : "", run.file.expanded.vertices,
+                  run.file.expanded.faces, run.degree, run.precision);
   text += engine_text(run) + error_text(run) + memory_text(run);
   if (run.random_order) {
     text += line("order", fmt::format("{:.2f} times the time of the file's order", run.slowdown));

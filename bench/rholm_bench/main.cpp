@@ -147,7 +147,7 @@ std::string reference_name(const Reference& reference, Work& work) {
 }
 
 void compare(const Reference& reference, Work& work, BenchCase& run) {
-  run.error = compare_coefficients(run.file.encoded.analysis.expansion.coefficients,
+  run.error = compare_coefficients(run.file.expanded.transform.expansion.coefficients,
                                    reference.coefficients);
   run.reference = reference_name(reference, work);
 }
@@ -160,10 +160,10 @@ BenchCase measure_case(const Work& work, const Subject& subject, int degree, dou
   run.degree = degree;
   run.precision = precision;
   run.file = bench_file(subject.file(), options, context);
-  const Analysis& analysis = run.file.encoded.analysis;
-  run.sums = bench_sums(subject.mesh, analysis.expansion, options, context);
-  if (analysis.fast) {
-    run.floors = bench_floors(subject.file(), subject.mesh, analysis.expansion, *analysis.fast,
+  const Transform& transform = run.file.expanded.transform;
+  run.sums = bench_sums(subject.mesh, transform.expansion, options, context);
+  if (transform.fast) {
+    run.floors = bench_floors(subject.file(), subject.mesh, transform.expansion, *transform.fast,
                               options, context);
   }
   return run;
@@ -196,7 +196,7 @@ void measure(const Subject& subject, Work& work, std::vector<BenchCase>& cases) 
     for (const double precision : settings.precisions) {
       BenchCase run = measure_case(work, subject, degree, precision);
       if (!reference) {
-        const Vec3 center = run.file.encoded.analysis.expansion.center;
+        const Vec3 center = run.file.expanded.transform.expansion.center;
         reference = bench_reference(subject.file(), center, options_of(settings, degree, least),
                                     work.session.context());
       }

@@ -19,7 +19,7 @@ namespace rholm::cli {
 
 struct BatchOptions {
   std::string manifest, output;
-  std::string command = "analyze";
+  std::string command = "expand";
   std::vector<std::string> words;  // words after --: options of the command, or parts to merge
   std::string shard;               // "2/8": one of several shards; empty: all rows
   std::string outputs;             // folder for the command's files; empty: files are not kept

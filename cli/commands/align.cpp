@@ -106,7 +106,7 @@ int run(const Options& options, Session& session) {
   const Expansion b = read_expansion(options.b, session, options.to.input_convention);
   if (a.function != b.function) {
     throw Error(ErrorCode::kInvalidInput,
-                fmt::format("{} is of the {}, {} of the {}: analyze both by the same method",
+                fmt::format("{} is of the {}, {} of the {}: expand both by the same method",
                             display_name(options.a), to_string(a.function), display_name(options.b),
                             to_string(b.function)));
   }

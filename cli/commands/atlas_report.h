@@ -1,9 +1,8 @@
-// Atlases of caps in the commands analyze, info and synthesize. Layer: cli.
+// Atlases of caps in the commands compress, info and synthesize. Layer: cli.
 #pragma once
 
 #include <string>
 
-#include "cli/commands/analyze_options.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/compress.h"
@@ -15,9 +14,6 @@ Json atlas_json(const AtlasModel& model);
 std::string atlas_text(const AtlasModel& model);
 // Returns the attributes of the surface that a model lacks: "attributes red, green, blue".
 std::string left_out_text(const SurfaceRules& rules);
-
-// Runs the whole command with --atlas; returns the exit code.
-int analyze_atlas(const AnalyzeCommandOptions& options, Session& session);
 
 // Runs rholm info for an atlas.
 int report_atlas(const std::string& path, bool json);

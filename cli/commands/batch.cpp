@@ -147,7 +147,7 @@ std::vector<Option> option_list(BatchOptions& o) {
            .offer = Offer::kAnyFile},
           {.name = "command",
            .value = "COMMAND",
-           .help = fmt::format("what is done with each shape: analyze by default; one of {}",
+           .help = fmt::format("what is done with each shape: expand by default; one of {}",
                                fmt::join(names, ", ")),
            .target = &o.command,
            .choices = names},

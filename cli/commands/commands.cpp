@@ -4,15 +4,15 @@ namespace rholm::cli {
 namespace {
 
 constexpr Command (*kMakers[])() = {
-    info_command,        repair_command,   simplify_command, center_command,   analyze_command,
-    synthesize_command,  spectrum_command, compare_command,  convert_command,  render_command,
-    report_command,      make_command,     filter_command,   recenter_command, rotate_command,
-    align_command,       smooth_command,   transfer_command, orient_command,   partition_command,
-    reconstruct_command, batch_command,
+    info_command,       repair_command,      simplify_command, center_command,   expand_command,
+    compress_command,   synthesize_command,  spectrum_command, compare_command,  convert_command,
+    render_command,     report_command,      make_command,     filter_command,   recenter_command,
+    rotate_command,     align_command,       smooth_command,   transfer_command, orient_command,
+    partition_command,  reconstruct_command, batch_command,
 #ifdef RHOLM_STUDIO
     studio_command,
 #endif
-    completion_command,  man_page_command, reference_command};
+    completion_command, man_page_command,    reference_command};
 
 }  // namespace
 
@@ -23,7 +23,7 @@ ProgramText rholm_text() {
           .summary = "spherical harmonics of 3D objects, from a mesh to coefficients and back",
           .usage = "COMMAND ... [--threads N] [--quiet]",
           .examples = {"rholm make bumpy -o bumpy.ply",
-                       "rholm analyze bumpy.ply --degree 32 -o bumpy.h5",
+                       "rholm expand bumpy.ply --degree 32 -o bumpy.h5",
                        "rholm synthesize bumpy.h5 --degree 4,16,32 -o smooth.ply"},
           .description =
               "Turns closed triangle meshes into coefficients of spherical harmonics, exactly and "

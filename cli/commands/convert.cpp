@@ -72,7 +72,7 @@ void convert_shape(const Options& options, const ShapeFile& file, Session& sessi
   if (is_one_of(wanted, coefficients_format_names()) &&
       (!options.format.empty() || !shape_format_of(options.output))) {
     throw UsageError(
-        fmt::format("{} is a shape and {} a format of coefficients: 'rholm analyze {} "
+        fmt::format("{} is a shape and {} a format of coefficients: 'rholm expand {} "
                     "--degree L -o {}' finds them",
                     display_name(options.input), wanted, shell_word(options.input),
                     shell_word(options.output)));

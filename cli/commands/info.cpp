@@ -140,7 +140,7 @@ std::string mesh_text(const MeshReport& report) {
   text += line("manifold", manifold_text(i));
   text += line("oriented", yes_or(i.oriented, counted(i.misoriented_edges, "edge") +
                                                   " between faces that disagree"));
-  text += line("inside out", i.inside_out ? "yes (analyze turns it right side out)" : "no");
+  text += line("inside out", i.inside_out ? "yes (expand turns it right side out)" : "no");
   text += line("components", fmt::format("{}", i.components));
   if (i.closed && i.manifold) text += line("genus", fmt::format("{}", i.genus));
   text += line("degenerate", counted(i.degenerate_triangles, "face") +

@@ -33,7 +33,7 @@ struct Options {
 // a rough shape need a limit.
 constexpr std::size_t kMostShownNumbers = 12000;
 
-// Shows caps made by analyze --atlas, on the shape itself.
+// Shows caps made by compress, on the shape itself.
 template <typename Shape>
 void show_caps(const Options& options, ShapeFormat format, Shape& shape,
                const std::vector<Vec3>& points, Session& session, Json& json) {
@@ -111,11 +111,11 @@ Command partition_command() {
   return {.name = "partition",
           .summary = "The caps of a shape in colours",
           .description =
-              "Covers a shape with few large caps, as 'rholm analyze --atlas' does, and writes it "
+              "Covers a shape with few large caps, as 'rholm compress' does, and writes it "
               "with each vertex in the colour of the cap of the largest weight there. Caps that "
               "touch have different hues. With '--show degrees' the colour is that of the cap's "
               "degree, from dark blue for the lowest to yellow for the highest.\n\n"
-              "The other views are of the patches of 'analyze --atlas --fit integral', cut by a "
+              "The other views are of the patches of 'compress --fit integral', cut by a "
               "kd-tree until normals stay within a cone: the points of each patch, joined by their "
               "Delaunay triangles on its best-fitting sphere; these triangles, apart; or the same "
               "on the spheres.",

@@ -15,7 +15,6 @@
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/session.h"
 #include "rholm/align.h"
-#include "rholm/analyze.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/compare.h"
 #include "rholm/compress.h"
@@ -38,6 +37,7 @@
 #include "rholm/star.h"
 #include "rholm/studio.h"
 #include "rholm/transfer.h"
+#include "rholm/transform.h"
 #include "rholm/truncation.h"
 
 namespace rholm::cli {
@@ -213,14 +213,14 @@ std::string compress_section() {
   return field_section<CompressOptions>(
       "Options of compress",
       "`CompressOptions` in C++ and arguments of `rholm.compress` in Python; the program has them "
-      "in `rholm analyze --atlas`, with `--tolerance`.");
+      "in `rholm compress`, with `--tolerance`.");
 }
 
 std::string patch_atlas_section() {
   return field_section<PatchAtlasOptions>(
       "Options of patch_atlas",
       "`PatchAtlasOptions` in C++ and arguments of `rholm.patch_atlas` in Python; the program has "
-      "them in `rholm analyze --atlas --fit integral` and `rholm partition`.");
+      "them in `rholm compress --fit integral` and `rholm partition`.");
 }
 
 std::string atlas_mesh_section() {
@@ -260,7 +260,7 @@ std::string monte_carlo_section() {
   return field_section<MonteCarloOptions>(
       "Options of monte_carlo",
       "`MonteCarloOptions` in C++ and arguments of `rholm.monte_carlo` in Python; the program has "
-      "them in `rholm analyze`, with the places in `--method monte-carlo-edge` and "
+      "them in `rholm expand`, with the places in `--method monte-carlo-edge` and "
       "`monte-carlo-triangle`.");
 }
 
@@ -296,25 +296,25 @@ std::string sample_section() {
       "them in `rholm make sample`. Lengths are parts of the diagonal of the bounding box.");
 }
 
-std::string analyze_section() {
-  return field_section<AnalyzeOptions>(
+std::string transform_section() {
+  return field_section<TransformOptions>(
       "Options of a transform",
-      "`AnalyzeOptions` in C++ and arguments of `rholm.expand` in Python; options of `rholm "
-      "analyze`, whose `--method` has the Monte Carlo methods, too.");
+      "`TransformOptions` in C++ and arguments of `rholm.expand` in Python; options of `rholm "
+      "expand`, whose `--method` has the Monte Carlo methods, too.");
 }
 
 std::string tolerance_section() {
   return field_section<Tolerance>(
       "Tolerances",
       "`Tolerance` in C++ and arguments of `rholm.expand` in Python, where `error` is `tolerance`; "
-      "the program has `--tolerance` in `rholm analyze` and `rholm report`.");
+      "the program has `--tolerance` in `rholm expand` and `rholm report`.");
 }
 
 std::string encode_section() {
-  return field_section<EncodeOptions>(
+  return field_section<ExpandOptions>(
       "Options of the way from a mesh to coefficients",
-      "`EncodeOptions` in C++, with the lists of its parts here; arguments of `rholm.expand` in "
-      "Python and options of `rholm analyze`, which has `--no-errors`.");
+      "`ExpandOptions` in C++, with the lists of its parts here; arguments of `rholm.expand` in "
+      "Python and options of `rholm expand`, which has `--no-errors`.");
 }
 
 std::string center_section() {
@@ -363,8 +363,8 @@ std::string result_section() {
   add_result<FastReport>("FastReport", rows);
   add_result<TruncationErrors>("TruncationErrors", rows);
   add_result<ToleranceReport>("ToleranceReport", rows);
-  add_result<Analysis>("Analysis", rows);
-  add_result<Encoded>("Encoded", rows);
+  add_result<Transform>("Transform", rows);
+  add_result<Expanded>("Expanded", rows);
   add_result<ReconstructReport>("ReconstructReport", rows);
   add_result<TileForecast>("TileForecast", rows);
   add_result<Comparison>("Comparison", rows);
@@ -399,7 +399,7 @@ constexpr ReferenceSection kSections[] = {window_section,
                                           command_section<OrientOptions, kOrientName>,
                                           command_section<AlignOptions, kAlignName>,
                                           sample_section,
-                                          analyze_section,
+                                          transform_section,
                                           encode_section,
                                           center_section,
                                           file_section,

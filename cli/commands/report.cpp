@@ -90,7 +90,7 @@ std::string tolerance_text(const ToleranceOptions& options) {
   return option_text("tolerance", fmt::format("{}", *options.tolerance)) + given_text(options.rest);
 }
 
-// Returns the options that turn a shape into coefficients, as in analyze.
+// Returns the options that turn a shape into coefficients, as in expand.
 std::string analysis_text(const Options& options) {
   std::string text =
       options.tolerance.tolerance
@@ -117,9 +117,9 @@ std::string name_of(const std::string& path) {
   return path == "-" ? "standard input" : std::filesystem::path(path).filename().string();
 }
 
-EncodeOptions encode_options(const Options& options) {
-  EncodeOptions wanted;
-  wanted.analyze.degree = options.degree.value_or(kDefaultDegree);
+ExpandOptions expand_options(const Options& options) {
+  ExpandOptions wanted;
+  wanted.degree = options.degree.value_or(kDefaultDegree);
   wanted.tolerance = options.tolerance.parsed();
   wanted.chart.center = parse_center_option(options.center.empty() ? "auto" : options.center);
   wanted.weld_tolerance = options.weld;
@@ -132,17 +132,17 @@ void not_kept(const std::string& what, Subject& subject) {
   subject.complaint += (subject.complaint.empty() ? "" : "; ") + what;
 }
 
-void add_verdicts(const Encoded& encoded, const EncodeOptions& wanted, Subject& subject) {
-  const std::optional<FastReport>& fast = encoded.analysis.fast;
+void add_verdicts(const Expanded& expanded, const ExpandOptions& wanted, Subject& subject) {
+  const std::optional<FastReport>& fast = expanded.transform.fast;
   if (fast && !fast->reached) {
     not_kept(fmt::format("the error of the coefficients is {}, above the wanted {}; "
-                         "'rholm analyze --engine direct' makes a model that is exact",
-                         text_of(fast->error), text_of(wanted.analyze.precision)),
+                         "'rholm expand --engine direct' makes a model that is exact",
+                         text_of(fast->error), text_of(wanted.precision)),
              subject);
   }
-  if (!encoded.tolerance) return;
-  const ToleranceReport& tolerance = *encoded.tolerance;
-  const int degree = encoded.analysis.expansion.coefficients.degree();
+  if (!expanded.tolerance) return;
+  const ToleranceReport& tolerance = *expanded.tolerance;
+  const int degree = expanded.transform.expansion.coefficients.degree();
   const std::string error = fmt::format("{} error ({})", to_string(wanted.tolerance->norm),
                                         to_string(wanted.tolerance->measure));
   if (!tolerance.met) {
@@ -166,11 +166,11 @@ Subject subject_of_shape(const Options& options, Mesh mesh, Session& session) {
     throw UsageError(fmt::format("{} is a shape itself: --shape is for coefficients",
                                  display_name(options.input)));
   }
-  Encoded encoded = encode(mesh, encode_options(options), session.context());
-  if (encoded.flipped) session.note(kFlipped);
+  Expanded expanded = expand(mesh, expand_options(options), session.context());
+  if (expanded.flipped) session.note(kFlipped);
   Subject subject;
-  add_verdicts(encoded, encode_options(options), subject);
-  subject.expansion = std::move(encoded.analysis.expansion);
+  add_verdicts(expanded, expand_options(options), subject);
+  subject.expansion = std::move(expanded.transform.expansion);
   subject.expansion.unit = options.length_unit;
   subject.shape = std::move(mesh);
   subject.page.shape_name = name_of(options.input);
@@ -179,7 +179,7 @@ Subject subject_of_shape(const Options& options, Mesh mesh, Session& session) {
                                 ? "model.h5"
                                 : std::filesystem::path(options.input).stem().string() + ".h5";
   subject.page.commands = {
-      {"The model", "rholm analyze " + quoted(options.input) + choices + " -o " + quoted(model)},
+      {"The model", "rholm expand " + quoted(options.input) + choices + " -o " + quoted(model)},
       {"This page", page_command(options, choices)}};
   return subject;
 }
@@ -192,7 +192,7 @@ std::optional<ReportCommand> model_command(const Options& options, const Expansi
     return std::nullopt;
   }
   const Vec3& c = expansion.center;
-  std::string text = "rholm analyze " + quoted(options.shape) +
+  std::string text = "rholm expand " + quoted(options.shape) +
                      option_text("degree", std::to_string(expansion.coefficients.degree()));
   if (expansion.method != "edge") text += option_text("method", expansion.method);
   text += " --center=" + quoted(fmt::format("{},{},{}", c.x, c.y, c.z));
@@ -207,7 +207,7 @@ Subject subject_of_model(const Options& options, CoefficientsFile file, Session&
       !options.length_unit.empty()) {
     throw UsageError(fmt::format(
         "{} holds coefficients: --degree, --tolerance, --center and --length-unit are for "
-        "shapes, which are analysed first",
+        "shapes, which are expanded first",
         display_name(options.input)));
   }
   Subject subject;
@@ -241,7 +241,7 @@ Subject subject_of(const Options& options, Session& session) {
 // Returns the command that makes a model within the same tolerance of the shape.
 std::optional<ReportCommand> atlas_command(const Options& options, const AtlasModel& model) {
   if (options.shape.empty() || !(model.tolerance > 0)) return std::nullopt;
-  std::string text = "rholm analyze " + quoted(options.shape) + " --atlas" +
+  std::string text = "rholm compress " + quoted(options.shape) +
                      option_text("tolerance", fmt::format("{}", model.tolerance));
   if (!model.unit.empty()) text += option_text("length-unit", model.unit);
   return ReportCommand{"A model within the same tolerance", text + " -o " + quoted(options.input)};
@@ -277,7 +277,7 @@ std::string page_of_atlas(const Options& options, Session& session) {
 
 int run(const Options& options, Session& session) {
   check_options(options);
-  encode_options(options);  // refuses wrong values before anything is read
+  expand_options(options);  // refuses wrong values before anything is read
   check_writable(options.output);
   const std::string viewer = options.interactive ? viewer_script() : "";
   if (holds_atlas(options.input)) {
@@ -315,7 +315,7 @@ std::vector<Option> input_options(Options& o) {
        .offer = Offer::kShapes},
       {.name = "degree",
        .value = "L",
-       .help = "of the analysis of a mesh; 64 by default",
+       .help = "of the transform of a mesh; 64 by default",
        .target = &o.degree,
        .min = 0,
        .max = kMaxDegree}};
@@ -366,7 +366,7 @@ Command report_command() {
       .examples = {"rholm report bumpy.ply --degree 32 --size 160 -o report.html",
                    "rholm report bumpy.h5 --shape bumpy.ply --size 160 -o report.html"},
       .run = [options](Session& session) { return run(*options, session); },
-      .if_not_star = "'rholm analyze --atlas' makes a model of it, to report on with --shape"};
+      .if_not_star = "'rholm compress' makes a model of it, to report on with --shape"};
 }
 
 }  // namespace rholm::cli

@@ -110,7 +110,7 @@ Command studio_command() {
   return {.name = "studio",
           .summary = "Shapes worked on in the browser",
           .description =
-              "Opens a page in the browser where shapes are looked at, analyzed, smoothed, given "
+              "Opens a page in the browser where shapes are looked at, expanded, smoothed, given "
               "texture, made from points and saved, with all steps undone and redone at will, and "
               "the commands that do the same.\n\nThe page is served on this machine only, to who "
               "knows the address that is printed: keep it to yourself, it has a key in it. Ctrl-C, "

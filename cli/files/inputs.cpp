@@ -153,7 +153,7 @@ CoefficientsFile read_file(const std::string& path, Session& session,
   if (source.guess == Guess::kShape) {
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("{} is a shape, and coefficients are needed; make them with 'rholm "
-                            "analyze {} --degree L -o OUT.h5'",
+                            "expand {} --degree L -o OUT.h5'",
                             display_name(path), shell_word(path)));
   }
   return read_coefficients_of(source, session, convention.reading());

@@ -14,7 +14,7 @@ namespace rholm::cli {
 
 Option weld_option(double& tolerance) {
   Option option;
-  for_each_field<EncodeOptions>([&](auto, const FieldInfo& info) {
+  for_each_field<ExpandOptions>([&](auto, const FieldInfo& info) {
     if (info.name == std::string_view("weld")) option = field_option(info, tolerance);
   });
   return option;

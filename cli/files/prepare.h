@@ -25,7 +25,7 @@ struct Prepared {
 };
 
 // Welds the mesh, turns it right side out, and checks that it is closed and oriented: the same
-// first steps as encode(). Throws InvalidInput.
+// first steps as expand(). Throws InvalidInput.
 Prepared prepare(const Mesh& mesh, double weld_tolerance);
 
 // Note on a mesh that was inside out.

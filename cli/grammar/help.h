@@ -21,10 +21,10 @@ std::string version_text(const ProgramText& program);
 std::string program_help(const ProgramText& program, std::span<const Command> commands);
 std::string command_help(const Command& command);
 
-// Returns the command as typed: "rholm analyze", or the program alone for a single command.
+// Returns the command as typed: "rholm expand", or the program alone for a single command.
 std::string typed_name(const Command& command);
 
-// Returns "rholm analyze SHAPE --degree L [--method edge|gauge] -o OUT" in lines of at most `width`
+// Returns "rholm expand SHAPE --degree L [--method edge|gauge] -o OUT" in lines of at most `width`
 // characters; the second and later lines are indented.
 std::string usage_line(const Command& command, std::size_t width);
 

@@ -1,5 +1,6 @@
 #include "cli/grammar/old_names.h"
 
+#include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -20,18 +21,66 @@ constexpr OldName kOldNames[] = {{"align", "--center", "--centers"},
                                  {"reconstruct", "--brick-points", "--tile-points"},
                                  {"smooth", "--fit", "--fitting"}};
 
+std::string note_of(std::string_view old_name, std::string_view name) {
+  return fmt::format("{} is {} now; the next version refuses the old name", old_name, name);
+}
+
+// Replaces "analyze", which became two commands: --atlas among its options chose the second one.
+// Returns a note if the word was replaced.
+std::vector<std::string> replace_analyze(std::string& word, std::vector<std::string>& options,
+                                         std::size_t first) {
+  if (word != "analyze") return {};
+  const auto begin = options.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto atlas = std::find(begin, options.end(), "--atlas");
+  if (atlas == options.end()) {
+    word = "expand";
+    return {note_of("analyze", word)};
+  }
+  word = "compress";
+  options.erase(atlas);
+  return {note_of("analyze --atlas", "compress")};
+}
+
+// Replaces the old name in --command of a batch, whose options of the command follow "--".
+std::vector<std::string> replace_in_batch(std::vector<std::string>& words) {
+  for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
+    constexpr std::string_view kJoined = "--command=";
+    if (words[i] == "--command=analyze") {
+      std::string name = words[i].substr(kJoined.size());
+      auto notes = replace_analyze(name, words, i + 1);
+      words[i] = std::string(kJoined) + name;
+      return notes;
+    }
+    if (words[i] == "--command" && i + 1 < words.size()) {
+      std::string name = words[i + 1];
+      auto notes = replace_analyze(name, words, i + 2);
+      words[i + 1] = name;
+      return notes;
+    }
+  }
+  return {};
+}
+
 }  // namespace
+
+std::vector<std::string> replace_old_command(std::vector<std::string>& words) {
+  if (words.empty()) return {};
+  std::string name = words.front();
+  auto notes = replace_analyze(name, words, 1);
+  words.front() = name;
+  return notes;
+}
 
 std::vector<std::string> replace_old_names(const Command& command,
                                            std::vector<std::string>& words) {
   std::vector<std::string> notes;
+  if (command.name == "batch") notes = replace_in_batch(words);
   for (std::string& word : words) {
     if (word == "--") break;  // operands follow
     for (const OldName& old : kOldNames) {
       if (command.name != old.command || word.substr(0, word.find('=')) != old.old_name) continue;
       word.replace(0, old.old_name.size(), old.name);
-      notes.push_back(fmt::format("{} is {} now; the next version refuses the old name",
-                                  old.old_name, old.name));
+      notes.push_back(note_of(old.old_name, old.name));
     }
   }
   return notes;

@@ -1,4 +1,4 @@
-// Names of options in the previous version. Layer: cli.
+// Names of commands and options in the previous version. Layer: cli.
 #pragma once
 
 #include <string>
@@ -11,5 +11,8 @@ namespace rholm::cli {
 // Replaces old names, which this version still understands, by present names. Returns a note for
 // each.
 std::vector<std::string> replace_old_names(const Command& command, std::vector<std::string>& words);
+
+// Replaces an old name of a command, the first of the words. Returns the notes.
+std::vector<std::string> replace_old_command(std::vector<std::string>& words);
 
 }  // namespace rholm::cli

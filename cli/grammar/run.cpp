@@ -46,14 +46,16 @@ Outcome outcome_of(const std::function<int()>& work) {
   }
 }
 
-int run_command(const Command& command, std::span<const std::string> words) {
+int run_command(const Command& command, std::span<const std::string> words,
+                std::span<const std::string> notes) {
   CommonOptions common;
   try {
     std::vector<std::string> today(words.begin(), words.end());
-    const std::vector<std::string> notes = replace_old_names(command, today);
+    const std::vector<std::string> more_notes = replace_old_names(command, today);
     parse(command, today, common);
     Session session(common);
     for (const std::string& note : notes) session.note(note);
+    for (const std::string& note : more_notes) session.note(note);
     return command.run(session);
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("{}\nTry '{} --help'.", error.what(), typed_name(command)));

@@ -20,6 +20,7 @@ Outcome outcome_of(const std::function<int()>& work);
 
 // Parses `words` (without the name) into the command's options and runs it. Throws its exceptions,
 // with the command's advice added.
-int run_command(const Command& command, std::span<const std::string> words);
+int run_command(const Command& command, std::span<const std::string> words,
+                std::span<const std::string> notes = {});
 
 }  // namespace rholm::cli

@@ -5,11 +5,11 @@
 #include <string>
 
 #include "cli/terminal/json.h"
-#include "rholm/analyze.h"
 #include "rholm/coefficients.h"
 #include "rholm/mesh.h"
 #include "rholm/star.h"
 #include "rholm/topology.h"
+#include "rholm/transform.h"
 
 namespace rholm::cli {
 

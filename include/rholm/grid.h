@@ -27,7 +27,7 @@ struct Grid {
   int n_phi = 0;                             // number of directions on each ring
 };
 
-// Returns the highest degree at which functions on this grid are analyzed exactly: the minimum of
+// Returns the highest degree at which functions on this grid are expanded exactly: the minimum of
 // n_theta - 1 (with poles n_theta - 2) and (n_phi - 1) / 2. May be negative.
 int exact_degree(const Grid& grid);
 

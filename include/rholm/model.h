@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "rholm/analyze.h"
 #include "rholm/coefficients.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/context.h"
@@ -18,28 +17,29 @@
 #include "rholm/mesh_view.h"
 #include "rholm/star.h"
 #include "rholm/topology.h"
+#include "rholm/transform.h"
 #include "rholm/truncation.h"
 
 namespace rholm {
 
 // Degree or tolerance of a model, and the permitted changes to the mesh.
-struct EncodeOptions {
-  AnalyzeOptions analyze = {};  // degree, method, precision
-  // If set, the smallest degree that keeps this tolerance replaces analyze.degree.
+struct ExpandOptions {
+  int degree = TransformOptions{}.degree;  // these four as in TransformOptions
+  Method method = TransformOptions{}.method;
+  Engine engine = TransformOptions{}.engine;
+  double precision = TransformOptions{}.precision;
+  // If set, the smallest degree that keeps this tolerance replaces `degree`.
   std::optional<Tolerance> tolerance = {};
   bool errors = true;         // measure and predict Expansion::errors, for star-shaped surfaces
   ChartOptions chart = {};    // the centre, and whether other than star-shaped surfaces are allowed
   double weld_tolerance = 0;  // tolerance in the shape's unit; 0 merges bit-identical vertices
 };
 
-// Lists the fields of EncodeOptions (fields.h), with the lists of their parts.
+// Lists the fields of ExpandOptions (fields.h), with the lists of their parts.
 template <typename Visitor>
-void visit_fields(FieldsOf<EncodeOptions>, const Visitor& field) {
-  using O = EncodeOptions;
-  field(&O::analyze, {.name = "analyze",
-                      .help = "degree, method, precision",
-                      .in_program = false,
-                      .in_python = false});
+void visit_fields(FieldsOf<ExpandOptions>, const Visitor& field) {
+  using O = ExpandOptions;
+  visit_transform_fields<O>(field);
   field(&O::tolerance, {.name = "tolerance",
                         .help = "the smallest degree that keeps it, instead of a given one",
                         .in_program = false,
@@ -58,7 +58,15 @@ void visit_fields(FieldsOf<EncodeOptions>, const Visitor& field) {
                              .least = 0});
 }
 
-// How a tolerance was kept: see ToleranceAnalysis.
+// Returns the options of the transform alone.
+inline TransformOptions transform_options(const ExpandOptions& options) {
+  return {.degree = options.degree,
+          .method = options.method,
+          .engine = options.engine,
+          .precision = options.precision};
+}
+
+// How a tolerance was kept: see ToleranceTransform.
 struct ToleranceReport {
   double allowed = 0, reached = 0;  // wanted and final error, in the mesh's unit
   bool met = false;                 // true if reached <= allowed
@@ -77,8 +85,8 @@ void visit_fields(FieldsOf<ToleranceReport>, const Visitor& field) {
 }
 
 // A mesh as coefficients, with a report.
-struct Encoded {
-  Analysis analysis;                         // analysis.expansion is the model
+struct Expanded {
+  Transform transform;                       // transform.expansion is the model
   std::optional<ToleranceReport> tolerance;  // if a tolerance was wanted
   StarReport star;                           // the centre, and how well the surface is seen from it
   double diagonal = 0;                       // diagonal of the bounding box
@@ -91,11 +99,11 @@ struct Encoded {
   StageTimes times;
 };
 
-// Lists the fields of Encoded (fields.h).
+// Lists the fields of Expanded (fields.h).
 template <typename Visitor>
-void visit_fields(FieldsOf<Encoded>, const Visitor& field) {
-  using E = Encoded;
-  field(&E::analysis, {.name = "analysis", .help = "how the coefficients were found"});
+void visit_fields(FieldsOf<Expanded>, const Visitor& field) {
+  using E = Expanded;
+  field(&E::transform, {.name = "transform", .help = "how the coefficients were found"});
   field(&E::tolerance, {.name = "tolerance", .help = "how the tolerance was kept, or None"});
   field(&E::star, {.name = "star", .help = "the centre, and how well it sees the surface"});
   field(&E::diagonal, {.name = "diagonal", .help = "of the bounding box"});
@@ -111,25 +119,25 @@ void visit_fields(FieldsOf<Encoded>, const Visitor& field) {
 // Welds the mesh, turns it right side out, checks it, finds the centre, computes coefficients. A
 // mesh that needs neither welding nor turning is not copied. Throws InvalidInput for options out of
 // range, and the errors of its stages.
-Encoded encode(const Mesh& mesh, const EncodeOptions& options = {}, const Context& context = {});
+Expanded expand(const Mesh& mesh, const ExpandOptions& options = {}, const Context& context = {});
 // Same for arrays of another program; they are copied only if they must be changed.
-Encoded encode(const MeshView& mesh, const EncodeOptions& options = {},
-               const Context& context = {});
+Expanded expand(const MeshView& mesh, const ExpandOptions& options = {},
+                const Context& context = {});
 // Same for a mesh in a mapped file, without a copy. Returns nothing if the file must be read.
 // Causes: a mesh not closed, not oriented outwards, or not star-shaped (unless allowed with a given
 // centre). Further causes: welding wanted, or not the method edge with the fast engine. Throws
 // errors that do not concern the mesh (options, memory, Cancelled).
-std::optional<Encoded> encode_mapped(const MappedMesh& mesh, const EncodeOptions& options = {},
-                                     const Context& context = {});
+std::optional<Expanded> expand_mapped(const MappedMesh& mesh, const ExpandOptions& options = {},
+                                      const Context& context = {});
 // Same for a file. A large binary PLY file is mapped, not read (mapped_mesh.h), if its mesh needs
 // no change: closed, oriented outwards, no welding wanted. If mapping fails, the file is read and
-// not mapped again. Encoded::times also has "read". The reader's warnings are appended to
+// not mapped again. Expanded::times also has "read". The reader's warnings are appended to
 // `warnings`.
-Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options = {},
-                    const Context& context = {}, std::vector<std::string>* warnings = nullptr);
+Expanded expand_file(const std::filesystem::path& path, const ExpandOptions& options = {},
+                     const Context& context = {}, std::vector<std::string>* warnings = nullptr);
 // Same, but the function `read` reads the mesh if the file cannot be mapped.
-Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
-                    const Context& context, const std::function<Mesh()>& read);
+Expanded expand_file(const std::filesystem::path& path, const ExpandOptions& options,
+                     const Context& context, const std::function<Mesh()>& read);
 
 // Write and read the model file: HDF5, layout in docs/model-file.md. Writing goes to a temporary
 // file that replaces `path` when complete. "-" can be read but not written (HDF5 seeks). Throw Io,

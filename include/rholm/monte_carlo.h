@@ -25,11 +25,11 @@
 #include <string>
 #include <vector>
 
-#include "rholm/analyze.h"
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
 #include "rholm/fields.h"
 #include "rholm/star.h"
+#include "rholm/transform.h"
 
 namespace rholm {
 
@@ -104,7 +104,7 @@ struct MonteCarlo {
   // For each l, the l2 standard error of its 2l + 1 coefficients together. Over sqrt(4 pi) it is
   // the root mean square error of the function of degree l over the sphere.
   std::vector<double> degree_deviation;
-  // As in Analysis; the uncertainty is 3 deviations. Empty unless there are very many samples.
+  // As in Transform; the uncertainty is 3 deviations. Empty unless there are very many samples.
   std::optional<double> truncation_rms, truncation_rms_doubt;
   StageTimes times;  // stages "samples", "sums", "norms"
 };

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "rholm/align.h"
-#include "rholm/analyze.h"
 #include "rholm/atlas.h"
 #include "rholm/atlas_model.h"
 #include "rholm/batch.h"
@@ -53,6 +52,7 @@
 #include "rholm/synthesize.h"
 #include "rholm/topology.h"
 #include "rholm/transfer.h"
+#include "rholm/transform.h"
 #include "rholm/truncation.h"
 #include "rholm/vec3.h"
 #include "rholm/version.h"

@@ -21,7 +21,7 @@ struct RmsBeyond {
   // errors take precedence: an exact error bounds it, and a measured error that differs from the
   // norm's shows the energy that the coefficients lack.
   std::optional<double> doubt;
-  double precision = 0;               // the expansion's, or AnalyzeOptions' default
+  double precision = 0;               // the expansion's, or TransformOptions' default
   bool precision_is_assumed = false;  // true if the expansion's precision is unknown
   // Returns true if rms includes degrees above the expansion's own, known from norm_squared.
   bool includes_tail() const { return doubt.has_value(); }

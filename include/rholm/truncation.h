@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "rholm/analyze.h"
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
 #include "rholm/fields.h"
 #include "rholm/mesh_view.h"
 #include "rholm/star.h"
+#include "rholm/transform.h"
 
 namespace rholm {
 
@@ -110,10 +110,10 @@ void visit_fields(FieldsOf<Tolerance>, const Visitor& field) {
 }
 
 // The degree for a tolerance, with its coefficients.
-struct ToleranceAnalysis {
-  // Analysis of the smallest degree that keeps the tolerance, or of max_degree. For a tolerance on
+struct ToleranceTransform {
+  // Transform of the smallest degree that keeps the tolerance, or of max_degree. For a tolerance on
   // the largest error or on distances, its expansion has measured errors.
-  Analysis analysis;
+  Transform transform;
   double allowed = 0;        // error in the mesh's unit
   double reached = 0;        // error of that degree, in the norm and measure of the tolerance
   bool met = false;          // reached <= allowed
@@ -126,7 +126,7 @@ struct ToleranceAnalysis {
 // is ignored; the precision is as fine as the tolerance needs, at most options.precision. Throws
 // InvalidInput for a tolerance out of range, the method gauge, and a surface that is not
 // star-shaped.
-ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
-                          const AnalyzeOptions& options = {}, const Context& context = {});
+ToleranceTransform expand(const StarChart& chart, const Tolerance& tolerance,
+                          const TransformOptions& options = {}, const Context& context = {});
 
 }  // namespace rholm

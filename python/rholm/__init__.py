@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import _arguments, _reconstruct
+from . import _arguments, _old_names
 from ._atlas import (
     NO_CAP,
     Atlas,
@@ -38,11 +38,11 @@ from ._atlas import (
 )
 from ._batch import BatchTable, batch, read_batch
 from ._charts import (
-    Analyzed,
+    ChartExpansion,
     MonteCarlo,
     StarChart,
-    analyze,
     check_star,
+    expand_chart,
     find_center,
     gauge_norm_squared,
     make_star_chart,
@@ -68,7 +68,6 @@ from ._core import (
     MAX_DEGREE,
     AlignedRotation,
     Alignment,
-    Analysis,
     AtlasErrors,
     AtlasSize,
     Bounds,
@@ -77,8 +76,8 @@ from ._core import (
     Comparison,
     CompressReport,
     Distances,
-    Encoded,
     ErrorStrengths,
+    Expanded,
     FastReport,
     GravityField,
     Inspection,
@@ -95,6 +94,7 @@ from ._core import (
     TileForecast,
     ToleranceReport,
     TransferReport,
+    Transform,
     TruncationErrors,
 )
 from ._core import (
@@ -110,7 +110,7 @@ from ._edit import (
     smooth,
     update,
 )
-from ._encode import as_expansion, encode, expand, from_array, from_pyshtools
+from ._expand import as_expansion, expand, from_array, from_pyshtools
 from ._errors import (
     CancelledError,
     Error,
@@ -269,8 +269,6 @@ from ._view import view, view_data
 __all__ = [
     "AlignedRotation",
     "Alignment",
-    "Analysis",
-    "Analyzed",
     "Atlas",
     "AtlasErrors",
     "AtlasSize",
@@ -280,14 +278,15 @@ __all__ = [
     "Cap",
     "CleanReport",
     "Cleaned",
+    "ChartExpansion",
     "CoefficientsFile",
     "CoefficientsLike",
     "Comparison",
     "CompressReport",
     "Distances",
-    "Encoded",
     "Error",
     "ErrorStrengths",
+    "Expanded",
     "Expansion",
     "FastReport",
     "FileFormat",
@@ -335,6 +334,7 @@ __all__ = [
     "ToleranceReport",
     "TransferEditor",
     "TransferReport",
+    "Transform",
     "TransferSource",
     "TruncationErrors",
     "UnsupportedError",
@@ -342,7 +342,6 @@ __all__ = [
     "__version__",
     "adjoint",
     "align",
-    "analyze",
     "analyze_grid",
     "analyze_patch",
     "analyze_source",
@@ -379,7 +378,7 @@ __all__ = [
     "dominant_caps",
     "ellipsoid",
     "enclosed_volume",
-    "encode",
+    "expand_mesh",
     "encode_png",
     "euler_angles_of",
     "evaluate",
@@ -387,6 +386,7 @@ __all__ = [
     "evaluate_with_gradient",
     "exact_degree",
     "expand",
+    "expand_chart",
     "filter",
     "find_center",
     "flip",
@@ -491,4 +491,4 @@ _arguments.check_all(__name__, __all__)
 if not TYPE_CHECKING:  # otherwise type checkers would accept every name
 
     def __getattr__(name: str) -> object:
-        return _reconstruct.old_thing(name)
+        return _old_names.old_thing(name)

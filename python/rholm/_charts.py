@@ -10,7 +10,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import FloatArray, triple
 from ._coefficients import Function, array_of
-from ._encode import as_expansion, center_options, transform_options
+from ._expand import as_expansion, center_options, tolerance_of
 from ._expansion import Expansion
 from ._options import given_of, options_of, takes
 from ._run import Progress, caller
@@ -19,7 +19,7 @@ from ._shapes import Mesh, MeshLike, outward_mesh
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._encode import TransformKeywords
+    from ._expand import ChartExpandKeywords
     from ._keywords import MonteCarloKeywords
 
 
@@ -30,7 +30,7 @@ def _chart_core(chart: Any) -> _core.StarChart:
 
 
 class StarChart:
-    """A mesh relative to a centre: the input of `analyze` and `monte_carlo`."""
+    """A mesh relative to a centre: the input of `expand_chart` and `monte_carlo`."""
 
     __slots__ = ("_core",)
 
@@ -107,19 +107,19 @@ def check_star(
         return _core.check_star(outward_mesh(mesh)._core, at, rays, how)
 
 
-class Analyzed(NamedTuple):
-    """Result of `analyze`."""
+class ChartExpansion(NamedTuple):
+    """Result of `expand_chart`."""
 
     expansion: Expansion
     """The coefficients."""
-    analysis: _core.Analysis
+    transform: _core.Transform
     """How they were found."""
     tolerance: _core.ToleranceReport | None
     """How a tolerance was kept."""
 
 
-@takes(_core.AnalyzeOptions, _core.Tolerance)
-def analyze(
+@takes(_core.TransformOptions, _core.Tolerance)
+def expand_chart(
     chart: StarChart,
     degree: int | None = None,
     *,
@@ -127,8 +127,8 @@ def analyze(
     measure: Literal["radius", "distance"] | None = None,
     threads: int = 0,
     progress: Progress = None,
-    **options: Unpack[TransformKeywords],
-) -> Analyzed:
+    **options: Unpack[ChartExpandKeywords],
+) -> ChartExpansion:
     """Computes the coefficients of a chart by the chosen method: a step of `expand`.
 
     Parameters
@@ -139,15 +139,18 @@ def analyze(
         As in `expand`.
     {options}
     """
-    parts = given_of(_core.AnalyzeOptions, _core.Tolerance, given={**options}, function="analyze")
-    wanted, allowed = transform_options(degree, tolerance, measure, *parts)
+    transform, kept = given_of(
+        _core.TransformOptions, _core.Tolerance, given={**options}, function="expand_chart"
+    )
+    wanted = _core.TransformOptions(degree=degree, **transform)
+    allowed = tolerance_of(degree, tolerance, measure, kept)
     report = None
     with caller(threads, progress) as how:
         if allowed is None:
-            analysis = _core.analyze(_chart_core(chart), wanted, how)
+            found = _core.expand_chart(_chart_core(chart), wanted, how)
         else:
-            analysis, report = _core.analyze_to_tolerance(_chart_core(chart), allowed, wanted, how)
-    return Analyzed(Expansion._of(analysis.expansion), analysis, report)
+            found, report = _core.expand_chart_to_tolerance(_chart_core(chart), allowed, wanted, how)
+    return ChartExpansion(Expansion._of(found.expansion), found, report)
 
 
 def radius_norm_squared(chart: StarChart) -> float:

@@ -47,7 +47,7 @@ class Expansion(Described):
     Calling an expansion returns radii: ``s(directions)``.
     """
 
-    __slots__ = ("_core", "_encoded", "_name", "_shape")
+    __slots__ = ("_core", "_expanded", "_name", "_shape")
 
     def __init__(
         self,
@@ -59,15 +59,15 @@ class Expansion(Described):
         method: str = "",
     ) -> None:
         self._core = _core.Expansion(core_of(coeffs), function, triple(center, "center"), unit, method)
-        self._encoded: _core.Encoded | None = None
+        self._expanded: _core.Expanded | None = None
         self._shape: Any = None
         self._name = ""
 
     @classmethod
-    def _of(cls, core: _core.Expansion, encoded: Any = None, shape: Any = None, name: str = "") -> Expansion:
+    def _of(cls, core: _core.Expansion, expanded: Any = None, shape: Any = None, name: str = "") -> Expansion:
         self = cls.__new__(cls)
         self._core = core
-        self._encoded = encoded
+        self._expanded = expanded
         self._shape = shape
         self._name = name
         return self
@@ -156,9 +156,9 @@ class Expansion(Described):
         return self._core.tail_strength
 
     @property
-    def encoded(self) -> _core.Encoded | None:
+    def expanded(self) -> _core.Expanded | None:
         """Report of `expand`: centre, star check, times. None for other expansions."""
-        return self._encoded
+        return self._expanded
 
     @property
     def signed_sum(self) -> bool:
@@ -522,7 +522,7 @@ class Expansion(Described):
         unit : str
             Name of the unit: "km", "mm", ...
         """
-        return Expansion._of(self._core.with_unit(unit), self._encoded, self._shape, self._name)
+        return Expansion._of(self._core.with_unit(unit), self._expanded, self._shape, self._name)
 
     def with_gravity(self, gravity_constant: float, reference_radius: float) -> Expansion:
         """Returns the expansion as a gravity field with these reference values; the numbers stay.
@@ -543,7 +543,7 @@ class Expansion(Described):
             For numbers that are not above 0, or an expansion whose function is not "other".
         """
         core = self._core.with_gravity(gravity_constant, reference_radius)
-        return Expansion._of(core, self._encoded, self._shape, self._name)
+        return Expansion._of(core, self._expanded, self._shape, self._name)
 
     def principal_axes(self) -> _core.PrincipalAxes:
         """Returns the axes of the degree-2 coefficients, longest first, about the expansion's
@@ -747,10 +747,10 @@ class Expansion(Described):
 
     def __reduce__(self) -> Any:
         # The shape is left out: it may be large, or of a type that cannot be pickled.
-        return (Expansion._of, (self._core, self._encoded, None, self._name))
+        return (Expansion._of, (self._core, self._expanded, None, self._name))
 
     def __copy__(self) -> Expansion:
-        return Expansion._of(self._core, self._encoded, self._shape, self._name)
+        return Expansion._of(self._core, self._expanded, self._shape, self._name)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Expansion:
         return self.__copy__()  # nothing in it can be changed

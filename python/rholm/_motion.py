@@ -10,7 +10,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import FloatArray, float_row, numeric
 from ._coefficients import array_of, core_of
-from ._encode import as_expansion
+from ._expand import as_expansion
 from ._errors import InvalidInputError
 from ._expansion import CoefficientsLike, Expansion
 from ._options import options_of, takes

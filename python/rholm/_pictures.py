@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import float_rows, floats, plain_array
-from ._encode import as_expansion
+from ._expand import as_expansion
 from ._errors import Error, InvalidInputError
 from ._expansion import Expansion
 from ._interop import required

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import FloatArray, float_rows, triple
 from ._atlas import Atlas
-from ._encode import as_expansion
+from ._expand import as_expansion
 from ._expansion import Expansion
 from ._model_files import load
 from ._options import options_of, takes

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from . import _core
-from ._encode import as_expansion, expand
+from ._expand import as_expansion, expand
 from ._errors import InvalidInputError, UnsupportedError
 from ._expansion import Expansion
 from ._interop import required

@@ -12,7 +12,7 @@ void bind_points(nanobind::module_& m);        // sampling, normals
 void bind_coefficients(nanobind::module_& m);  // conventions, filters, files
 void bind_harmonic(nanobind::module_& m);      // sums, grids
 void bind_motion(nanobind::module_& m);        // rotations, alignment, centres
-void bind_analysis(nanobind::module_& m);      // from a mesh to an expansion
+void bind_transform(nanobind::module_& m);     // from a mesh to an expansion
 void bind_surfaces(nanobind::module_& m);      // from an expansion to a mesh, distances
 void bind_atlases(nanobind::module_& m);       // compression, the paper's atlas
 void bind_reconstruction(nanobind::module_& m);

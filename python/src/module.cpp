@@ -20,7 +20,7 @@ NB_MODULE(_core, m) {
   bind_coefficients(m);
   bind_harmonic(m);
   bind_motion(m);
-  bind_analysis(m);
+  bind_transform(m);
   bind_surfaces(m);
   bind_atlases(m);
   bind_reconstruction(m);

@@ -124,7 +124,7 @@ def test_every_choice_is_one_of_the_library(bumpy):
         assert s.to_array(normalization).shape == (2, 5, 5)
     choices = {
         field["name"]: field["choices"]
-        for kind in (rholm._core.AnalyzeOptions, rholm._core.Tolerance)
+        for kind in (rholm._core.TransformOptions, rholm._core.Tolerance)
         for field in kind.FIELDS
     }
     for method in choices["method"]:
@@ -157,7 +157,7 @@ def test_properties_and_classes_are_checked_too(bumpy):
 
 def test_what_passes_options_on_is_checked_behind(bumpy):
     with pytest.raises(TypeError, match="degree is '8'"):
-        rholm.encode(bumpy, degree="8")
+        rholm.expand(bumpy, degree="8")
     with pytest.raises(TypeError, match="subdivisions is '2'"):
         rholm.synthesize(rholm.expand(bumpy, 2), subdivisions="2")
 

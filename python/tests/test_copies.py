@@ -28,9 +28,9 @@ def things(bumpy, ring):
     texture = rholm.analyze_source(bumpy, "ball:0,0,1,0.9")
     table = rholm.batch([bumpy, ring], lambda m: {"area": m.area, "name": "a", "row": [1.0, 2.0], "n": 3})
     return [
-        s, toleranced, s.errors, s.encoded, toleranced.encoded, toleranced.encoded.tolerance,
-        s.encoded.analysis, s.encoded.analysis.fast, s.encoded.star, s.measure(), s.principal_axes(),
-        chart, chart.report, rholm.monte_carlo(chart, 2, samples=4), rholm.analyze(chart, 4),
+        s, toleranced, s.errors, s.expanded, toleranced.expanded, toleranced.expanded.tolerance,
+        s.expanded.transform, s.expanded.transform.fast, s.expanded.star, s.measure(), s.principal_axes(),
+        chart, chart.report, rholm.monte_carlo(chart, 2, samples=4), rholm.expand_chart(chart, 4),
         rholm.vertex_error_strengths(bumpy, (0, 0, 0)), bumpy, bumpy.inspect(), bumpy.bounds, cloud,
         rholm.clean(cloud), rholm.orient(cloud.points), rholm.align_scans(scans), made, atlas,
         atlas.report, atlas.errors, atlas.size, atlas.cap(0), patches, found, found.alignment,
@@ -102,15 +102,15 @@ def test_exceptions_can_be_pickled():
 
 
 def _errors_of(s):
-    return s.errors, s.encoded
+    return s.errors, s.expanded
 
 
 def test_results_come_back_from_other_processes(bumpy):
     s = rholm.expand(bumpy, 6)
     with ProcessPoolExecutor(1) as pool:
-        errors, encoded = pool.submit(_errors_of, s).result()
+        errors, expanded = pool.submit(_errors_of, s).result()
     assert errors == s.errors
-    assert encoded.to_dict().keys() == s.encoded.to_dict().keys()
+    assert expanded.to_dict().keys() == s.expanded.to_dict().keys()
 
 
 def test_shapes_and_records_are_equal_by_value(bumpy):
@@ -143,7 +143,7 @@ def test_arrays_that_are_copies_cannot_be_written_to(bumpy):
     s = rholm.expand(bumpy, 4)
     marked = bumpy.with_attributes(q=np.zeros(len(bumpy.vertices)), rgb=np.ones((len(bumpy.vertices), 3)))
     for array in (
-        s.coeffs, s.center, s.centroid, s.encoded.star.center, bumpy.vertices, bumpy.triangles,
+        s.coeffs, s.center, s.centroid, s.expanded.star.center, bumpy.vertices, bumpy.triangles,
         marked.attributes["q"], marked.normals, marked.colors, bumpy.bounds.min, s.principal_axes().axes,
         rholm.sample_surface(bumpy, 20).normals, rholm.compress(bumpy, 0.1).cap(0).axes,
     ):  # fmt: skip

@@ -66,7 +66,7 @@ def test_a_direct_sum_agrees_with_the_fast_one(bumpy):
 def test_a_tolerance_is_kept(bumpy):
     for unit, norm in (("absolute", "rms"), ("diagonal", "rms"), ("radius", "max")):
         s = rholm.expand(bumpy, tolerance=3e-3, unit=unit, norm=norm)
-        kept = s.encoded.tolerance
+        kept = s.expanded.tolerance
         assert kept.met
         assert kept.reached <= kept.allowed
         assert kept.degrees[-1] >= s.degree
@@ -79,7 +79,7 @@ def test_errors_are_those_of_the_surface(bumpy):
     there = s(bumpy.vertices - s.center)
     radii = np.linalg.norm(bumpy.vertices - s.center, axis=1)
     assert np.abs(there - radii).max() <= 1.0001 * s.errors.measured_max
-    assert s.errors.rms_is_exact == (s.encoded.analysis.truncation_rms is not None)
+    assert s.errors.rms_is_exact == (s.expanded.transform.truncation_rms is not None)
     assert rholm.truncation_errors(bumpy, s).rms == pytest.approx(s.errors.rms, rel=1e-6)
 
 
@@ -228,7 +228,7 @@ def test_centres_have_names(bumpy):
     kernel, slope = (rholm.expand(bumpy, 4, center=kind) for kind in ("kernel", "slope"))
     assert not np.allclose(kernel.center, slope.center)
     assert np.all(rholm.expand(bumpy, 4).center == slope.center)
-    assert kernel.encoded.star.min_d >= slope.encoded.star.min_d > 0
+    assert kernel.expanded.star.min_d >= slope.expanded.star.min_d > 0
     with pytest.raises(rholm.InvalidInputError, match="kernel"):
         rholm.expand(bumpy, 4, center="middle")
 
@@ -275,7 +275,7 @@ def test_files_come_back(bumpy, tmp_path, name):
 
 def test_the_program_gives_the_same_bits(program, bumpy, tmp_path):
     bumpy.save(tmp_path / "b.ply")
-    run = [program, "analyze", tmp_path / "b.ply", "--degree", "20", "-o", tmp_path / "m.h5", "--quiet"]
+    run = [program, "expand", tmp_path / "b.ply", "--degree", "20", "-o", tmp_path / "m.h5", "--quiet"]
     subprocess.run(run, check=True)
     theirs = rholm.load(tmp_path / "m.h5")
     ours = rholm.expand(tmp_path / "b.ply", 20)
@@ -349,14 +349,14 @@ def test_charts_and_methods(bumpy):
     chart = rholm.make_star_chart(bumpy)
     assert chart.report.star_shaped
     assert np.allclose(chart.mesh.vertices + chart.report.center, bumpy.vertices)
-    edge = rholm.analyze(chart, 6)
+    edge = rholm.expand_chart(chart, 6)
     for method in ("curl", "area"):
-        other = rholm.analyze(chart, 6, method=method).expansion
+        other = rholm.expand_chart(chart, 6, method=method).expansion
         assert np.abs(other.coeffs - edge.expansion.coeffs).max() < 1e-6
     # Parseval's identity: the norm in closed form bounds the energy of the coefficients.
     norm = rholm.radius_norm_squared(chart)
     assert 0 < norm - edge.expansion.spectrum("energy").sum() < 1e-2 * norm
-    found = rholm.analyze(chart, tolerance=1e-2)
+    found = rholm.expand_chart(chart, tolerance=1e-2)
     assert found.tolerance.met
     assert rholm.tail_strength(chart) == pytest.approx(edge.expansion.tail_strength, rel=1e-9)
     assert rholm.vertex_error_strengths(bumpy, chart.report.center).radius == pytest.approx(
@@ -370,9 +370,9 @@ def test_charts_and_methods(bumpy):
     assert not rholm.check_star(bumpy, (10, 0, 0)).star_shaped
 
 
-def test_encode_and_reports(bumpy, tmp_path):
+def test_reports(bumpy, tmp_path):
     flipped = rholm.flip(bumpy)
-    assert rholm.encode(flipped, degree=4).flipped
+    assert rholm.expand(flipped, degree=4).expanded.flipped
     s = rholm.expand(bumpy, 6)
     page = s.report_html(tmp_path / "r.html", title="Body", picture_size=64)
     assert page.startswith("<!DOCTYPE html>")

@@ -132,7 +132,7 @@ def test_every_function_takes_every_kind_of_mesh_and_mends_it(tmp_path):
     soup = rholm.Mesh(inside_out.vertices[corners], np.arange(len(corners)).reshape(-1, 3))
     quick = [
         lambda m: rholm.expand(m, 6).volume,
-        lambda m: rholm.encode(m, degree=6, errors=False).analysis.expansion.coefficients.degree,
+        lambda m: rholm.expand(m, degree=6, errors=False).expanded.transform.expansion.coefficients.degree,
         lambda m: rholm.find_center(m, rays=100).star_shaped,
         lambda m: rholm.check_star(m, (0, 0, 0), rays=100).star_shaped,
         lambda m: rholm.make_star_chart(m, rays=100).report.star_shaped,

@@ -40,8 +40,9 @@ ELSEWHERE = {
     "is_batch_column": "",  # for manifests, which the program reads
     "write_batch": "BatchTable.to_hdf5",
     "discard_unfinished_files": "",  # for signal handlers of programs: Python's raise exceptions
-    "encode_file": "expand",  # for a path
-    "encode_mapped": "expand",  # for a path
+    "expand_file": "expand",  # for a path
+    "expand_mapped": "expand",  # for a path
+    "transform_options": "expand",
     "find_attribute": "Mesh.attributes",
     "attribute_warnings": "map_mesh",
     "described_attributes": "map_mesh",

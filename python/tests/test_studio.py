@@ -131,7 +131,7 @@ def test_the_page_asks_and_is_told(page, bumpy):
     status, kind, body = browser.ask("GET", "api/state")
     assert (status, kind) == (200, "application/json")
     assert [item["name"] for item in json.loads(body)["items"]] == ["bumpy"]
-    step = {"op": "analyze", "item": json.loads(body)["items"][0]["id"], "degree": 6, "center": "auto"}
+    step = {"op": "expand", "item": json.loads(body)["items"][0]["id"], "degree": 6, "center": "auto"}
     assert browser.ask("POST", "api/step", json.dumps(step).encode())[0] == 202
     browser.wait_for("state", lambda state: state["items"] and state["items"][0]["expansion"])
     browser.wait_for("job", lambda job: job["state"] == "done")

@@ -14,7 +14,7 @@ Expansion blended(const Expansion& a, const Expansion& b, double t) {
   }
   if (a.function != b.function) {
     throw Error(ErrorCode::kInvalidInput,
-                fmt::format("a {} and a {} cannot be blended: analyze both in the same way",
+                fmt::format("a {} and a {} cannot be blended: expand both in the same way",
                             to_string(a.function), to_string(b.function)));
   }
   const int degree = std::max(a.coefficients.degree(), b.coefficients.degree());

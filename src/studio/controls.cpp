@@ -6,13 +6,13 @@
 #include <span>
 
 #include "rholm/align.h"
-#include "rholm/analyze.h"
 #include "rholm/compress.h"
 #include "rholm/points.h"
 #include "rholm/reconstruct.h"
 #include "rholm/repair.h"
 #include "rholm/smooth.h"
 #include "rholm/transfer.h"
+#include "rholm/transform.h"
 #include "studio/answers.h"
 #include "studio/names.h"
 #include "studio/recipe.h"
@@ -122,8 +122,8 @@ class Controls {
 
 Json controls() {
   Json all = Json::object();
-  Controls("analyze")
-      .fields<AnalyzeOptions>()
+  Controls("expand")
+      .fields<TransformOptions>()
       .show("degree",
             {.label = "Up to degree", .least = 1, .most = 1024, .at = 32, .scale = Scale::kLog})
       .add_to(all);

@@ -1,4 +1,4 @@
-// Steps on expansions: analyze, look, align, blend.
+// Steps on expansions: expand, look, align, blend.
 #include <algorithm>
 #include <numbers>
 
@@ -17,13 +17,17 @@ namespace {
 
 ItemPtr with_model(const Json& request, const char* field, const Document& now) {
   ItemPtr item = item_in(request, field, now);
-  if (!item->model) throw wrong_kind(*item, "it has no expansion yet; analyze it first");
+  if (!item->model) throw wrong_kind(*item, "it has no expansion yet; expand it first");
   return item;
 }
 
-EncodeOptions analysis_in(const Json& request) {
-  EncodeOptions options;
-  take_fields(request, options.analyze);
+ExpandOptions expansion_options_in(const Json& request) {
+  TransformOptions transform;
+  take_fields(request, transform);
+  ExpandOptions options{.degree = transform.degree,
+                        .method = transform.method,
+                        .engine = transform.engine,
+                        .precision = transform.precision};
   if (const std::optional<double> tolerance = maybe_number(request, "tolerance")) {
     options.tolerance = Tolerance{.error = *tolerance};
   } else {
@@ -43,15 +47,15 @@ Named shape_of(Recipe& recipe, const Item& item) {
   return item.original ? Named{item.file, item.variable} : surface_of(recipe, item);
 }
 
-Step analyze_item(const Json& request, const Document& now, Shared& shared) {
+Step expand_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = item_in(request, "item", now);
   if (item->points) throw wrong_kind(*item, "it has no faces; reconstruct makes a surface of it");
-  const EncodeOptions options = analysis_in(request);
-  Json wanted = recipe_step("analyze", request, {"tolerance", "degree", "center"});
-  record_fields(options.analyze, wanted);
-  return {"Analyze " + item->name, true, [=, &shared](Document& document, const Context& context) {
+  const ExpandOptions options = expansion_options_in(request);
+  Json wanted = recipe_step("expand", request, {"tolerance", "degree", "center"});
+  record_fields(transform_options(options), wanted);
+  return {"Expand " + item->name, true, [=, &shared](Document& document, const Context& context) {
             const std::shared_ptr<const Mesh> mesh = shape_of(*item);
-            Encoded encoded = encode(*mesh, options, context);
+            Expanded expanded = expand(*mesh, options, context);
             Item changed = *item;
             const Named shape = shape_of(document.recipe, *item);
             changed.file = shape.file;
@@ -63,8 +67,8 @@ Step analyze_item(const Json& request, const Document& now, Shared& shared) {
             changed.caps = 0;
             changed.limit = std::nullopt;
             changed.placed.clear();
-            encoded.analysis.expansion.unit = item->unit;
-            changed.model = make_model(std::move(encoded.analysis.expansion), mesh, context);
+            expanded.transform.expansion.unit = item->unit;
+            changed.model = make_model(std::move(expanded.transform.expansion), mesh, context);
             changed = with_look(changed, whole(*changed.model), context);
             changed.revision = ++shared.revisions;
             changed.model_file = document.recipe.file(stem_of(item->name), ".h5");
@@ -208,7 +212,7 @@ Step blend_items(const Json& request, const Document& now, Shared& shared) {
 
 std::optional<Step> expansion_step(const std::string& op, const Json& request, const Document& now,
                                    Shared& shared) {
-  if (op == "analyze") return analyze_item(request, now, shared);
+  if (op == "expand") return expand_item(request, now, shared);
   if (op == "look") return look_at(request, now, shared);
   if (op == "align") return align_items(request, now, shared);
   if (op == "blend") return blend_items(request, now, shared);

@@ -85,7 +85,7 @@ Item item_of_written(const AtlasModel& model, Scratch& scratch, const Context& c
   return item;
 }
 
-// Prepares a mesh in the same way as `rholm analyze --atlas`.
+// Prepares a mesh in the same way as `rholm compress`.
 Mesh prepared(const Mesh& mesh) {
   Mesh welded = weld(mesh).mesh;
   if (inspect(welded).inside_out) flip(welded);

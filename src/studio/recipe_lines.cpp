@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 
 #include "rholm/align.h"
-#include "rholm/analyze.h"
 #include "rholm/coefficients.h"
 #include "rholm/compress.h"
 #include "rholm/points.h"
@@ -14,6 +13,7 @@
 #include "rholm/repair.h"
 #include "rholm/shape_io.h"
 #include "rholm/star.h"
+#include "rholm/transform.h"
 #include "studio/controls.h"
 #include "studio/edits.h"
 #include "studio/recipe.h"
@@ -198,9 +198,9 @@ Options options_in(const Json& step) {
   return options;
 }
 
-void analyze(Reading& r) {
+void expand(Reading& r) {
   const Named from = r.used("from"), made = r.made();
-  const auto options = options_in<AnalyzeOptions>(r.step);
+  const auto options = options_in<TransformOptions>(r.step);
   Arguments words;
   if (const std::optional<double> tolerance = maybe_number(r.step, "tolerance")) {
     words.number("tolerance", *tolerance);
@@ -214,12 +214,11 @@ void analyze(Reading& r) {
     words.python += ", center=" + (wanted.kind == CenterKind::kGiven ? python_point(wanted.point)
                                                                      : python_text(center));
   }
-  words.fields(AnalyzeOptions{
+  words.fields(TransformOptions{
       .method = options.method, .engine = options.engine, .precision = options.precision});
-  r.say(
-      made,
-      fmt::format("rholm analyze {}{}{}", shell_word(from.file), words.shell, unit_option(r.step)),
-      fmt::format("rholm.expand({}{}{})", from.variable, words.python, python_unit(r.step)));
+  r.say(made,
+        fmt::format("rholm expand {}{}{}", shell_word(from.file), words.shell, unit_option(r.step)),
+        fmt::format("rholm.expand({}{}{})", from.variable, words.python, python_unit(r.step)));
 }
 
 void align_lines(Reading& r) {
@@ -359,7 +358,7 @@ void compress(Reading& r) {
   Arguments words;
   words.fields(options_in<CompressOptions>(r.step));
   r.say(made,
-        fmt::format("rholm analyze {} --atlas --tolerance {}{}{}", shell_word(from.file), tolerance,
+        fmt::format("rholm compress {} --tolerance {}{}{}", shell_word(from.file), tolerance,
                     words.shell, unit_option(r.step)),
         fmt::format("rholm.compress({}, {}{}{})", from.variable, tolerance, words.python,
                     python_unit(r.step)));
@@ -381,7 +380,7 @@ StepLines step_lines(const Json& step, const Recipe& before) {
       {"columns", read_columns},
       {"filter", filter},
       {"synthesize", synthesize_series},
-      {"analyze", analyze},
+      {"expand", expand},
       {"align", align_lines},
       {"blend", blend},
       {"unit", set_unit},

@@ -80,7 +80,7 @@ std::string picture_bytes(const Item& item, const std::string& size, const Conte
 std::string report_bytes(const Item& item, const Recipe& recipe, const Context& context) {
   if (!item.model && !item.atlas) {
     throw Refusal(422, "wrong_kind",
-                  item.name + " has neither an expansion nor caps to report on; analyze it first");
+                  item.name + " has neither an expansion nor caps to report on; expand it first");
   }
   ReportOptions options = {.title = item.name};
   for (const std::string& line : recipe.shell) options.commands.push_back({"Step", line});

@@ -207,7 +207,7 @@ Response Session::undo(bool redo) {
 
 Response Session::degree_for_tolerance(const Json& request) const {
   const ItemPtr item = item_in(request, "item", document());
-  if (!item->model) throw wrong_kind(*item, "it has no expansion yet; analyze it first");
+  if (!item->model) throw wrong_kind(*item, "it has no expansion yet; expand it first");
   if (!item->model->beyond) throw wrong_kind(*item, "its errors are not known");
   const std::optional<int> degree =
       item->model->beyond->degree_within(number_of(request, "tolerance"));

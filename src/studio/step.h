@@ -53,7 +53,7 @@ Step step_of(const Json& request, const Document& now, Shared& shared);
 std::optional<Step> plain_step(const std::string& op, const Json& request, const Document& now,
                                Shared& shared);  // make, remove, rename, unit
 std::optional<Step> expansion_step(const std::string& op, const Json& request, const Document& now,
-                                   Shared& shared);  // analyze, look, align, blend
+                                   Shared& shared);  // expand, look, align, blend
 std::optional<Step> edit_step(const std::string& op, const Json& request, const Document& now,
                               Shared& shared);  // smooth, transfer, simplify, repair
 std::optional<Step> point_step(

@@ -105,14 +105,14 @@ class SameResults(unittest.TestCase):
 
     def test_models(self):
         self.make("make bumpy --subdivisions 4 -o bumpy.ply")
-        for path in self.same_contents("analyze bumpy.ply --degree 24 --length-unit mm -o OUT", "model.h5"):
+        for path in self.same_contents("expand bumpy.ply --degree 24 --length-unit mm -o OUT", "model.h5"):
             for program in (PROGRAM, BARE):
                 said = self.run_one(program, "info", "--json", str(path)).stdout
                 self.assertIn('"degree": 24', said)
 
     def test_atlases(self):
         self.make("make torus -o torus.ply")
-        self.same_contents("analyze torus.ply --atlas --tolerance 3e-2 -o OUT", "atlas.h5")
+        self.same_contents("compress torus.ply --tolerance 3e-2 -o OUT", "atlas.h5")
 
     def test_surfaces_of_points(self):
         self.make("make bumpy --subdivisions 3 -o bumpy.ply")

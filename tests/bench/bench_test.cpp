@@ -140,8 +140,8 @@ TEST(bench_file, stops_when_it_is_told_to) {
 
 TEST(bench_sums, direct_sums_of_few_directions_are_not_sampled) {
   const BumpyFile bumpy;
-  const Encoded encoded = encode(bumpy.mesh, {.analyze = {.degree = 16}});
-  const SumsBench sums = bench_sums(bumpy.mesh, encoded.analysis.expansion, quick());
+  const Expanded expanded = expand(bumpy.mesh, {.degree = 16});
+  const SumsBench sums = bench_sums(bumpy.mesh, expanded.transform.expansion, quick());
   EXPECT_EQ(sums.directions, bumpy.mesh.vertices.size());
   EXPECT_EQ(sums.sampled, sums.directions);
   for (const Timing& timing :
@@ -153,10 +153,10 @@ TEST(bench_sums, direct_sums_of_few_directions_are_not_sampled) {
 
 TEST(bench_floors, all_take_time_and_the_grid_is_that_of_the_report) {
   const BumpyFile bumpy;
-  const Encoded encoded = encode(bumpy.mesh, {.analyze = {.degree = 16, .precision = 1e-6}});
-  const FastReport& fast = *encoded.analysis.fast;
+  const Expanded expanded = expand(bumpy.mesh, {.degree = 16, .precision = 1e-6});
+  const FastReport& fast = *expanded.transform.fast;
   const FloorsBench floors =
-      bench_floors(bumpy.path, bumpy.mesh, encoded.analysis.expansion, fast, quick());
+      bench_floors(bumpy.path, bumpy.mesh, expanded.transform.expansion, fast, quick());
   for (const Timing& timing :
        {floors.file_read, floors.copy, floors.row_updates, floors.legendre}) {
     EXPECT_GT(timing.minimum.wall, 0);
@@ -200,12 +200,12 @@ TEST(compare_coefficients, is_relative_to_the_reference_without_its_mean) {
 
 TEST(bench_reference, is_direct_for_a_small_mesh_and_close_to_the_fast_engine) {
   const BumpyFile bumpy;
-  const Encoded encoded = encode_file(bumpy.path, {.analyze = {.degree = 16, .precision = 1e-6}});
-  const Reference reference = bench_reference(bumpy.path, encoded.star.center, quick());
+  const Expanded expanded = expand_file(bumpy.path, {.degree = 16, .precision = 1e-6});
+  const Reference reference = bench_reference(bumpy.path, expanded.star.center, quick());
   EXPECT_EQ(reference.engine, Engine::kDirect);
   EXPECT_LE(reference.precision, 1e-7);
   EXPECT_LE(
-      compare_coefficients(encoded.analysis.expansion.coefficients, reference.coefficients).error,
+      compare_coefficients(expanded.transform.expansion.coefficients, reference.coefficients).error,
       1e-6);
 }
 

@@ -1,4 +1,4 @@
-"""Atlases of large caps: analyze --atlas, info, synthesize, partition."""
+"""Atlases of large caps: compress, info, synthesize, partition."""
 
 import os
 import re
@@ -27,8 +27,8 @@ class Atlas(CliTest):
         super().setUp()
         self.rholm("make", "torus", "-o", "t.ply")
 
-    def analyze(self, name, *more):
-        return self.rholm("analyze", "t.ply", "--atlas", "--tolerance", "5e-3", "--unit", "diagonal",
+    def compress(self, name, *more):
+        return self.rholm("compress", "t.ply", "--tolerance", "5e-3", "--unit", "diagonal",
                           "-o", name, "--json", *more).json()
 
     def make_model(self):
@@ -37,7 +37,7 @@ class Atlas(CliTest):
         if self.kept:
             shutil.copy(os.path.join(self.kept[0], "t.h5"), self.folder)
         else:
-            report = self.analyze("t.h5", "--threads", "2")
+            report = self.compress("t.h5", "--threads", "2")
             type(self).kept = tempfile.mkdtemp(prefix="rholm-test-"), report
             shutil.copy(self.folder / "t.h5", self.kept[0])
         return self.kept[1]
@@ -65,14 +65,14 @@ class Atlas(CliTest):
 
     def test_wrong_sides_are_turned_or_said(self):
         """One face of an octahedron is flipped; all faces are flipped; points have normals inwards."""
-        words = ["--atlas", "--tolerance", "0.05", "--max-degree", "4", "-o", "m.h5"]
+        words = ["--tolerance", "0.05", "--max-degree", "4", "-o", "m.h5"]
         self.write("mixed.off", off(V, [F[0][::-1], *F[1:]]))
-        self.assertIn("faces disagree about their sides at 3 edges",
-                      self.rholm("analyze", "mixed.off", *words, code=3).err)
+        self.assertIn("faces have contradicting orientations at 3 edges",
+                      self.rholm("compress", "mixed.off", *words, code=3).err)
         self.write("turned.off", off(V, [f[::-1] for f in F]))
-        self.assertIn("inside out", self.rholm("analyze", "turned.off", *words, "--max-numbers", "1000").err)
+        self.assertIn("inside out", self.rholm("compress", "turned.off", *words, "--max-numbers", "1000").err)
         self.rholm("make", "sample", "turned.off", "--points", "2000", "-o", "p.xyz")
-        result = self.rholm("analyze", "p.xyz", *words, "--json")
+        result = self.rholm("compress", "p.xyz", *words, "--json")
         self.assertIn("all normals pointed inwards", result.err)
         self.assertEqual(result.json()["input_numbers"], 6000)
         self.assertIn("not measured to the shape", self.rholm("info", "m.h5").out)
@@ -80,22 +80,20 @@ class Atlas(CliTest):
     @nightly
     def test_a_model_of_more_numbers_than_the_shape_is_refused(self):
         """An octahedron has 18 coordinates; the frame of a single cap has nine numbers."""
-        words = ["--atlas", "--tolerance", "0.05", "-o", "m.h5"]
+        words = ["--tolerance", "0.05", "-o", "m.h5"]
         self.write("few.off", off(V, F))
-        result = self.rholm("analyze", "few.off", *words, code=3)
+        result = self.rholm("compress", "few.off", *words, code=3)
         self.assertIn("18 coordinates", result.err)
         self.assertNotIn("m.h5", self.files())
-        report = self.rholm("analyze", "few.off", *words, "--max-numbers", "1000", "--json").json()
+        report = self.rholm("compress", "few.off", *words, "--max-numbers", "1000", "--json").json()
         self.assertGreater(report["numbers"], 18)
-        self.assertIn("go with --atlas", self.rholm(
-            "analyze", "few.off", "--degree", "4", "--max-numbers", "1000", "-o", "m.h5", code=2).err)
 
     @unittest.skipUnless(QHULL, "built without Qhull")
     def test_the_paper_s_way_is_there_to_compare_with(self):
         found = {}
         for extension in ("zero", "sphere"):
             found[extension] = self.rholm(
-                "analyze", "t.ply", "--atlas", "--fit", "integral", "--degree", "12",
+                "compress", "t.ply", "--fit", "integral", "--degree", "12",
                 "--extension", extension, "-o", extension + ".h5", "--json").json()
             info = self.rholm("info", extension + ".h5", "--json").json()
             self.assertEqual(info["method"], f"integral, {extension} beyond")
@@ -106,8 +104,7 @@ class Atlas(CliTest):
         for words in (["--fit", "integral"], ["--fit", "integral", "--degree", "25"],
                       ["--fit", "integral", "--degree", "4", "--tolerance", "1"],
                       ["--extension", "zero", "--tolerance", "1"], ["--fit", "best"]):
-            self.rholm("analyze", "t.ply", "--atlas", *words, "-o", "x.h5", code=2)
-        self.rholm("analyze", "t.ply", "--fit", "integral", "--degree", "4", "-o", "x.h5", code=2)
+            self.rholm("compress", "t.ply", *words, "-o", "x.h5", code=2)
 
     @nightly
     def test_resolution_and_degree_limit(self):
@@ -149,13 +146,13 @@ class Atlas(CliTest):
         self.assertEqual(shape["genus"], 1)
         self.rholm("synthesize", "t.h5", "-o", "s.ply", "--simplify", "ten", code=2)
         self.rholm("make", "bumpy", "-o", "b.ply")
-        self.rholm("analyze", "b.ply", "--degree", "4", "-o", "star.h5")
+        self.rholm("expand", "b.ply", "--degree", "4", "-o", "star.h5")
         failed = self.rholm("synthesize", "star.h5", "-o", "s.ply", "--simplify", "auto", code=2)
         self.assertIn("--simplify", failed.err)
 
     def test_threads_do_not_change_a_byte(self):
         self.make_model()
-        self.analyze("one.h5", "--threads", "1")
+        self.compress("one.h5", "--threads", "1")
         self.assertEqual((self.folder / "one.h5").read_bytes(),
                          (self.folder / "t.h5").read_bytes())
 
@@ -183,11 +180,11 @@ class Atlas(CliTest):
         self.rholm("partition", "t.ply", "--show", "nothing", "-o", "n.ply", code=2)
 
     def test_options_that_do_not_go_together_are_refused(self):
-        self.rholm("analyze", "t.ply", "--atlas", "-o", "t.h5", code=2)
+        self.rholm("compress", "t.ply", "-o", "t.h5", code=2)
         for words in (("--degree", "3"), ("--center", "none"), ("--norm", "max"), ("--signed",)):
-            self.rholm("analyze", "t.ply", "--atlas", "--tolerance", "1", "-o", "t.h5", *words,
+            self.rholm("compress", "t.ply", "--tolerance", "1", "-o", "t.h5", *words,
                        code=2)
-        self.rholm("analyze", "t.ply", "--atlas", "--tolerance", "1", "-o", "t.sh", code=2)
+        self.rholm("compress", "t.ply", "--tolerance", "1", "-o", "t.sh", code=2)
         self.make_model()
         self.rholm("synthesize", "t.h5", "--degree", "3", "-o", "s.ply", code=2)
         self.rholm("synthesize", "t.h5", "--resolution", "0", "-o", "s.ply", code=2)

@@ -96,7 +96,7 @@ class Rows(BatchTest):
         n_bad = sum(group == "bad" for _, _, group in rows)
         self.assertIn(f"{len(rows)} rows, {n_bad} failed", result.err)
         for row in table:
-            alone = self.run_rholm("analyze", row["path"], "--degree", 4, "--json", "-o", "one.h5")
+            alone = self.run_rholm("expand", row["path"], "--degree", 4, "--json", "-o", "one.h5")
             self.assertEqual(row["exit_code"], str(alone.code), row)
             if alone.code != 0:
                 self.assertIn(f"error: {row['message']}\n", alone.err)
@@ -124,7 +124,7 @@ class Rows(BatchTest):
         self.make_shapes(2)
         self.batch("all.csv", "--coefficients", degree=3)
         row = self.table("all.csv")[0]
-        self.rholm("analyze", row["path"], "--degree", 3, "-o", "one.sh", "--normalization", "orthonormal")
+        self.rholm("expand", row["path"], "--degree", 3, "-o", "one.sh", "--normalization", "orthonormal")
         lines = [line.split() for line in (self.folder / "one.sh").read_text().splitlines()
                  if line and not line.startswith("#")]
         found = 0
@@ -157,7 +157,7 @@ class Rows(BatchTest):
                    "--format", "shtools")
         self.assertEqual(sorted(p.name for p in (self.folder / "kept").iterdir()),
                          ["_._A_b-2.sh", "_._a_b-1.sh", "_._a_b.sh"])
-        self.rholm("analyze", "s/000.ply", "--degree", 2, "-o", "one.sh")
+        self.rholm("expand", "s/000.ply", "--degree", 2, "-o", "one.sh")
         self.assertEqual((self.folder / "kept/_._a_b.sh").read_bytes(), (self.folder / "one.sh").read_bytes())
 
     def test_a_manifest_on_standard_input_has_paths_from_here(self):

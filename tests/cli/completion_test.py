@@ -11,9 +11,9 @@ sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, RHOLM, Terminal, main
 
 CASES = [  # typed text, and text that the shell must add or offer
-    ("rholm ana", ["analyze"]),
-    ("rholm analyze --m", ["--method"]),
-    ("rholm analyze --method ", ["edge", "gauge", "curl", "area"]),
+    ("rholm ana", ["expand"]),
+    ("rholm expand --m", ["--method"]),
+    ("rholm expand --method ", ["edge", "gauge", "curl", "area"]),
     ("rholm make ", ["sphere", "ellipsoid", "box", "torus", "bumpy"]),
     ("rholm info mod", ["model.h5"]),
 ]
@@ -99,7 +99,7 @@ class ManualPage(CliTest):
         self.assertEqual(lint.stdout + lint.stderr, "")
         text = subprocess.run(["mandoc", "-Tutf8", page], capture_output=True, text=True).stdout
         text = re.sub(".\b", "", text)
-        for words in ("rholm analyze", "--precision", "EXIT STATUS", "NO_COLOR"):
+        for words in ("rholm expand", "--precision", "EXIT STATUS", "NO_COLOR"):
             self.assertIn(words, text)
 
 

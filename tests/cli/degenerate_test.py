@@ -32,7 +32,7 @@ def ply(mesh, kind="double"):
     return data
 
 
-# name: (content, exit codes of info, of center and analyze, of compare and render)
+# name: (content, exit codes of info, of center and expand, of compare and render)
 SHAPES = {
     "empty.ply": (b"", REFUSED, REFUSED, REFUSED),
     "empty.off": (b"", REFUSED, REFUSED, REFUSED),
@@ -138,19 +138,19 @@ class Degenerate(CliTest):
                     allowed = codes | EITHER if kind == "none" and codes == FINE else codes
                     self.check(allowed, "center", name, "--rays", "500", "--center", kind)
 
-    def test_analyze(self):
+    def test_expand(self):
         for name, (_, _, codes, _) in SHAPES.items():
             # Methods of the same function have the same errors.
             for method in self.variants(name, ["edge"], ["gauge"], ["curl", "--no-errors"],
                                    ["area", "--no-errors"]):
                 with self.subTest(f"{name} {method[0]}"):
-                    self.check(codes, "analyze", name, "--degree", "3", "--method", *method,
+                    self.check(codes, "expand", name, "--degree", "3", "--method", *method,
                                "--rays", "500", output="out.sh")
 
-    def test_analyze_signed(self):
+    def test_expand_signed(self):
         for name, (_, _, codes, _) in SHAPES.items():
             with self.subTest(name):
-                self.check(codes | EITHER, "analyze", name, "--degree", "3", "--signed", "--rays",
+                self.check(codes | EITHER, "expand", name, "--degree", "3", "--signed", "--rays",
                            "500", output="out.json")
 
     def test_compare_and_render(self):
@@ -216,24 +216,24 @@ class Degenerate(CliTest):
         self.rholm("make", "box", "--size", "2,2,2", "-o", "box.ply")
         for center in ("1,0,0", "1,1,0", "1,1,1", "0.25,-1,0.125"):
             with self.subTest(center):
-                words = ["analyze", "box.ply", "--degree", "3", "--center", center]
+                words = ["expand", "box.ply", "--degree", "3", "--center", center]
                 self.check(REFUSED, *words, output="out.sh")
                 # A face through the centre adds nothing to the alternating sum, which exists.
                 self.check(EITHER, *words, "--signed", output="out.sh")
 
     def test_center_outside_is_refused(self):
-        self.check(REFUSED, "analyze", "good.off", "--degree", "3", "--center", "2,0,0",
+        self.check(REFUSED, "expand", "good.off", "--degree", "3", "--center", "2,0,0",
                    output="out.sh")
 
     def test_pole_on_edge_through_every_method(self):
         # The top face of the first box has its diagonal through the pole.
         self.rholm("make", "box", "-o", "box.ply")
         for method in ("edge", "gauge", "curl", "area"):
-            self.check(FINE, "analyze", "box.ply", "--degree", "6", "--method", method,
+            self.check(FINE, "expand", "box.ply", "--degree", "6", "--method", method,
                        output="out.sh")
 
     def test_degree_zero_goes_all_the_way(self):
-        self.rholm("analyze", "good.off", "--degree", "0", "-o", "zero.h5")
+        self.rholm("expand", "good.off", "--degree", "0", "-o", "zero.h5")
         for words in (["info", "zero.h5"], ["spectrum", "zero.h5"],
                       ["compare", "good.off", "zero.h5", "--samples", "100"]):
             self.check(FINE, *words)
@@ -260,7 +260,7 @@ class DegenerateCoefficients(CliTest):
     def setUp(self):
         super().setUp()
         self.write("good.off", off(*OCTAHEDRON))
-        self.rholm("analyze", "good.off", "--degree", "6", "-o", "good.h5")
+        self.rholm("expand", "good.off", "--degree", "6", "-o", "good.h5")
         for name in ("good.sh", "good.gfc", "good.json", "good.npy"):
             self.rholm("convert", "good.h5", name)
 
@@ -321,8 +321,8 @@ class DegenerateCoefficients(CliTest):
                 self.assertNotIn("o.h5", self.files())
 
     def test_editing_goes_with_every_degree_and_function(self):
-        self.rholm("analyze", "good.off", "--degree", "0", "-o", "zero.h5")
-        self.rholm("analyze", "good.off", "--degree", "6", "--method", "gauge", "-o", "gauge.h5")
+        self.rholm("expand", "good.off", "--degree", "0", "-o", "zero.h5")
+        self.rholm("expand", "good.off", "--degree", "6", "--method", "gauge", "-o", "gauge.h5")
         for name in ("zero.h5", "gauge.h5", "good.npy"):
             for words in (["filter", name, "--low-pass", "0"], ["filter", name, "--high-pass", "9"],
                           ["filter", name, "--low-pass", "4", "--window", "plateau"],

@@ -134,7 +134,7 @@ class Transfer(CliTest):
 
     def test_models_are_edited_as_their_surfaces(self):
         self.rholm("make", "bumpy", "--subdivisions", "3", "-o", "b.ply")
-        self.rholm("analyze", "b.ply", "--degree", "12", "-o", "b.h5", "--quiet")
+        self.rholm("expand", "b.ply", "--degree", "12", "-o", "b.h5", "--quiet")
         self.rholm("synthesize", "b.h5", "--subdivisions", "5", "-o", "own.ply")
         words = ("--region", "ball:0,0,1,0.4", "--wavelength", "0.5")
         self.rholm("smooth", "b.h5", *words, "-o", "model.ply")

@@ -17,7 +17,7 @@ from studio_program import TETRAHEDRON, Studio
 
 MESHES = ("convert", "make", "reconstruct", "repair", "simplify", "smooth", "synthesize", "transfer")
 POINTS = ("orient",)
-COEFFICIENTS = ("align", "analyze", "convert", "filter", "recenter", "rotate")
+COEFFICIENTS = ("align", "expand", "convert", "filter", "recenter", "rotate")
 
 
 class Formats(CliTest):
@@ -57,11 +57,11 @@ class Formats(CliTest):
         self.rholm("convert", "b", "c.off")
         self.rholm("convert", "a.off", "d.off")
         self.assertEqual((self.folder / "c.off").read_bytes(), (self.folder / "d.off").read_bytes())
-        self.rholm("analyze", "a.mad", "--degree", "2", "-o", "a.h5")
+        self.rholm("expand", "a.mad", "--degree", "2", "-o", "a.h5")
 
     def test_coefficients_are_written_and_read_by_extension_and_name(self):
         self.write("a.off", TETRAHEDRON)
-        self.rholm("analyze", "a.off", "--degree", "3", "-o", "a.sh")
+        self.rholm("expand", "a.off", "--degree", "3", "-o", "a.sh")
         self.rholm("convert", "a.sh", "a.fcy")
         self.assertTrue((self.folder / "a.fcy").read_bytes().startswith(b"FANCY\n# format: rholm-coefficients 1\n"))
         self.rholm("convert", "a.sh", "--format", "fancy", "b")
@@ -76,7 +76,7 @@ class Formats(CliTest):
         self.assertIn("MADE", self.rholm("simplify", "bytes", "-o", "a.ply", code=3).err)
         self.assertIn(".mad", self.rholm("simplify", "a.off", "-o", "a.xyz", code=2).err)
         self.assertIn("MADE has triangles only", self.rholm("make", "sample", "a.off", "-o", "p.mad", code=2).err)
-        self.assertIn(".fcy", self.rholm("analyze", "a.off", "--degree", "2", "-o", "a.foo", code=2).err)
+        self.assertIn(".fcy", self.rholm("expand", "a.off", "--degree", "2", "-o", "a.foo", code=2).err)
 
     def test_what_it_cannot_hold_is_said(self):
         self.write("a.ply", b"ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
@@ -103,7 +103,7 @@ class Formats(CliTest):
         saved = {one["format"]: one for one in state["items"][0]["saved_as"]}
         self.assertEqual(saved["made"], {"format": "made", "label": "Mesh, MADE", "extension": "mad"})
         self.assertNotIn("fancy", saved)  # there are no coefficients yet
-        state = studio.step(op="analyze", item=state["items"][0]["id"], degree=3)
+        state = studio.step(op="expand", item=state["items"][0]["id"], degree=3)
         saved = {one["format"]: one for one in state["items"][0]["saved_as"]}
         self.assertEqual(saved["fancy"]["extension"], "fcy")
         for one in saved.values():  # every offered format works

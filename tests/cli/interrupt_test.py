@@ -56,10 +56,10 @@ class Interrupt(CliTest):
         self.assertEqual(self.files(), before, "litter was left")
         self.check_old_file_is_whole(output)
 
-    def test_analyze(self):
+    def test_expand(self):
         self.rholm("make", "bumpy", "--subdivisions", "6", "-o", "b.ply")
         # 82 000 faces at degree 1000 by direct sums take minutes of processor time.
-        self.check_interrupted("b.h5", "analyze", "b.ply", "--degree", "1000", "--engine", "direct")
+        self.check_interrupted("b.h5", "expand", "b.ply", "--degree", "1000", "--engine", "direct")
 
     def test_synthesize_and_render(self):
         self.rholm("make", "box", "-o", "b.ply")
@@ -74,7 +74,7 @@ class Interrupt(CliTest):
     def test_waiting_for_the_writer_of_a_named_pipe(self):
         os.mkfifo(self.folder / "a.ply")
         self.write("shapes.csv", "path\na.ply\n")
-        for words in (["info", "a.ply"], ["analyze", "a.ply", "--degree", "4", "-o", "a.h5"],
+        for words in (["info", "a.ply"], ["expand", "a.ply", "--degree", "4", "-o", "a.h5"],
                       ["reconstruct", "a.ply", "-o", "o.ply"],
                       ["batch", "shapes.csv", "--command", "info", "-o", "o.csv"]):
             process = self.interrupted(*words, stdin=subprocess.DEVNULL)
@@ -133,8 +133,8 @@ LONG = (
     ("repair {}.ply -o out.ply", "out.ply"),
     ("simplify {}.ply --faces 10% -o out.ply", "out.ply"),
     ("center {}.ply", None),
-    ("analyze {}.ply --degree 16 -o out.h5", "out.h5"),
-    ("analyze {}.off --degree 16 --method area -o out.sh", "out.sh"),
+    ("expand {}.ply --degree 16 -o out.h5", "out.h5"),
+    ("expand {}.off --degree 16 --method area -o out.sh", "out.sh"),
     ("synthesize {}.h5 --subdivisions 6 -o out.ply", "out.ply"),
     ("spectrum {}.sh", None),
     ("compare {}.ply {}.off --samples {n}", None),
@@ -185,7 +185,7 @@ class Questions(CliTest):
             self.rholm("make", "bumpy", "--subdivisions", of["subdivisions"], "-o", f"{size}.ply")
             self.rholm("convert", f"{size}.ply", f"{size}.off")
             self.rholm("make", "sample", f"{size}.ply", "--points", of["points"], "--no-normals", "-o", f"{size}.xyz")
-            self.rholm("analyze", f"{size}.ply", "--degree", of["degree"], "--no-errors", "-o", f"{size}.h5")
+            self.rholm("expand", f"{size}.ply", "--degree", of["degree"], "--no-errors", "-o", f"{size}.h5")
             self.write(f"{size}.sh", "0 0 1 0\n" + "".join(f"{l} {m} 1e-7 0\n" for l in range(1, of["lines"] + 1)
                                                          for m in range(l + 1)))
             rows = "".join(f"{i},{size}.ply\n" for i in range(2 if size == "small" else 8))

@@ -24,12 +24,12 @@ class Large(CliTest):
         self.rholm("make", "box", "--cells", "2887", *place, "-o", "large.ply")
         self.assertGreater(os.path.getsize(self.folder / "large.ply"), 2.4e9)
         common = ["--degree", "48", "--center", "none", "--json", "-o"]
-        report = self.rholm("analyze", "large.ply", "--precision", "1e-6", *common,
+        report = self.rholm("expand", "large.ply", "--precision", "1e-6", *common,
                             "large.sh").json()
         self.assertEqual(report["counts"]["faces"], 12 * 2887**2)
         self.assertLess(report["peak_memory_bytes"], 8 * GIB)
         self.rholm("make", "box", *place, "-o", "small.ply")
-        self.rholm("analyze", "small.ply", "--precision", "1e-10", "--engine", "direct", *common,
+        self.rholm("expand", "small.ply", "--precision", "1e-10", "--engine", "direct", *common,
                    "small.sh")
         large, small = self.numbers("large.sh"), self.numbers("small.sh")
         self.assertEqual(len(large), len(small))

@@ -54,10 +54,10 @@ class Meaning(CliTest):
     def setUp(self):
         super().setUp()
         self.rholm("make", "ellipsoid", "--axes", "1.2,1.1,1", "--subdivisions", "4", "-o", "s.ply")
-        self.rholm("analyze", "s.ply", "--degree", "4", "--no-errors", "--quiet", "-o", "s.h5")
+        self.rholm("expand", "s.ply", "--degree", "4", "--no-errors", "--quiet", "-o", "s.h5")
 
     def model(self, name, unit, degree=4):
-        self.rholm("analyze", "s.ply", "--degree", degree, "--length-unit", unit, "--quiet", "-o",
+        self.rholm("expand", "s.ply", "--degree", degree, "--length-unit", unit, "--quiet", "-o",
                    name)
 
 
@@ -184,7 +184,7 @@ class Precision(Meaning):
     def test_a_model_is_judged_by_the_precision_it_was_made_with(self):
         self.rholm("make", "ellipsoid", "--axes", "1.3,1.1,1", "--subdivisions", "2", "-o", "e.ply")
         for name, precision in (("coarse.h5", "1e-3"), ("fine.h5", "1e-8")):
-            self.rholm("analyze", "e.ply", "--degree", "6", "--no-errors", "--precision", precision,
+            self.rholm("expand", "e.ply", "--degree", "6", "--no-errors", "--precision", precision,
                        "-o", name)
         fine = self.rholm("info", "fine.h5", "--json").json()
         self.assertEqual(fine["precision"], 1e-8)
@@ -208,7 +208,7 @@ class Precision(Meaning):
 
     def test_where_it_is_not_known_that_is_said(self):
         self.rholm("make", "sphere", "--subdivisions", "4", "-o", "s.ply")
-        self.rholm("analyze", "s.ply", "--degree", "200", "--no-errors", "-o", "s.json")
+        self.rholm("expand", "s.ply", "--degree", "200", "--no-errors", "-o", "s.json")
         text = (self.folder / "s.json").read_text()
         self.write("old.json", text.replace('"precision"', '"another"'))
         report = self.rholm("info", "old.json", "--json").json()
@@ -263,7 +263,7 @@ class Units(Meaning):
 
 class Lost(Meaning):
     def test_an_array_of_numbers_says_what_it_loses(self):
-        self.rholm("analyze", "s.ply", "--degree", "2", "--method", "gauge", "--center", "0.1,0,0.2",
+        self.rholm("expand", "s.ply", "--degree", "2", "--method", "gauge", "--center", "0.1,0,0.2",
                    "--length-unit", "km", "--quiet", "-o", "g.h5")
         words = ["normalization schmidt", "csphase -1", "function gauge", "(0.1, 0, 0.2)",
                  "unit km"]
@@ -305,7 +305,7 @@ class Quiet(Meaning):
                       ["align", "s.h5", "a.h5", "-o", "o.h5"], ["synthesize", "s.h5", "-o", "o.ply"],
                       ["convert", "a.h5", "o.npy"], ["rotate", "s.h5", "--mirror", "x", "-o", "o.h5"],
                       ["filter", "s.h5", "--low-pass", "2", "-o", "o.h5"],
-                      ["analyze", "s.ply", "--degree", "2", "-o", "o.h5"],
+                      ["expand", "s.ply", "--degree", "2", "-o", "o.h5"],
                       ["report", "s.h5", "--size", "16", "-o", "o.html"],
                       ["render", "s.h5", "--size", "32x32", "-o", "o.png"]):
             with self.subTest(words[0]):
@@ -325,7 +325,7 @@ class Quiet(Meaning):
 
 class Words(Meaning):
     def test_both_a_degree_and_a_tolerance(self):
-        said = self.rholm("analyze", "s.ply", "--degree", "4", "--tolerance", "1", "-o", "o.h5",
+        said = self.rholm("expand", "s.ply", "--degree", "4", "--tolerance", "1", "-o", "o.h5",
                           code=2).err
         self.assertIn("only one of the two", said)
 
@@ -342,7 +342,7 @@ class Words(Meaning):
         said = self.rholm("convert", "s.h5", "o.ply", code=2).err
         self.assertIn("'rholm synthesize s.h5 -o o.ply'", said)
         said = self.rholm("convert", "s.ply", "o.h5", code=2).err
-        self.assertIn("'rholm analyze s.ply --degree L -o o.h5'", said)
+        self.assertIn("'rholm expand s.ply --degree L -o o.h5'", said)
 
     def test_transfer_speaks_of_its_own_options(self):
         self.rholm("make", "sphere", "--subdivisions", "2", "-o", "coarse.ply")
@@ -361,13 +361,13 @@ class Words(Meaning):
 
     def test_what_is_not_star_shaped_is_told_in_the_words_of_the_command(self):
         self.rholm("make", "torus", "-o", "t.ply")
-        said = self.rholm("analyze", "t.ply", "--degree", "4", "-o", "o.h5", code=3).err
-        for word in ("min d", "--atlas"):
+        said = self.rholm("expand", "t.ply", "--degree", "4", "-o", "o.h5", code=3).err
+        for word in ("min d", "rholm compress"):
             self.assertIn(word, said)
         for word in ("--signed", "allow_signed", "compress(", "d_T", "min_d"):
             self.assertNotIn(word, said)
         said = self.rholm("report", "t.ply", "-o", "o.html", code=3).err
-        self.assertIn("rholm analyze --atlas", said)
+        self.assertIn("rholm compress", said)
         self.assertNotIn("--signed", said)
 
     def test_text_has_the_centroid_that_json_has(self):
@@ -390,12 +390,12 @@ class Names(Meaning):
         os.symlink("a.ply", self.folder / "b.ply")
         before = self.files()
         for name, words in ((long, "too long"), ("a.ply", "symbolic links")):
-            for command in (["info", name], ["analyze", name, "--degree", "2", "-o", "o.h5"],
+            for command in (["info", name], ["expand", name, "--degree", "2", "-o", "o.h5"],
                             ["compare", "s.ply", name],
                             ["synthesize", "s.h5", "--like", name, "-o", "o.ply"],
                             ["filter", "s.h5", "--gain", name, "-o", "o.h5"],
                             ["make", "sphere", "--format", "ply", "-o", name],
-                            ["analyze", "s.ply", "--degree", "2", "--format", "h5", "-o", name],
+                            ["expand", "s.ply", "--degree", "2", "--format", "h5", "-o", name],
                             ["report", "s.ply", "--format", "html", "-o", name],
                             ["render", "s.ply", "--format", "png", "-o", name],
                             ["convert", "s.h5", name, "--format", "json"]):

@@ -29,7 +29,7 @@ def anonymous(pid):
 
 # Commands that have --max-memory, for a mesh and for points.
 OF_MESHES = ("info {}", "convert {} out.ply", "convert {} out.obj", "compare {} {} --samples 1000",
-             "analyze {} --degree 8 -o out.h5", "analyze {} --degree 8 --weld 1e-9 -o out.h5")
+             "expand {} --degree 8 -o out.h5", "expand {} --degree 8 --weld 1e-9 -o out.h5")
 OF_POINTS = ("info {}", "convert {} out.xyz", "convert {} out.off", "reconstruct {} -o out.ply",
              "reconstruct {} -o out.ply --tile-points 10000")
 
@@ -113,7 +113,7 @@ class Limits(CliTest):
         # The commands need 110, 55 and 70 MiB.
         self.assertFalse(self.check("compare mesh.stl mesh.stl --samples 1000", 0.02))
         self.assertFalse(self.check("info mesh.stl", 0.003))
-        self.assertFalse(self.check("analyze mesh.stl --degree 8 -o out.h5", 0.01))
+        self.assertFalse(self.check("expand mesh.stl --degree 8 -o out.h5", 0.01))
         self.assertTrue(self.check("info mesh.ply", 0.003))  # mapped in place
         self.assertTrue(self.check("info mesh.stl", 0.1))
 

@@ -20,9 +20,9 @@ class Memory(CliTest):
     def test_a_stream_that_does_not_fit_gives_the_bytes_of_the_file(self):
         content = self.box()
         for options in (["--degree", "16"], ["--tolerance", "0.05", "--center", "none"]):
-            self.rholm("analyze", "box.ply", *options, "-o", "file.sh")
-            self.rholm("analyze", "-", *options, "-o", "stream.sh", stdin=content)
-            self.rholm("analyze", "-", *options, *TINY, "--work-dir", ".", "-o", "spooled.sh",
+            self.rholm("expand", "box.ply", *options, "-o", "file.sh")
+            self.rholm("expand", "-", *options, "-o", "stream.sh", stdin=content)
+            self.rholm("expand", "-", *options, *TINY, "--work-dir", ".", "-o", "spooled.sh",
                        stdin=content)
             expected = (self.folder / "file.sh").read_bytes()
             self.assertEqual((self.folder / "stream.sh").read_bytes(), expected)
@@ -31,18 +31,18 @@ class Memory(CliTest):
 
     def test_a_stream_that_cannot_be_kept_says_where_it_could(self):
         content = self.box()
-        result = self.rholm("analyze", "-", "--degree", "4", *TINY, "--work-dir", "nowhere", "-o",
+        result = self.rholm("expand", "-", "--degree", "4", *TINY, "--work-dir", "nowhere", "-o",
                             "x.sh", code=1, stdin=content)
         self.assertIn("--work-dir", result.err)
         # A smaller mesh needs no space on disk (its work takes some 60 MiB).
         self.rholm("make", "box", *PLACE, "-o", "small.ply")
-        self.rholm("analyze", "-", "--degree", "4", "--max-memory", "0.1", "--work-dir", "nowhere",
+        self.rholm("expand", "-", "--degree", "4", "--max-memory", "0.1", "--work-dir", "nowhere",
                    "-o", "x.sh", stdin=(self.folder / "small.ply").read_bytes())
 
     def test_a_mesh_that_must_be_read_and_does_not_fit_is_refused(self):
         content = self.box(160)
         for words in (["-"], ["box.ply"]):
-            result = self.rholm("analyze", *words, "--degree", "4", "--weld", "1e-9",
+            result = self.rholm("expand", *words, "--degree", "4", "--weld", "1e-9",
                                 "--max-memory", "0.005",
                                 "--work-dir", ".", "-o", "x.sh", code=1, stdin=content)
             self.assertIn("GiB", result.err)
@@ -52,7 +52,7 @@ class Memory(CliTest):
     def test_a_truncated_or_empty_stream_is_bad_input(self):
         content = self.box()
         for some in (content[:-5], content[:100], b""):
-            self.rholm("analyze", "-", "--degree", "4", "--max-memory", "0.01", "--work-dir", ".",
+            self.rholm("expand", "-", "--degree", "4", "--max-memory", "0.01", "--work-dir", ".",
                        "-o", "x.sh", code=3, stdin=some)
 
     # Standard input is read into memory; a file is mapped.
@@ -115,7 +115,7 @@ class Memory(CliTest):
 
     def test_convert_of_coefficients_does_not_depend_on_memory(self):
         self.box(cells=2)
-        self.rholm("analyze", "box.ply", "--degree", "20", "-o", "box.txt")
+        self.rholm("expand", "box.ply", "--degree", "20", "-o", "box.txt")
         content = (self.folder / "box.txt").read_bytes()
         for words, text in ((["box.txt"], None), (["-"], content)):
             result = self.rholm("convert", *words, "out.ply", "--max-memory", "1e-6",
@@ -186,7 +186,7 @@ class Memory(CliTest):
         self.box(cells=60)
         self.rholm("make", "sphere", "--subdivisions", "6", "-o", "ball.ply")
         self.rholm("convert", "ball.ply", "ball.obj")
-        self.rholm("analyze", "ball.ply", "--degree", "4", "-o", "ball.h5")
+        self.rholm("expand", "ball.ply", "--degree", "4", "-o", "ball.h5")
         for a, b in (("box.ply", "ball.ply"), ("ball.ply", "box.ply"), ("box.ply", "box.ply"),
                      ("box.ply", "ball.obj"), ("ball.h5", "box.ply")):
             for options in (["--json"], ["--threshold", "0.1"]):

@@ -64,7 +64,7 @@ class Names(CliTest):
 
     def test_texts_of_models(self):
         self.write("o.off", off(*OCTAHEDRON))
-        self.rholm("analyze", "o.off", "--degree", "2", "-o", "o.json")
+        self.rholm("expand", "o.off", "--degree", "2", "-o", "o.json")
         model = json.loads((self.folder / "o.json").read_text())
         keys = [key for key in ("unit", "method") if key in model] or ["unit"]
         for key in keys:
@@ -86,7 +86,7 @@ class Names(CliTest):
             self.said("spectrum", path, code=3)
             self.said("info", b"no such " + path, code=1)
             self.said("make", "box", "-o", path + b"/in/it.ply", code=1)
-            self.said("analyze", path, "--degree", "2", "-o", path, code=2)
+            self.said("expand", path, "--degree", "2", "-o", path, code=2)
 
     def test_no_name_looks_like_another_message(self):
         process = self.said("info", "x\nrholm: note: all is well", code=1)
@@ -98,11 +98,11 @@ class Names(CliTest):
             path = "./-" if name == "-" else name
             self.write(name, off(*OCTAHEDRON))
             message = self.said("spectrum", "--", path, code=3).stderr.decode()
-            command = re.search(r"make them with '(rholm analyze .*) --degree L", message, re.S)[1]
+            command = re.search(r"make them with '(rholm expand .*) --degree L", message, re.S)[1]
             # The shell splits the line as intended.
             words = subprocess.run(["bash", "-c", f'rholm() {{ printf "%s\\0" "$@"; }}; {command}'],
                                    capture_output=True, check=True).stdout.decode().split("\0")
-            self.assertEqual(words[0], "analyze")
+            self.assertEqual(words[0], "expand")
             self.assertEqual(words[1], "./" + name if path.startswith("-") else path)
 
 

@@ -255,7 +255,7 @@ class Tables(CliTest):
                       ["reconstruct", "german.csv", "-o", "o.ply"],
                       ["partition", "german.csv", "-o", "o.ply"],
                       ["render", "german.csv", "-o", "o.png", "--size", "64x64"],
-                      ["analyze", "german.csv", "--atlas", "--tolerance", "0.1", "-o", "o.h5"]):
+                      ["compress", "german.csv", "--tolerance", "0.1", "-o", "o.h5"]):
             self.assertIn(said, self.run_rholm(*words).err, words)
             self.assertNotIn(said, self.run_rholm(*words, "--quiet").err, words)
 

@@ -14,8 +14,8 @@ ANY = DONE | REFUSED | {4}  # also: a tolerance is not kept, or normal orientati
 
 # Cheap commands that read, write or refuse each in a different way.
 CHEAP = {"info --json", "center", "compare", "render error", "convert .off", "convert .ply",
-         "make sample", "orient MESH", "reconstruct MESH", "smooth", "transfer", "analyze edge",
-         "analyze --signed", "analyze --norm max", "synthesize", "spectrum", "filter", "rotate",
+         "make sample", "orient MESH", "reconstruct MESH", "smooth", "transfer", "expand edge",
+         "expand --signed", "expand --norm max", "synthesize", "spectrum", "filter", "rotate",
          "align", "compare model", "convert model .json"}
 
 
@@ -125,22 +125,22 @@ def edited(trial):
 def star(trial):
     m = trial.mesh
     for method in ("edge", "gauge", "curl", "area"):
-        trial.do(f"analyze {method}", "analyze", m, "--degree", "6", "--method", method, "--json",
+        trial.do(f"expand {method}", "expand", m, "--degree", "6", "--method", method, "--json",
                  out=f"{method}.h5", codes=ANY)
-    trial.do("analyze direct", "analyze", m, "--degree", "4", "--engine", "direct", out="direct.sh",
+    trial.do("expand direct", "expand", m, "--degree", "4", "--engine", "direct", out="direct.sh",
              codes=ANY)
     for kind in ("edge", "triangle"):
-        trial.do(f"analyze monte-carlo-{kind}", "analyze", m, "--degree", "4", "--method",
+        trial.do(f"expand monte-carlo-{kind}", "expand", m, "--degree", "4", "--method",
                  f"monte-carlo-{kind}", "--samples", "4", "--json", out=f"{kind}.json")
-    trial.do("analyze --signed", "analyze", m, "--degree", "4", "--signed", "--json",
+    trial.do("expand --signed", "expand", m, "--degree", "4", "--signed", "--json",
              out="alternating.h5", codes=ANY)
     tolerance = ("--max-degree", "24", "--json")
-    trial.do("analyze --tolerance radius", "analyze", m, "--tolerance", "0.02", "--unit", "radius",
+    trial.do("expand --tolerance radius", "expand", m, "--tolerance", "0.02", "--unit", "radius",
              *tolerance, *trial.one_of((), ("--center", "none"), ("--center", "volume")),
              out="radius.h5", codes=ANY)
-    trial.do("analyze --tolerance distance", "analyze", m, "--tolerance", "0.02", "--unit",
+    trial.do("expand --tolerance distance", "expand", m, "--tolerance", "0.02", "--unit",
              "diagonal", *tolerance, out="distance.h5", codes=ANY)
-    trial.do("analyze --norm max", "analyze", m, "--tolerance", "0.05", "--unit", "radius", "--norm",
+    trial.do("expand --norm max", "expand", m, "--tolerance", "0.05", "--unit", "radius", "--norm",
              "max", *tolerance, out="max.h5", codes=ANY)
     return trial.has("edge.h5")
 
@@ -187,7 +187,7 @@ def patches(trial):
         trial.do(f"partition {view}", "partition", m, "--show", view, out=f"{view}.ply")
     for beyond in ("zero", "sphere"):
         name = f"integral-{beyond}"
-        if trial.do(f"analyze --atlas integral {beyond}", "analyze", m, "--atlas", "--json", "--fit",
+        if trial.do(f"compress integral {beyond}", "compress", m, "--json", "--fit",
                     "integral", "--degree", "6", "--extension", beyond, out=f"{name}.h5"):
             atlas_model(trial, name)
 
@@ -198,7 +198,7 @@ def caps(trial):
     trial.do("partition", m, "--tolerance", "2e-2", "--json", out="caps.ply")
     for tolerance in ("2e-2", "5e-3"):
         name = f"atlas-{tolerance}"
-        trial.do(f"analyze --atlas {tolerance}", "analyze", m, "--atlas", "--json", "--tolerance",
+        trial.do(f"compress {tolerance}", "compress", m, "--json", "--tolerance",
                  tolerance, "--unit", "diagonal", out=f"{name}.h5", codes=ANY)
         if trial.has(f"{name}.h5"):
             reported = trial.last
@@ -213,7 +213,7 @@ def check_handles(trial, name, reported):
     if (found["components"], found["genus"]) != (surface["components"], surface["genus"]):
         trial.faults.append((f"synthesize {name}.h5", "other handles than was reported"))
     if (b"parts and" in reported.err) == found["topology_kept"]:
-        trial.faults.append((f"analyze --atlas {name}", "a wrong word on its handles"))
+        trial.faults.append((f"compress {name}", "a wrong word on its handles"))
 
 
 def atlas_model(trial, name):

@@ -70,7 +70,7 @@ class Report(CliTest):
     def setUp(self):
         super().setUp()
         self.rholm("make", "bumpy", "--subdivisions", "3", "-o", "a.ply")
-        self.rholm("analyze", "a.ply", "--degree", "12", "-o", "a.h5", "--quiet")
+        self.rholm("expand", "a.ply", "--degree", "12", "-o", "a.h5", "--quiet")
 
     def page(self, *words, code=0, output="page.html"):
         result = self.run_rholm("report", *words, "--size", "24", "-o", output)

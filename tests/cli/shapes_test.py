@@ -14,7 +14,7 @@ V, F = OCTAHEDRON
 class Turning(CliTest):
     def model(self, name, *make):
         self.rholm("make", *make, "-o", "shape.ply", "--quiet")
-        self.rholm("analyze", "shape.ply", "--degree", 8, "-o", name, "--quiet")
+        self.rholm("expand", "shape.ply", "--degree", 8, "-o", name, "--quiet")
 
     def test_a_sphere_has_no_axes_to_turn_to(self):
         self.model("sphere.h5", "sphere", "--subdivisions", 3)
@@ -88,7 +88,7 @@ class Repair(CliTest):
         self.assertEqual(report["holes"]["closed"], 1)
         self.assertTrue(report["after"]["closed"] and report["after"]["oriented"])
         self.assertAlmostEqual(report["after"]["volume"], 4 / 3)
-        self.rholm("analyze", "repaired.off", "--degree", 4, "-o", "model.h5")
+        self.rholm("expand", "repaired.off", "--degree", 4, "-o", "model.h5")
         again = self.rholm("info", "repaired.off", "--json").json()
         self.assertEqual(again["counts"]["faces"], len(F))
         self.assertEqual(again["duplicate_faces"], 0)
@@ -132,20 +132,20 @@ class Repair(CliTest):
         moved = [(x, y, z - 3e-5) for x, y, z in at]
         self.write("seam.off", off(at + moved, [tuple(i + n * low for i in f)
                                                 for f, low in zip(faces, below)]))
-        error = self.rholm("analyze", "seam.off", "--degree", 4, "-o", "m.h5", code=3).err
+        error = self.rholm("expand", "seam.off", "--degree", 4, "-o", "m.h5", code=3).err
         tolerance = self.rholm("info", "seam.off", "--json").json()["closes_at"]
         self.assertGreater(tolerance, 3e-5)
         self.assertLess(tolerance, 7e-5)
         self.assertIn(f"--weld {tolerance:.2g}", error)
-        self.rholm("analyze", "seam.off", "--degree", 4, "--weld", tolerance, "-o", "m.h5")
+        self.rholm("expand", "seam.off", "--degree", 4, "--weld", tolerance, "-o", "m.h5")
         self.assertTrue(self.repair("seam.off", "--weld", tolerance)["after"]["closed"])
 
     def test_messages_name_the_command_that_mends(self):
         self.write("mixed.off", off(V, [F[0][::-1], *F[1:]]))
         self.write("twice.off", off(V, F + F))
-        error = self.rholm("analyze", "mixed.off", "--degree", 4, "-o", "m.h5", code=3).err
+        error = self.rholm("expand", "mixed.off", "--degree", 4, "-o", "m.h5", code=3).err
         self.assertIn("rholm repair", error)
-        error = self.rholm("analyze", "twice.off", "--degree", 4, "-o", "m.h5", code=3).err
+        error = self.rholm("expand", "twice.off", "--degree", 4, "-o", "m.h5", code=3).err
         self.assertIn("8 of its 16 faces are duplicates", error)
         self.assertIn("rholm repair", error)
         self.assertNotIn("0 triangles", error)
@@ -214,7 +214,7 @@ class Recenter(CliTest):
     def setUp(self):
         super().setUp()
         self.rholm("make", "bumpy", "--subdivisions", 4, "-o", "shape.ply", "--quiet")
-        self.rholm("analyze", "shape.ply", "--degree", 24, "--center", "none", "-o", "model.h5",
+        self.rholm("expand", "shape.ply", "--degree", 24, "--center", "none", "-o", "model.h5",
                    "--quiet")
 
     def test_volume_and_centroid_stay(self):
@@ -285,7 +285,7 @@ class Size(CliTest):
         relative = []
         for size in (1, 1e-100, 1e-60, 1e-45, 1e40, 1e60, 1e100):
             self.octahedron(size)
-            report = self.rholm("analyze", "shape.off", "--degree", 6, "--json", "-o",
+            report = self.rholm("expand", "shape.off", "--degree", 6, "--json", "-o",
                                 "model.h5").json()
             relative.append([report["errors"][key] / size
                              for key in ("rms", "measured_max", "distance_rms")])
@@ -326,7 +326,7 @@ class Size(CliTest):
     def test_atlases_name_the_range(self):
         for size in (1e-100, 1e100):
             self.octahedron(size)
-            for words in (["analyze", "shape.off", "--atlas", "--tolerance", 0.1, "--unit",
+            for words in (["compress", "shape.off", "--tolerance", 0.1, "--unit",
                            "diagonal", "-o", "a.h5"],
                           ["partition", "shape.off", "--tolerance", 0.1 * size, "-o", "p.ply"]):
                 error = self.rholm(*words, code=3).err

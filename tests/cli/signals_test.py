@@ -56,7 +56,7 @@ class Signals(CliTest):
 
     def test_a_limit_of_file_sizes_is_an_output_that_cannot_be_written(self):
         self.rholm("make", "ellipsoid", "--axes", "3,2,1", "--subdivisions", "3", "-o", "e.ply")
-        self.rholm("analyze", "e.ply", "--degree", "16", "-o", "e.json")
+        self.rholm("expand", "e.ply", "--degree", "16", "-o", "e.json")
         self.write("rows.csv", "id,path\n" + "".join(f"{k},e.ply\n" for k in range(50)))
         for words, name in ((["convert", "e.ply"], "o.off"), (["convert", "e.json"], "o.h5"),
                             (["convert", "e.json"], "o.npy"),
@@ -80,7 +80,7 @@ class Signals(CliTest):
         self.rholm("make", "bumpy", "--subdivisions", "6", "-o", "b.ply")
         before = self.files()
         # Direct sums take minutes.
-        process = self.limited("analyze", "b.ply", "--degree", "1000", "--engine", "direct", "-o",
+        process = self.limited("expand", "b.ply", "--degree", "1000", "--engine", "direct", "-o",
                                "b.h5", limit=resource.RLIMIT_CPU, size=1)
         self.assertEqual(process.returncode, 128 + signal.SIGXCPU, process.stderr)
         self.assertIn(b"interrupted", process.stderr)

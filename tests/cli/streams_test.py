@@ -12,8 +12,8 @@ from harness import CliTest, RHOLM, TIMEOUT, Result, main, nightly
 # One line of every command that ends by itself, with the files of prepare(). %o is an output.
 COMMANDS = [
     "info e.ply", "info e.ply --json", "info e.json --json", "center e.ply --json",
-    "analyze e.ply --degree 4 -o %o.h5 --json", "analyze e.ply --degree 4 -o %o.json",
-    "analyze e.ply --atlas --tolerance .2 --unit diagonal -o %o.h5",
+    "expand e.ply --degree 4 -o %o.h5 --json", "expand e.ply --degree 4 -o %o.json",
+    "compress e.ply --tolerance .2 --unit diagonal -o %o.h5",
     "synthesize e.json --subdivisions 1 -o %o.ply", "spectrum e.json", "spectrum e.json -o %o.svg",
     "compare e.ply e.ply --json", "convert e.ply %o.obj", "convert e.ply --format off -",
     "render e.ply --size 32x32 -o %o.png", "report e.json --size 32 -o %o.html",
@@ -23,16 +23,16 @@ COMMANDS = [
     "make sample e.ply --points 200 -o %o.xyz", "make box -o %o.stl",
     "orient p.xyz -o %o.ply", "reconstruct p.xyz -o %o.ply --json",
     "partition e.ply --tolerance .2 -o %o.ply", "batch rows.csv --command info -o %o.csv --no-times",
-    "completion bash", "man-page", "help", "analyze --help", "--version", "analyze",
+    "completion bash", "man-page", "help", "expand --help", "--version", "expand",
     "info nothing.ply --json"]
-REFUSED = {"analyze": 2, "info nothing.ply --json": 1}
+REFUSED = {"expand": 2, "info nothing.ply --json": 1}
 
 
 class Streams(CliTest):
     def setUp(self):
         super().setUp()
         self.rholm("make", "ellipsoid", "--axes", "3,2,1", "--subdivisions", "3", "-o", "e.ply")
-        self.rholm("analyze", "e.ply", "--degree", "4", "-o", "e.json")
+        self.rholm("expand", "e.ply", "--degree", "4", "-o", "e.json")
         self.rholm("make", "sample", "e.ply", "--points", "2000", "-o", "p.xyz")
         self.write("rows.csv", "path\ne.ply\n")
 
@@ -89,16 +89,16 @@ class Closed(Streams):
         self.assertIn("standard input", result.err)
 
     def test_all_closed_at_once(self):
-        result = self.shell("<&- >&- 2>&-", ["analyze", "e.ply", "--degree", "4", "-o", "all.h5",
+        result = self.shell("<&- >&- 2>&-", ["expand", "e.ply", "--degree", "4", "-o", "all.h5",
                                              "--json"])
         self.assertEqual(result.code, 1)
-        self.rholm("analyze", "e.ply", "--degree", "4", "-o", "plain.h5")
+        self.rholm("expand", "e.ply", "--degree", "4", "-o", "plain.h5")
         self.assertEqual((self.folder / "all.h5").read_bytes(),
                          (self.folder / "plain.h5").read_bytes())
 
 
 # Commands with an output, and the extension of its format.
-WRITERS = [("make box", "off"), ("convert e.ply", "stl"), ("analyze e.ply --degree 4", "json"),
+WRITERS = [("make box", "off"), ("convert e.ply", "stl"), ("expand e.ply --degree 4", "json"),
            ("synthesize e.json --subdivisions 1", "ply"), ("filter e.json --low-pass 2", "npy"),
            ("render e.ply --size 32x32", "png"), ("spectrum e.json", "csv"),
            ("simplify e.ply --faces 100", "obj"), ("make sample e.ply --points 200", "xyz"),
@@ -152,7 +152,7 @@ class Pipes(Streams):
             # The report is not mixed with the data.
             both = self.rholm("simplify", "e.ply", "--faces", "100", "--format", "off", "-o", name)
             self.assertTrue(both.bytes.startswith(b"OFF") and b"simplified" not in both.bytes)
-            self.rholm("analyze", "e.ply", "--degree", "2", "--format", "json", "-o", name,
+            self.rholm("expand", "e.ply", "--degree", "2", "--format", "json", "-o", name,
                        "--json", code=2)
 
     def test_what_stands_in_a_file_stays_where_a_descriptor_appends(self):
@@ -178,8 +178,8 @@ class Pipes(Streams):
     def test_model_files_are_refused_before_the_work(self):
         os.mkfifo(self.folder / "pipe.h5")
         # The input does not exist: the program has not searched for it yet.
-        for words in (["analyze", "none.ply", "--degree", "4"], ["filter", "none.h5", "--low-pass", "2"],
-                      ["analyze", "none.ply", "--atlas", "--tolerance", ".1"]):
+        for words in (["expand", "none.ply", "--degree", "4"], ["filter", "none.h5", "--low-pass", "2"],
+                      ["compress", "none.ply", "--tolerance", ".1"]):
             self.rholm(*words, "-o", "pipe.h5", code=2)
             self.rholm(*words, "--format", "h5", "-o", "/dev/stdout", code=2)
 

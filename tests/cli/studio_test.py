@@ -101,7 +101,7 @@ class Access(CliTest):
 class Work(CliTest):
     def test_files_of_the_command_line_are_there_first(self):
         self.rholm("make", "bumpy", "-o", "a.ply")
-        self.rholm("analyze", "a.ply", "--degree", "4", "-o", "a.h5")
+        self.rholm("expand", "a.ply", "--degree", "4", "-o", "a.h5")
         studio = Studio(self, "a.ply", "a.h5")
         for _ in range(2):  # the same for every page
             self.assertEqual([(i["name"], i["kind"]) for i in studio.begin()["items"]],
@@ -132,7 +132,7 @@ class Work(CliTest):
         studio = Studio(self)
         studio.begin()
         studio.step(op="make", shape="bumpy", amplitude=0.45, seed=5)
-        studio.step(op="analyze", item=1, degree=12)
+        studio.step(op="expand", item=1, degree=12)
         studio.step(op="look", item=1, degree=5)
         saved = {}
 
@@ -159,7 +159,7 @@ class Work(CliTest):
         studio.step(op="compress", item=1, tolerance=0.03)
         saved["bumpy-caps.h5"] = keep(4, "h5")
         studio.step(op="make", shape="ellipsoid")
-        studio.step(op="analyze", item=5, tolerance=0.02)
+        studio.step(op="expand", item=5, tolerance=0.02)
         saved["ellipsoid.h5"] = keep(5, "h5")
         studio.step(op="look", item=5, degree=2, gains=[1, 0.5, 0.25])
         studio.step(op="simplify", item=5, error=0.01)
@@ -199,7 +199,7 @@ class Work(CliTest):
         studio.step(op="make", shape="bumpy")
         name, state = next_event()
         self.assertEqual((name, len(state["items"])), ("state", 1))
-        studio.post(op="analyze", item=1, degree=6)
+        studio.post(op="expand", item=1, degree=6)
         seen = set()
         while "done" not in seen:
             name, data = next_event()

@@ -112,7 +112,7 @@ class Many(CliTest):
         studio = Studio(self)
         studio.begin()
         studio.step(op="make", shape="bumpy")
-        studio.step(op="analyze", item=1, degree=20)
+        studio.step(op="expand", item=1, degree=20)
         look = json.dumps({"live": "degree", "item": 1, "degree": 7})
         kinds = [("GET", "api/state", None, {200}), ("GET", "api/item/1/measures", None, {200}),
                  ("POST", "api/live", look, {200, 409}), ("POST", "api/live", "{", {400}),
@@ -148,7 +148,7 @@ class Many(CliTest):
         for _ in range(30):
             studio.begin()
             studio.step(op="make", shape="bumpy", amplitude=0.3)
-            studio.step(op="analyze", item=1, degree=40)
+            studio.step(op="expand", item=1, degree=40)
             studio.ask("POST", "api/live", json.dumps({"live": "degree", "item": 1, "degree": 7}))
             self.assertEqual(studio.ask("DELETE", "api/session")[0], 200)
             first = first or resident(studio)

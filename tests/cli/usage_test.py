@@ -10,7 +10,7 @@ import unittest
 sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, OCTAHEDRON, RHOLM, SOURCE, STUDIO, Terminal, main, off
 
-COMMANDS = ["info", "center", "analyze", "synthesize", "spectrum", "compare", "convert", "render",
+COMMANDS = ["info", "center", "expand", "synthesize", "spectrum", "compare", "convert", "render",
             "report", "make", "filter", "rotate", "align", "smooth", "transfer", "orient", "reconstruct",
             "completion", *(["studio"] if STUDIO else [])]
 
@@ -52,7 +52,7 @@ class Help(CliTest):
                     self.assertLessEqual(len(line), 80, line)
 
     def test_help_wins_over_wrong_options(self):
-        self.rholm("analyze", "--nonsense", "--help")
+        self.rholm("expand", "--nonsense", "--help")
 
     def test_no_command_is_a_usage_error_that_shows_the_help(self):
         result = self.run_rholm()
@@ -82,54 +82,54 @@ class WrongUsage(CliTest):
         self.refused("info", "a.off", "b.off", saying="b.off")
 
     def test_what_may_have_been_meant_is_said(self):
-        for words, meant in ((["analyse", "a.off"], "analyze"), (["help", "recon"], "reconstruct"),
+        for words, meant in ((["analyse", "a.off"], "expand"), (["help", "recon"], "reconstruct"),
                              (["batch", "a.csv", "-o", "o.csv", "--command", "simplfy"], "simplify"),
-                             (["analyze", "a.off", "--degre", "8", "-o", "a.h5"], "--degree"),
-                             (["analyze", "--degre=8", "a.off", "-o", "a.h5"], "--degree"),
+                             (["expand", "a.off", "--degre", "8", "-o", "a.h5"], "--degree"),
+                             (["expand", "--degre=8", "a.off", "-o", "a.h5"], "--degree"),
                              (["info", "a.off", "--jsno"], "--json"),
-                             (["analyze", "a.off", "--degree", "4", "-o", "a.h5", "--method",
+                             (["expand", "a.off", "--degree", "4", "-o", "a.h5", "--method",
                                "egde"], "edge")):
             with self.subTest(words):
                 self.refused(*words, saying=f"did you mean '{meant}'?")
         for words in (["xylophone", "a.off"], ["info", "a.off", "--colour-of-sky"],
-                      ["analyze", "a.off", "-o", "a.h5", "--degree", "4", "--method", "magic"]):
+                      ["expand", "a.off", "-o", "a.h5", "--degree", "4", "--method", "magic"]):
             with self.subTest(words):
                 result = self.rholm(*words, code=2)
                 self.assertNotIn("did you mean", result.err)
         # A word after an option is its value, and numbers are not options.
         self.rholm("rotate", "--help")
-        self.refused("analyze", "a.off", "-o", "--degre", "--degree", "-1", saying="0 ... 16384")
+        self.refused("expand", "a.off", "-o", "--degre", "--degree", "-1", saying="0 ... 16384")
 
     def test_missing_words_are_named(self):
         self.refused("info", saying="SHAPE")
-        self.refused("analyze", "a.off", "-o", "a.h5", saying="--degree")
-        self.refused("analyze", "a.off", "--degree", "4", saying="--output")
-        self.refused("analyze", "a.off", "-o", "a.h5", "--degree")
+        self.refused("expand", "a.off", "-o", "a.h5", saying="--degree")
+        self.refused("expand", "a.off", "--degree", "4", saying="--output")
+        self.refused("expand", "a.off", "-o", "a.h5", "--degree")
 
     def test_values_out_of_range_are_answered_with_the_limit(self):
-        def analyze(*words, saying):
-            self.refused("analyze", "a.off", "-o", "a.h5", *words, saying=saying)
-        analyze("--degree", "16385", saying="0 ... 16384")
-        analyze("--degree", "2000000000", saying="0 ... 16384")
-        analyze("--degree", "99999999999999999999", saying="--degree")
-        analyze("--degree", "-1", saying="0 ... 16384")
-        analyze("--degree", "four", saying="--degree")
-        analyze("--degree", "4", "--precision", "0", saying="1e-14")
-        analyze("--degree", "4", "--precision", "tiny", saying="--precision")
-        analyze("--degree", "4", "--method", "magic", saying="edge, gauge, curl, area")
-        analyze("--degree", "4", "--center", "left", saying="--center")
-        analyze("--degree", "4", "--center", "1,2", saying="--center")
-        analyze("--degree", "4", "--weld", "-1", saying="--weld")
-        analyze("--degree", "4", "--csphase", "0", saying="one of 1, -1")
-        analyze("--degree", "4", "--threads", "-2", saying="--threads")
+        def expand(*words, saying):
+            self.refused("expand", "a.off", "-o", "a.h5", *words, saying=saying)
+        expand("--degree", "16385", saying="0 ... 16384")
+        expand("--degree", "2000000000", saying="0 ... 16384")
+        expand("--degree", "99999999999999999999", saying="--degree")
+        expand("--degree", "-1", saying="0 ... 16384")
+        expand("--degree", "four", saying="--degree")
+        expand("--degree", "4", "--precision", "0", saying="1e-14")
+        expand("--degree", "4", "--precision", "tiny", saying="--precision")
+        expand("--degree", "4", "--method", "magic", saying="edge, gauge, curl, area")
+        expand("--degree", "4", "--center", "left", saying="--center")
+        expand("--degree", "4", "--center", "1,2", saying="--center")
+        expand("--degree", "4", "--weld", "-1", saying="--weld")
+        expand("--degree", "4", "--csphase", "0", saying="one of 1, -1")
+        expand("--degree", "4", "--threads", "-2", saying="--threads")
 
     def test_a_value_that_is_not_a_number_is_refused_as_such(self):
-        result = self.run_rholm("analyze", "a.off", "-o", "a.h5", "--degree", "4", "--weld", "nan")
+        result = self.run_rholm("expand", "a.off", "-o", "a.h5", "--degree", "4", "--weld", "nan")
         self.assertEqual(result.code, 2, str(result))
         self.assertIn("finite number", result.err)
 
     def test_outputs_without_a_format_are_refused_before_any_work(self):
-        for words in (["analyze", "missing.off", "--degree", "4"], ["synthesize", "missing.h5"],
+        for words in (["expand", "missing.off", "--degree", "4"], ["synthesize", "missing.h5"],
                       ["make", "sphere"], ["spectrum", "missing.h5"], ["render", "missing.off"],
                       ["report", "missing.off"], ["orient", "missing.xyz"], ["reconstruct", "missing.xyz"],
                       ["make", "sample", "missing.off"]):
@@ -144,9 +144,9 @@ class WrongUsage(CliTest):
         self.refused("convert", "a.off", "-", saying="--format")
 
     def test_report_and_data_cannot_share_standard_output(self):
-        self.refused("analyze", "a.off", "--degree", "4", "--format", "shtools", "-o", "-",
+        self.refused("expand", "a.off", "--degree", "4", "--format", "shtools", "-o", "-",
                      "--json", saying="--json")
-        self.refused("analyze", "a.off", "--degree", "4", "--format", "h5", "-o", "-",
+        self.refused("expand", "a.off", "--degree", "4", "--format", "h5", "-o", "-",
                      saying="HDF5")
 
     def test_options_that_exclude_one_another_are_refused(self):
@@ -169,9 +169,9 @@ class WrongUsage(CliTest):
         self.refused("render", "a.off", "--labels", "one,two", "-o", "a.png", saying="1 panels")
         self.refused("transfer", "--from", "-", "--to", "-", "--from-region", "ball:0,0,0,1",
                      "--to-region", "ball:0,0,0,1", "-o", "b.ply", saying="standard input")
-        self.refused("analyze", "a.off", "--atlas", "--tolerance", "1", "--max-degree", "25", "-o",
+        self.refused("compress", "a.off", "--tolerance", "1", "--max-degree", "25", "-o",
                      "a.h5", saying="2 ... 24")
-        monte_carlo = ["analyze", "a.off", "--method", "monte-carlo-edge", "--degree", "2",
+        monte_carlo = ["expand", "a.off", "--method", "monte-carlo-edge", "--degree", "2",
                        "-o", "a.h5"]
         self.refused(*monte_carlo, "--engine", "fast", saying="direct")
         self.refused(*monte_carlo, "--samples", "100", "--deviation", "0.1", saying="--samples")
@@ -188,7 +188,7 @@ class WrongUsage(CliTest):
 class Failures(CliTest):
     def test_a_file_that_is_not_there_is_a_failure(self):
         for words in (["info", "none.ply"], ["center", "none.ply"], ["spectrum", "none.h5"],
-                      ["analyze", "none.ply", "--degree", "2", "-o", "o.h5"],
+                      ["expand", "none.ply", "--degree", "2", "-o", "o.h5"],
                       ["compare", "none.ply", "none.ply"], ["convert", "none.ply", "o.obj"],
                       ["render", "none.ply", "-o", "o.png"],
                       ["report", "none.ply", "-o", "o.html"],
@@ -223,7 +223,7 @@ class Failures(CliTest):
         # 2 (16384 + 1)^2 doubles are 4 GiB.
         limit = 2 << 30
         process = subprocess.run(
-            [RHOLM, "analyze", "a.off", "--degree", "16384", "--method", "gauge", "-o", "a.h5"],
+            [RHOLM, "expand", "a.off", "--degree", "16384", "--method", "gauge", "-o", "a.h5"],
             cwd=self.folder, capture_output=True, text=True,
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
         self.assertEqual(process.returncode, 1, process.stderr)
@@ -247,9 +247,25 @@ class Talk(CliTest):
             self.assertIn(f" is {name} now; the next version refuses the old name", said)
             self.assertIn("no.", said.splitlines()[-1])  # the file is missing
 
+    def test_analyze_is_two_commands_now(self):
+        self.write("a.off", off(V, F))
+        words = ["a.off", "--degree", "4", "-o"]
+        said = self.rholm("analyze", *words, "old.h5").err
+        self.assertIn("analyze is expand now; the next version refuses the old name", said)
+        self.assertNotIn("is expand now", self.rholm("analyze", *words, "old.h5", "--quiet").err)
+        self.assertEqual(self.rholm("help", "analyze").out, self.rholm("help", "expand").out)
+        said = self.rholm("analyze", "none.off", "--atlas", "--tolerance", "1", "-o", "o.h5", code=1).err
+        self.assertIn("analyze --atlas is compress now", said)
+        self.assertIn("none.off", said.splitlines()[-1])
+        self.write("list.csv", "path\na.off\n")
+        for command in (["--command", "analyze"], ["--command=analyze"]):
+            said = self.rholm("batch", "list.csv", *command, "--restart", "-o", "o.csv", "--", "--degree", "2").err
+            self.assertIn("analyze is expand now", said)
+        self.assertIn("spectrum", self.rholm("spectrum", "old.h5", "--help").out)
+
     def test_quiet_says_nothing(self):
         self.rholm("make", "sphere", "--subdivisions", "2", "-o", "s.ply")
-        result = self.rholm("analyze", "s.ply", "--degree", "2", "-o", "s.h5", "--quiet")
+        result = self.rholm("expand", "s.ply", "--degree", "2", "-o", "s.h5", "--quiet")
         self.assertEqual(result.out + result.err, "")
 
     def test_no_escape_sequences_without_a_terminal(self):
@@ -269,7 +285,7 @@ class Talk(CliTest):
 
     def test_progress_on_a_terminal_unless_told_otherwise(self):
         self.rholm("make", "box", "-o", "b.off")
-        words = ["analyze", "b.off", "--degree", "700", "--engine", "direct", "-o", "b.h5"]
+        words = ["expand", "b.off", "--degree", "700", "--engine", "direct", "-o", "b.h5"]
         self.assertRegex(self.on_terminal(*words, wanted=[" %"]), r"\w+ +\[#* *\] +\d+ %")
         quiet = self.on_terminal(*words, "--quiet", wanted=[" %"], seconds=1.5)
         self.assertEqual(quiet, "")

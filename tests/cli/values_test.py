@@ -13,7 +13,7 @@ from harness import CliTest, RHOLM, STUDIO, main, nightly
 # refused one with 2.
 NEEDS = {
     "info": ["none.ply"], "center": ["none.ply"],
-    "analyze": ["none.ply", "-o", "out.h5"],
+    "expand": ["none.ply", "-o", "out.h5"],
     "synthesize": ["none.h5", "-o", "out.ply"], "spectrum": ["none.h5"],
     "compare": ["none.ply", "none.h5"], "convert": ["none.ply", "out.obj"],
     "render": ["none.ply", "-o", "out.png"], "report": ["none.ply", "-o", "out.html"],
@@ -39,7 +39,7 @@ BAD = ["", "text", "nan", "-inf", "1e400", "1,2,3,4,5,6,7,8,9,10,11,12,"]
 # One value beyond each limit that the help texts state.
 BEYOND = {
     "threads": ["-1", "4097"], "seed": ["-1", "99999999999999999999"], "weld": ["-1e-9"],
-    "analyze --degree": ["-1", "16385", "1.5", "0x10"], "report --degree": ["-1", "16385"],
+    "expand --degree": ["-1", "16385", "1.5", "0x10"], "report --degree": ["-1", "16385"],
     "synthesize --degree": ["-1", "4,16385", "4,,5"], "tolerance": ["0", "-1"],
     "reconstruct --tolerance": ["-1", "1.1"], "tile-points": ["999", "268435457"],
     "max-degree": ["-1", "16385"], "precision": ["0", "1"], "rays": ["-1", "1e3"],

@@ -14,7 +14,7 @@ class Compare(ProgramTest):
     def setUp(self):
         super().setUp()
         self.make("a.ply", "bumpy", "--subdivisions", 6)
-        self.rholm("analyze", "a.ply", "--degree", 12, "--quiet", "-o", "a.h5")
+        self.rholm("expand", "a.ply", "--degree", 12, "--quiet", "-o", "a.h5")
 
     def check_same(self, *words, ranks=RANKS, threads=(1, 2)):
         one = self.rholm("compare", *words).stdout

@@ -10,7 +10,7 @@ import unittest
 sys.path.insert(0, os.path.dirname(__file__))
 from harness_mpi import MpiTest, RHOLM_MPI, main
 
-CASES = (("rholm-mpi ana", "analyze"), ("rholm-mpi analyze --deg", "--degree"), ("rholm-mpi compare --pa", "--patience"))
+CASES = (("rholm-mpi ana", "expand"), ("rholm-mpi expand --deg", "--degree"), ("rholm-mpi compare --pa", "--patience"))
 
 
 def needs(program):
@@ -57,7 +57,7 @@ class ShellFiles(MpiTest):
 
     def test_every_command_and_option_is_offered(self):
         scripts = {shell: self.script(shell).read_text() for shell in ("bash", "zsh", "fish")}
-        for command in ("analyze", "batch", "compare", "completion"):
+        for command in ("expand", "batch", "compare", "completion"):
             run = self.finished(RHOLM_MPI, command, "--help", ranks=1)
             self.assertEqual(run.code, 0, run)
             options = re.findall(r"^  (?:-\w, )?--([\w-]+)", run.stdout, re.M)
@@ -76,7 +76,7 @@ class ShellFiles(MpiTest):
         lint = self.run_in("mandoc", "-Tlint", "-Wwarning", str(path))
         self.assertEqual(lint.stdout + lint.stderr, "")
         text = re.sub(".\b", "", self.run_in("mandoc", "-Tutf8", str(path)).stdout)
-        for words in ("rholm-mpi analyze", "rholm-mpi compare", "--patience", "EXIT STATUS"):
+        for words in ("rholm-mpi expand", "rholm-mpi compare", "--patience", "EXIT STATUS"):
             self.assertIn(words, text)
 
 

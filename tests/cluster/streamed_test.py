@@ -1,14 +1,14 @@
-"""rholm-mpi analyze of a mesh with more than eight million triangles, whose parts are spread one after the
+"""rholm-mpi expand of a mesh with more than eight million triangles, whose parts are spread one after the
 other."""
 
 import os
 import sys
 
 sys.path.insert(0, os.path.dirname(__file__))
-from analyze_test import Analyze, main
+from expand_test import Expand, main
 
 
-class Streamed(Analyze):
+class Streamed(Expand):
     every_way = True
 
     def test_the_bytes_are_those_of_one_process(self):

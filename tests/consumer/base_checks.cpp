@@ -41,7 +41,7 @@ void context() {
   rholm::Context context{.threads = 1};
   context.progress = [](std::string_view, double) { return false; };
   try {
-    rholm::encode(rholm::icosphere(3), {}, context);
+    rholm::expand(rholm::icosphere(3), {}, context);
   } catch (const rholm::Error& stopped) {
     expect(stopped.code() == rholm::ErrorCode::kCancelled, "a callback's false cancels");
     return;
@@ -64,10 +64,10 @@ void version() {
 
 // From a box to coefficients and back, with the single header.
 void rholm_h() {
-  rholm::EncodeOptions options;
-  options.analyze.degree = 8;
-  const rholm::Encoded encoded = rholm::encode(rholm::box({1, 1, 1}), options);
-  const rholm::Expansion& expansion = encoded.analysis.expansion;
+  rholm::ExpandOptions options;
+  options.degree = 8;
+  const rholm::Expanded expanded = rholm::expand(rholm::box({1, 1, 1}), options);
+  const rholm::Expansion& expansion = expanded.transform.expansion;
   const double mean_radius = expansion.coefficients.c(0, 0) / std::sqrt(4 * std::numbers::pi);
   expect(mean_radius > 0.5 && mean_radius < std::sqrt(0.75),
          "a box lies between its inscribed and its circumscribed sphere");

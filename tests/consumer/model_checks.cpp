@@ -22,10 +22,10 @@ namespace {
 const double kPi = std::numbers::pi;
 
 void model() {
-  rholm::EncodeOptions options;
-  options.analyze.degree = 32;
-  const rholm::Encoded encoded = rholm::encode(rholm::ellipsoid({1, 2, 3}, 5), options);
-  const rholm::Expansion& expansion = encoded.analysis.expansion;
+  rholm::ExpandOptions options;
+  options.degree = 32;
+  const rholm::Expanded expanded = rholm::expand(rholm::ellipsoid({1, 2, 3}, 5), options);
+  const rholm::Expansion& expansion = expanded.transform.expansion;
   // Flat triangles with edges of 1/30 of the radius lie 1e-4 radii inside the ellipsoid.
   expect_near(rholm::measure(expansion).volume.value(), 8 * kPi, 0.005 * 8 * kPi,
               "the volume of an ellipsoid");

@@ -26,10 +26,10 @@ void render() {
 }
 
 void report() {
-  rholm::EncodeOptions options;
-  options.analyze.degree = 4;
+  rholm::ExpandOptions options;
+  options.degree = 4;
   const rholm::Mesh box = rholm::box({1, 1, 1});
-  const rholm::Expansion expansion = rholm::encode(box, options).analysis.expansion;
+  const rholm::Expansion expansion = rholm::expand(box, options).transform.expansion;
   const std::string page = rholm::report_html(
       expansion, &box, {.title = "One box", .shape_name = "box.ply", .picture_size = 32});
   expect(page.starts_with("<!DOCTYPE html>"), "a report is a page");

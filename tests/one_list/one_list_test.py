@@ -22,7 +22,7 @@ class OneList(CliTest):
     def setUp(self):
         super().setUp()
         self.rholm("make", "bumpy", "--subdivisions", 3, "-o", "rock.ply")
-        self.rholm("analyze", "rock.ply", "--degree", 8, "-o", "rock.h5")
+        self.rholm("expand", "rock.ply", "--degree", 8, "-o", "rock.h5")
 
     def words(self, *words):
         """Returns the output of a command without line breaks."""

@@ -64,11 +64,11 @@ TEST(callers_at_once, get_the_same_model_and_file_of_a_mesh) {
   const Mesh mesh = bumpy_sphere(2);
   expect_same_bits_at_once([&](int caller) {
     Listened listened;
-    const Encoded encoded = encode(mesh, {.analyze = {.degree = 12}}, listened.context());
+    const Expanded expanded = expand(mesh, {.degree = 12}, listened.context());
     EXPECT_GT(listened.calls, 0);
     EXPECT_FALSE(listened.met);
     const std::string name = "model" + std::to_string(caller) + ".h5";
-    write_model(encoded.analysis.expansion, folder / name.c_str());
+    write_model(expanded.transform.expansion, folder / name.c_str());
     const std::string file = read_all(folder / name.c_str());
     return file + Bits().add(read_model(folder / name.c_str()).coefficients).bytes();
   });

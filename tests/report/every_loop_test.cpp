@@ -82,8 +82,8 @@ TEST(every_loop, gives_the_same_bits_for_a_mesh_in_parts) {
 TEST(every_loop, gives_the_same_bits_for_a_measured_error) {
   for (const StarChart& chart : {chart_of(many_triangles()), chart_of(bumpy_sphere(7))}) {
     expect_same_bits([&](const Context& context) {
-      const Analysis analysis = analyze(chart, {.degree = 16, .precision = 1e-6}, context);
-      return Bits().add(analysis.expansion.coefficients).add(analysis.fast->error);
+      const Transform transform = expand(chart, {.degree = 16, .precision = 1e-6}, context);
+      return Bits().add(transform.expansion.coefficients).add(transform.fast->error);
     });
   }
 }
@@ -93,19 +93,19 @@ TEST(every_loop, gives_the_same_bits_for_each_method) {
   expect_same_bits([&](const Context& context) {
     Bits bits;
     for (const Method method : {Method::kEdge, Method::kCurl, Method::kArea}) {
-      bits.add(analyze(few, {.degree = 12, .method = method}, context).expansion.coefficients);
+      bits.add(expand(few, {.degree = 12, .method = method}, context).expansion.coefficients);
     }
     bits.add(
-        analyze(few, {.degree = 12, .engine = Engine::kDirect}, context).expansion.coefficients);
+        expand(few, {.degree = 12, .engine = Engine::kDirect}, context).expansion.coefficients);
     return bits.add(
-        analyze(many, {.degree = 16, .method = Method::kGauge}, context).expansion.coefficients);
+        expand(many, {.degree = 16, .method = Method::kGauge}, context).expansion.coefficients);
   });
 }
 
 TEST(every_loop, gives_the_same_bits_for_errors) {
   // The first case has many points, the second many triangles.
   for (const auto& [mesh, degree] : {std::pair{many_triangles(), 100}, {bumpy_sphere(6), 8}}) {
-    const Expansion expansion = analyze(chart_of(mesh), {.degree = degree}).expansion;
+    const Expansion expansion = expand(chart_of(mesh), {.degree = degree}).expansion;
     expect_same_bits([&](const Context& context) {
       const TruncationErrors errors = truncation_errors(view_of(mesh), expansion, {}, context);
       Bits bits;
@@ -131,12 +131,10 @@ TEST(every_loop, gives_the_same_bits_for_a_mesh_in_rows) {
 TEST(every_loop, gives_the_same_bits_for_a_large_mesh_in_random_order) {
   const Mesh mesh = large_mesh_in_random_order();
   expect_same_bits([&](const Context& context) {
-    const Encoded encoded = encode(mesh,
-                                   {.analyze = {.degree = 16, .precision = 1e-4},
-                                    .errors = false,
-                                    .chart = {.center = kNoRays}},
-                                   context);
-    return Bits().add(encoded.analysis.expansion.coefficients).add(encoded.star.min_d);
+    const Expanded expanded = expand(
+        mesh, {.degree = 16, .precision = 1e-4, .errors = false, .chart = {.center = kNoRays}},
+        context);
+    return Bits().add(expanded.transform.expansion.coefficients).add(expanded.star.min_d);
   });
 }
 
@@ -190,8 +188,8 @@ TEST(every_loop, gives_the_same_bits_for_the_degree_of_a_tolerance) {
           .measure = ErrorMeasure::kDistance,
           .max_degree = 32},
           Tolerance{.error = 0.05, .norm = ErrorNorm::kMax, .max_degree = 16}}) {
-      const ToleranceAnalysis found = analyze(chart, tolerance, {}, context);
-      bits.add(found.reached).add(found.analysis.expansion.coefficients);
+      const ToleranceTransform found = expand(chart, tolerance, {}, context);
+      bits.add(found.reached).add(found.transform.expansion.coefficients);
     }
     return bits;
   });
@@ -199,7 +197,7 @@ TEST(every_loop, gives_the_same_bits_for_the_degree_of_a_tolerance) {
 
 TEST(every_loop, gives_the_same_bits_for_closest_distances_to_a_model) {
   const StarChart chart = chart_of(test::l_prism(2));
-  const Expansion expansion = analyze(chart, {.degree = 8}).expansion;
+  const Expansion expansion = expand(chart, {.degree = 8}).expansion;
   expect_same_bits([&](const Context& context) {
     ClosestDistances distances(view_of(chart.mesh), {}, 400);
     const SurfaceDistances found = distances.measure(expansion, 8, {}, 1e-6, context);
@@ -209,7 +207,7 @@ TEST(every_loop, gives_the_same_bits_for_closest_distances_to_a_model) {
 
 TEST(every_loop, gives_the_same_bits_for_distances_between_surfaces) {
   const StarChart chart = chart_of(bumpy_sphere(5, 0.5));
-  const Expansion expansion = analyze(chart, {.degree = 8}).expansion;
+  const Expansion expansion = expand(chart, {.degree = 8}).expansion;
   expect_same_bits([&](const Context& context) {
     const TruncationErrors found = truncation_errors(view_of(chart.mesh), expansion, {}, context);
     EXPECT_TRUE(found.distances_are_closest);
@@ -576,7 +574,7 @@ TEST(every_loop, gives_the_same_picture) {
 
 TEST(every_loop, gives_the_same_page) {
   const Mesh mesh = bumpy_sphere(2);
-  const Expansion expansion = analyze(chart_of(mesh), {.degree = 4}).expansion;
+  const Expansion expansion = expand(chart_of(mesh), {.degree = 4}).expansion;
   expect_same_bits([&](const Context& context) {
     std::string page = report_html(expansion, &mesh, {.picture_size = 48}, context);
     return Bits().add(std::span(page));

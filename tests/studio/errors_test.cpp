@@ -78,7 +78,7 @@ TEST(Errors, BodiesThatAreNoRequests) {
 TEST(Errors, FieldsThatAreMissingOrWrong) {
   Client client;
   client.step({{"op", "make"}, {"shape", "bumpy"}});
-  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 4}});
+  client.step({{"op", "expand"}, {"item", 1}, {"degree", 4}});
   client.step({{"op", "make"}, {"shape", "points"}});
   const Json before = client.state();
   const std::vector<Json> wrong = {
@@ -94,9 +94,9 @@ TEST(Errors, FieldsThatAreMissingOrWrong) {
       {{"op", "remove"}, {"item", "1"}},
       {{"op", "remove"}, {"item", 1.5}},
       {{"op", "remove"}, {"item", 1e300}},
-      {{"op", "analyze"}, {"item", 1}},
-      {{"op", "analyze"}, {"item", 1}, {"degree", -1}},
-      {{"op", "analyze"}, {"item", 1}, {"degree", 100000}},
+      {{"op", "expand"}, {"item", 1}},
+      {{"op", "expand"}, {"item", 1}, {"degree", -1}},
+      {{"op", "expand"}, {"item", 1}, {"degree", 100000}},
       {{"op", "look"}, {"item", 1}, {"degree", 5}},
       {{"op", "look"}, {"item", 1}, {"degree", -1}},
       {{"op", "look"}, {"item", 1}, {"degree", 1}, {"gains", {1, 1, 1}}},
@@ -144,12 +144,12 @@ TEST(Errors, ItemsThatAreNotThereOrOfAnotherKind) {
   Client client;
   client.step({{"op", "make"}, {"shape", "bumpy"}});
   client.step({{"op", "make"}, {"shape", "points"}});
-  for (const char* op : {"remove", "analyze", "look", "smooth", "simplify", "orient", "compress"}) {
+  for (const char* op : {"remove", "expand", "look", "smooth", "simplify", "orient", "compress"}) {
     EXPECT_EQ(client.post({{"op", op}, {"item", 77}}).status, 404) << op;
   }
   for (const Json& step : std::vector<Json>{{{"op", "look"}, {"item", 1}, {"degree", 1}},
                                             {{"op", "degree_for"}, {"item", 1}, {"tolerance", 1}},
-                                            {{"op", "analyze"}, {"item", 2}, {"degree", 1}},
+                                            {{"op", "expand"}, {"item", 2}, {"degree", 1}},
                                             {{"op", "smooth"}, {"item", 2}},
                                             {{"op", "orient"}, {"item", 1}},
                                             {{"op", "reconstruct"}, {"item", 1}},
@@ -180,7 +180,7 @@ TEST(Errors, CapsAreAdvisedForWhatIsNotStarShapedUnlessItIsCaps) {
 TEST(Errors, WhatTheLibraryRefusesIsSaidInItsWords) {
   Client client;
   client.step({{"op", "make"}, {"shape", "torus"}});
-  const Json refused = client.step({{"op", "analyze"}, {"item", 1}, {"degree", 8}}).at("job");
+  const Json refused = client.step({{"op", "expand"}, {"item", 1}, {"degree", 8}}).at("job");
   EXPECT_EQ(refused.at("state"), "failed");
   EXPECT_NE(refused.at("message").get<std::string>().find("star-shaped"), std::string::npos);
   const Json star = client.state().at("items")[0].at("star");

@@ -44,7 +44,7 @@ TEST(Jobs, ACancelledOneLeavesNothing) {
   EXPECT_EQ(document_of(after), document_of(before));
   EXPECT_EQ(after.at("undo"), before.at("undo"));
   // The session can still be used.
-  EXPECT_EQ(client.step({{"op", "analyze"}, {"item", 1}, {"degree", 3}}).at("job").at("state"),
+  EXPECT_EQ(client.step({{"op", "expand"}, {"item", 1}, {"degree", 3}}).at("job").at("state"),
             "done");
 }
 
@@ -84,7 +84,7 @@ TEST(Jobs, ListenersHearOfThem) {
   EXPECT_EQ(events[0].name, "state");
   EXPECT_TRUE(listener->wait(0ms).empty());
   client.step({{"op", "make"}, {"shape", "bumpy"}});
-  client.post({{"op", "analyze"}, {"item", 1}, {"degree", 6}});
+  client.post({{"op", "expand"}, {"item", 1}, {"degree", 6}});
   bool done = false;
   Json state;
   while (!done) {
@@ -185,12 +185,12 @@ TEST(Jobs, MemoryIsGivenBack) {
   if (used() == 0) GTEST_SKIP() << "the allocator does not tell what is in use";
   Client client;
   client.step({{"op", "make"}, {"shape", "bumpy"}});  // makes data that the library keeps
-  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 100}});
+  client.step({{"op", "expand"}, {"item", 1}, {"degree", 100}});
   client.ask("DELETE", "api/session");
   const std::size_t before = used();
   client.id = Json::parse(client.ask("POST", "api/session").body).at("session");
   client.step({{"op", "make"}, {"shape", "bumpy"}});
-  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 100}});
+  client.step({{"op", "expand"}, {"item", 1}, {"degree", 100}});
   client.live(
       {{"live", "smooth"}, {"item", 1}, {"regions", {"vertex:5,0.4"}}, {"wavelength", 0.3}});
   const std::size_t during = used();

@@ -26,9 +26,9 @@ using test::code_of;
 // The surface of `make bumpy`, and the expansion that analyze makes of it.
 Mesh bumpy() { return bumpy_sphere(5); }
 Expansion expansion_of_bumpy(int degree) {
-  EncodeOptions options;
-  options.analyze.degree = degree;
-  return encode(bumpy(), options).analysis.expansion;
+  ExpandOptions options;
+  options.degree = degree;
+  return expand(bumpy(), options).transform.expansion;
 }
 
 void expect_near(const Array& array, std::span<const Vec3> wanted, double error) {
@@ -46,7 +46,7 @@ void expect_near(const Array& array, std::span<const Vec3> wanted, double error)
 struct Analyzed : Client {
   explicit Analyzed(int degree) {
     step({{"op", "make"}, {"shape", "bumpy"}});
-    step({{"op", "analyze"}, {"item", 1}, {"degree", degree}});
+    step({{"op", "expand"}, {"item", 1}, {"degree", degree}});
   }
 };
 
@@ -92,7 +92,7 @@ TEST(Live, ASeamOfTheFileIsNoCrease) {
   client.open("cut.off", head + vertices + faces);
   const Response surface = client.ask("GET", "api/item/1/surface");
   expect_near(arrays_of(surface.body).at("normals"), corners, 0.02);
-  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 4}});
+  client.step({{"op", "expand"}, {"item", 1}, {"degree", 4}});
   const Response look = client.live({{"live", "degree"}, {"item", 1}, {"degree", 4}});
   expect_near(arrays_of(look.body).at("normals"), corners, 0.02);
 }
@@ -164,10 +164,10 @@ TEST(Live, TransferIsThatOfTheLibrary) {
   const std::vector<Region> from = {DiscRegion{5, 0.4}}, to = {DiscRegion{500, 0.4}};
   Json look = {{"live", "transfer"},       {"source", 1}, {"from", {"vertex:5,0.4"}}, {"target", 1},
                {"to", {"vertex:500,0.4"}}, {"height", 3}};
-  const TransferAnalysis analysis = analyze_transfer(mesh, from, mesh, to);
+  const TransferAnalysis transform = analyze_transfer(mesh, from, mesh, to);
   auto arrays = arrays_of(client.live(look).body);
-  EXPECT_EQ(arrays.at("indices").as<std::uint32_t>(), analysis.patch.vertices);
-  expect_near(arrays.at("positions"), update(analysis, {.height = 3}), 1e-6);
+  EXPECT_EQ(arrays.at("indices").as<std::uint32_t>(), transform.patch.vertices);
+  expect_near(arrays.at("positions"), update(transform, {.height = 3}), 1e-6);
   look["refine"] = true;
   arrays = arrays_of(client.live(look).body);
   const Mesh refined = transfer(mesh, from, mesh, to, {.refine = true}, {.height = 3});
@@ -195,12 +195,12 @@ TEST(Live, TheBrushWeighsVerticesNearby) {
 TEST(Live, BlendsBeginAndEndAtTheirShapes) {
   Analyzed client(10);
   client.step({{"op", "make"}, {"shape", "ellipsoid"}});
-  client.step({{"op", "analyze"}, {"item", 2}, {"degree", 14}});
+  client.step({{"op", "expand"}, {"item", 2}, {"degree", 14}});
   const Expansion a = expansion_of_bumpy(10);
   const Mesh sphere = directions_of(bumpy(), a.center);
-  EncodeOptions options;
-  options.analyze.degree = 14;
-  const Expansion b = encode(ellipsoid({3, 2, 1}, 5), options).analysis.expansion;
+  ExpandOptions options;
+  options.degree = 14;
+  const Expansion b = expand(ellipsoid({3, 2, 1}, 5), options).transform.expansion;
   for (const auto& [t, end] : {std::pair{0.0, &a}, {1.0, &b}}) {
     const auto arrays =
         arrays_of(client.live({{"live", "blend"}, {"a", 1}, {"b", 2}, {"t", t}}).body);

@@ -35,9 +35,9 @@ std::string bytes_of(const std::string& name, const Write& write) {
 }
 
 Expansion bumpy_expansion() {
-  EncodeOptions options;
-  options.analyze.degree = 8;
-  return encode(bumpy_sphere(5), options).analysis.expansion;
+  ExpandOptions options;
+  options.degree = 8;
+  return expand(bumpy_sphere(5), options).transform.expansion;
 }
 
 TEST(Save, ShapesAreThoseOfTheLibrary) {
@@ -65,7 +65,7 @@ TEST(Save, ShapesAreThoseOfTheLibrary) {
 TEST(Save, CoefficientsAreThoseOfTheLibrary) {
   Client client;
   client.step({{"op", "make"}, {"shape", "bumpy"}});
-  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 8}});
+  client.step({{"op", "expand"}, {"item", 1}, {"degree", 8}});
   const Expansion expansion = bumpy_expansion();
   EXPECT_TRUE(client.save(1, "h5").body ==
               bytes_of("a.h5", [&](const auto& path) { write_model(expansion, path); }));
@@ -126,18 +126,18 @@ TEST(Save, WhatAKindHasNotIsRefused) {
 TEST(Save, ReportsAreWholePages) {
   Client client;
   client.step({{"op", "make"}, {"shape", "bumpy"}});
-  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 4}});
+  client.step({{"op", "expand"}, {"item", 1}, {"degree", 4}});
   const Response answer = client.save(1, "html");
   ASSERT_EQ(answer.status, 200) << answer.body;
   EXPECT_EQ(answer.type, "text/html");
   EXPECT_NE(answer.body.find("</html>"), std::string::npos);
-  EXPECT_NE(answer.body.find("rholm analyze bumpy.ply --degree 4 -o bumpy.h5"), std::string::npos);
+  EXPECT_NE(answer.body.find("rholm expand bumpy.ply --degree 4 -o bumpy.h5"), std::string::npos);
 }
 
 TEST(Save, EveryFileOpensAgain) {
   Client client;
   client.step({{"op", "make"}, {"shape", "bumpy"}});
-  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 8}});
+  client.step({{"op", "expand"}, {"item", 1}, {"degree", 8}});
   client.step({{"op", "make"}, {"shape", "points"}});
   client.step({{"op", "compress"}, {"item", 1}, {"tolerance", 0.2}});
   for (const auto& [item, format, kind] :

@@ -34,7 +34,7 @@ constexpr const char* kOctahedron =
 std::string small_session() {
   Client client;
   client.open("octahedron.off", kOctahedron);
-  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 2}});
+  client.step({{"op", "expand"}, {"item", 1}, {"degree", 2}});
   client.step({{"op", "look"}, {"item", 1}, {"degree", 1}, {"gains", {1, 0.5}}});
   return client.ask("GET", "api/session-file").body;
 }
@@ -55,7 +55,7 @@ std::string with_json(const std::string& file, const std::string& json) {
 TEST(SessionFile, BringsEverythingBack) {
   Client client;
   client.step({{"op", "make"}, {"shape", "bumpy"}});
-  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 10}});
+  client.step({{"op", "expand"}, {"item", 1}, {"degree", 10}});
   client.step({{"op", "look"}, {"item", 1}, {"degree", 4}});
   client.step({{"op", "make"}, {"shape", "points"}});
   client.step({{"op", "compress"}, {"item", 1}, {"tolerance", 0.1}});
@@ -229,13 +229,13 @@ Json all_steps() {
            {"degrees", 4},
            {"gain_file", "g.txt"}},
           {{"op", "synthesize"}, {"from", model}, {"made", made("s")}, {"like", mesh}},
-          {{"op", "analyze"},
+          {{"op", "expand"},
            {"from", mesh},
            {"made", at("a", ".h5")},
            {"degree", 3},
            {"center", "1,2,3"},
            {"unit", "mm"}},
-          {{"op", "analyze"},
+          {{"op", "expand"},
            {"from", mesh},
            {"made", at("aa", ".h5")},
            {"tolerance", 0.1},

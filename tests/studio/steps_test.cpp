@@ -57,7 +57,7 @@ TEST(Steps, ExpansionsAreMadeLookedAtAlignedBlended) {
   Client client;
   check_undone(client, {{"op", "make"}, {"shape", "bumpy"}});
   const int a = last_item(client.state());
-  Json state = check_undone(client, {{"op", "analyze"}, {"item", a}, {"degree", 12}});
+  Json state = check_undone(client, {{"op", "expand"}, {"item", a}, {"degree", 12}});
   EXPECT_EQ(state.at("items")[0].at("expansion").at("degree"), 12);
   EXPECT_EQ(state.at("items")[0].at("expansion").at("power").size(), 13U);
   state = check_undone(client, {{"op", "look"}, {"item", a}, {"degree", 4}});
@@ -68,7 +68,7 @@ TEST(Steps, ExpansionsAreMadeLookedAtAlignedBlended) {
 
   client.step({{"op", "make"}, {"shape", "ellipsoid"}});
   const int b = last_item(client.state());
-  state = check_undone(client, {{"op", "analyze"}, {"item", b}, {"tolerance", 0.05}});
+  state = check_undone(client, {{"op", "expand"}, {"item", b}, {"tolerance", 0.05}});
   EXPECT_LE(state.at("items")[1].at("expansion").at("rms_per_degree").back().get<double>(), 0.05);
   state = check_undone(client, {{"op", "align"}, {"a", a}, {"b", b}, {"mirror", true}});
   EXPECT_TRUE(state.at("items")[0].at("placed").is_string());
@@ -259,7 +259,7 @@ TEST(Steps, FiguresAreOfWhatIsShown) {
   Client client;
   // An ellipsoid of radii 3, 2, 1 becomes at degree 0 a sphere, whose radius is the mean radius.
   client.step({{"op", "make"}, {"shape", "ellipsoid"}});
-  Json item = client.step({{"op", "analyze"}, {"item", 1}, {"degree", 12}}).at("items")[0];
+  Json item = client.step({{"op", "expand"}, {"item", 1}, {"degree", 12}}).at("items")[0];
   EXPECT_EQ(fact(item, "Degree"), "12");
   EXPECT_EQ(fact(item, "Coefficients"), "169");
   const Json rms = item.at("expansion").at("rms_per_degree");
@@ -289,7 +289,7 @@ TEST(Steps, TheErrorOfAllDegreesIsOne) {
   client.step({{"op", "make"}, {"shape", "bumpy"}});
   for (const int degree : {4, 40}) {
     const Json item =
-        client.step({{"op", "analyze"}, {"item", 1}, {"degree", degree}}).at("items")[0];
+        client.step({{"op", "expand"}, {"item", 1}, {"degree", degree}}).at("items")[0];
     const Json row = item.at("expansion").at("error").back();
     EXPECT_EQ(row[0], degree);
     const std::string told = fact(item, "Error, rms");
@@ -312,7 +312,7 @@ TEST(Steps, LengthsHaveTheUnitThatIsSet) {
   EXPECT_EQ(state.at("items")[0].at("unit"), "mm");
   EXPECT_TRUE(fact(state.at("items")[0], "Diagonal").ends_with(" mm"));
   EXPECT_TRUE(fact(state.at("items")[0], "Volume").ends_with(" mm\u00b3"));
-  state = client.step({{"op", "analyze"}, {"item", 1}, {"degree", 2}});
+  state = client.step({{"op", "expand"}, {"item", 1}, {"degree", 2}});
   EXPECT_NE(state.at("recipe").at("shell").get<std::string>().find("--length-unit mm"),
             std::string::npos);
   EXPECT_TRUE(
@@ -335,7 +335,7 @@ TEST(Steps, WhatIsOpenedIsNoStep) {
   ASSERT_EQ(client.open("first.off", box).status, 200);
   EXPECT_TRUE(client.state().at("undo").is_null());
   EXPECT_EQ(code_of(client.post({{"op", "undo"}})), "nothing");
-  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 2}});
+  client.step({{"op", "expand"}, {"item", 1}, {"degree", 2}});
   client.step({{"op", "remove"}, {"item", 1}});
   client.step({{"op", "undo"}});
   // A file opened between steps stays, whichever of these steps are undone or redone.
@@ -358,7 +358,7 @@ TEST(Steps, WhatIsOpenedIsNoStep) {
 TEST(Steps, WhatAPageBeginsWithIsNotUndone) {
   Client client;
   client.step({{"op", "make"}, {"shape", "bumpy"}, {"first", true}});
-  Json state = client.step({{"op", "analyze"}, {"item", 1}, {"degree", 4}, {"first", true}});
+  Json state = client.step({{"op", "expand"}, {"item", 1}, {"degree", 4}, {"first", true}});
   EXPECT_TRUE(state.at("undo").is_null());
   EXPECT_EQ(state.at("items")[0].at("expansion").at("degree"), 4);
   client.step({{"op", "look"}, {"item", 1}, {"degree", 2}});
@@ -412,7 +412,7 @@ TEST(Steps, RevisionsAndNumbersNeverComeAgain) {
 TEST(Steps, TheDegreeOfAToleranceIsTheSmallest) {
   Client client;
   client.step({{"op", "make"}, {"shape", "bumpy"}});
-  const Json state = client.step({{"op", "analyze"}, {"item", 1}, {"degree", 20}});
+  const Json state = client.step({{"op", "expand"}, {"item", 1}, {"degree", 20}});
   const Json rms = state.at("items")[0].at("expansion").at("rms_per_degree");
   const Json found =
       Json::parse(client.post({{"op", "degree_for"}, {"item", 1}, {"tolerance", 0.01}}).body);
@@ -433,7 +433,7 @@ TEST(Recipe, HasWhatIsOnlyShown) {
   const auto recipe_of = [](const Json& state) {
     return state.at("recipe").at("shell").get<std::string>();
   };
-  const std::string whole = recipe_of(client.step({{"op", "analyze"}, {"item", 1}, {"degree", 8}}));
+  const std::string whole = recipe_of(client.step({{"op", "expand"}, {"item", 1}, {"degree", 8}}));
   const std::string cut = recipe_of(client.step({{"op", "look"}, {"item", 1}, {"degree", 3}}));
   EXPECT_EQ(cut, whole +
                      "\nrholm synthesize bumpy.h5 --degree 3 --like bumpy.ply -o "

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "harmonic/legendre/legendre_kernels.h"
-#include "rholm/analyze.h"
 #include "rholm/harmonic.h"
+#include "rholm/transform.h"
 
 namespace rholm::test {
 

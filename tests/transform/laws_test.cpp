@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rholm/analyze.h"
+#include "rholm/transform.h"
 #include "support/oracle.h"
 #include "support/random_data.h"
 #include "support/test_shapes.h"
@@ -162,11 +162,11 @@ TEST(visit_triangle_rule, is_exact_to_its_degree) {
   }
 }
 
-TEST(analyze, ellipsoid_has_even_degrees_and_orders_only) {
+TEST(expand_chart, ellipsoid_has_even_degrees_and_orders_only) {
   const StarChart chart = chart_about(ellipsoid({1, 0.8, 0.5}, 3), {0, 0, 0});
   for (const Method method : {Method::kEdge, Method::kGauge, Method::kCurl, Method::kArea}) {
     const Coefficients c =
-        analyze(chart, {.degree = 12, .method = method, .precision = 1e-12}).expansion.coefficients;
+        expand(chart, {.degree = 12, .method = method, .precision = 1e-12}).expansion.coefficients;
     EXPECT_GT(std::abs(c.c(2, 2)), 0.01);
     for (int l = 0; l <= 12; ++l) {
       for (int m = 0; m <= l; ++m) {
@@ -179,11 +179,11 @@ TEST(analyze, ellipsoid_has_even_degrees_and_orders_only) {
   }
 }
 
-TEST(analyze, cube_has_even_degrees_and_orders_that_are_multiples_of_4_only) {
+TEST(expand_chart, cube_has_even_degrees_and_orders_that_are_multiples_of_4_only) {
   const StarChart chart = chart_about(box({2, 2, 2}), {0, 0, 0});
   for (const Method method : {Method::kEdge, Method::kGauge, Method::kCurl, Method::kArea}) {
     const Coefficients c =
-        analyze(chart, {.degree = 16, .method = method, .precision = 1e-12}).expansion.coefficients;
+        expand(chart, {.degree = 16, .method = method, .precision = 1e-12}).expansion.coefficients;
     EXPECT_GT(std::abs(c.c(4, 4)), 0.01);
     for (int l = 0; l <= 16; ++l) {
       for (int m = 0; m <= l; ++m) {
@@ -200,7 +200,7 @@ TEST(analyze, cube_has_even_degrees_and_orders_that_are_multiples_of_4_only) {
 
 // r(u) = 1/|u - d| has the coefficients 4 pi/(2l+1) |d|^l Y_lm(d/|d|). A mesh through its points at
 // spacing h differs by O(h^2): each subdivision divides the error by four.
-TEST(analyze, sampled_inverse_distance_converges_to_its_closed_form) {
+TEST(expand_chart, sampled_inverse_distance_converges_to_its_closed_form) {
   const Vec3 d = {0.2, -0.3, 0.25};
   constexpr int L = 10;
   Coefficients expected(L);
@@ -217,7 +217,7 @@ TEST(analyze, sampled_inverse_distance_converges_to_its_closed_form) {
   for (const int subdivisions : {3, 4, 5}) {
     Mesh mesh = icosphere(subdivisions);
     for (Vec3& v : mesh.vertices) v *= 1 / norm(v - d);
-    const Coefficients c = analyze(chart_about(mesh, {0, 0, 0}), {.degree = L, .precision = 1e-6})
+    const Coefficients c = expand(chart_about(mesh, {0, 0, 0}), {.degree = L, .precision = 1e-6})
                                .expansion.coefficients;
     const double error = test::relative_error(c, expected);
     if (last > 0) {
@@ -245,11 +245,11 @@ TEST(norm_squared, closed_forms_agree_with_cubature) {
 }
 
 // Parseval: the rest of (M7) after L degrees is the tail, about S/(3 pi (L+1/2)^3).
-TEST(analyze, truncation_error_is_the_predicted_tail_on_a_coarse_mesh) {
+TEST(expand_chart, truncation_error_is_the_predicted_tail_on_a_coarse_mesh) {
   const StarChart chart = chart_about(test::rotated(bumpy_sphere(0, 0.3)), {0.1, 0.05, -0.2});
   for (const Method method : {Method::kEdge, Method::kGauge}) {
     for (const int L : {32, 64, 128}) {
-      const Analysis a = analyze(chart, {.degree = L, .method = method, .precision = 1e-12});
+      const Transform a = expand(chart, {.degree = L, .method = method, .precision = 1e-12});
       const double tail = *a.expansion.tail_strength / (3 * kPi * std::pow(L + 0.5, 3));
       EXPECT_NEAR(4 * kPi * std::pow(*a.truncation_rms, 2) / tail, 1, 0.1)
           << to_string(method) << " " << L;

@@ -31,7 +31,7 @@ let now: Visit;
 beforeAll(async () => {
   studio = await startStudio();
   rholm(studio, "make", "bumpy", "--seed", "3", "-o", "rock.ply");
-  rholm(studio, "analyze", "rock.ply", "--degree", "40", "-o", "rock.h5");
+  rholm(studio, "expand", "rock.ply", "--degree", "40", "-o", "rock.h5");
   now = await visit(studio);
   await ready(now.page);
   await openFile(studio, now.page, "rock.ply");
@@ -282,7 +282,7 @@ it("the recipe is there to copy", async () => {
   const { page } = now;
   await page.getByRole("button", { name: "Copy: Shell" }).click();
   const text = await page.evaluate(() => navigator.clipboard.readText());
-  expect(text).toContain("rholm analyze rock.ply --degree 40");
+  expect(text).toContain("rholm expand rock.ply --degree 40");
   await picture(page, "save");
 });
 

@@ -60,7 +60,7 @@ describe.skipIf(!firefox)("in Firefox", () => {
   beforeAll(async () => {
     program = await startProgram();
     rholm(program, "make", "bumpy", "--subdivisions", "4", "-o", "rock.ply");
-    rholm(program, "analyze", "rock.ply", "--degree", "12", "-o", "rock.h5");
+    rholm(program, "expand", "rock.ply", "--degree", "12", "-o", "rock.h5");
     downloads = mkdtempSync(join(tmpdir(), "rholm-firefox-"));
     const environment = { ...process.env, DISPLAY: await startDisplay(), LIBGL_ALWAYS_SOFTWARE: "1" };
     browser = await puppeteer.launch({

@@ -39,7 +39,7 @@ function readCoefficients(): void {
 beforeAll(async () => {
   folder = mkdtempSync(join(tmpdir(), "rholm-viewer-"));
   rholm("make", "bumpy", "--subdivisions", "5", "-o", "bumpy.ply");
-  rholm("analyze", "bumpy.ply", "--degree", String(degree), "-o", "m.h5");
+  rholm("expand", "bumpy.ply", "--degree", String(degree), "-o", "m.h5");
   rholm("convert", "m.h5", "c.json", "--normalization", "orthonormal");
   readCoefficients();
   browser = await launch();

@@ -57,8 +57,7 @@ void require_star_shaped(const Expansion& expansion, const std::string& what) {
   throw Error(
       ErrorCode::kUnsupported,
       "the expansion is the signed sum of the radii of a surface that is not star-shaped: " + what +
-          " would not be of the body; make an atlas of it (compress(), 'rholm analyze "
-          "--atlas')");
+          " would not be of the body; make an atlas of it (compress(), 'rholm compress')");
 }
 
 void check_gravity(const Expansion& expansion, const std::string& name) {

@@ -384,10 +384,10 @@ Coefficients analyze_grid(std::span<const double> values, const Grid& grid, int 
   }
   RingPairs pairs(n_theta, n_phi, degree);
   values_to_pairs(values, pairs, context, {"transform", 0, kFourierPart});
-  const OrderAnalysis analysis(grid, degree);
+  const OrderAnalysis transform(grid, degree);
   parallel_for(
       pairs.orders, kOrdersPerTask, context, {"transform", kFourierPart, 1},
-      [&](std::size_t begin, std::size_t end) { analysis.run(pairs, begin, end, result); });
+      [&](std::size_t begin, std::size_t end) { transform.run(pairs, begin, end, result); });
   return result;
 }
 

@@ -36,7 +36,7 @@ void check_row(std::span<const double> row, std::size_t ring) {
       std::find_if_not(row.begin(), row.end(), [](double x) { return std::isfinite(x); });
   throw Error(ErrorCode::kInvalidInput, "the value at ring " + std::to_string(ring) +
                                             ", longitude " + std::to_string(bad - row.begin()) +
-                                            " is not a finite number: fill it in before analysis");
+                                            " is not a finite number: fill it in before transform");
 }
 
 }  // namespace

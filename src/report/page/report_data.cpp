@@ -9,9 +9,9 @@
 
 #include "base/check_fields.h"
 #include "base/parallel.h"
-#include "rholm/analyze.h"
 #include "rholm/error.h"
 #include "rholm/outward.h"
+#include "rholm/transform.h"
 #include "rholm/truncation.h"
 #include "transform/error/error_sites.h"
 

@@ -66,8 +66,8 @@ Color from_oklch(double lightness, double chroma, double hue_degrees) {
           static_cast<float>(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
 }
 
-float from_srgb(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+float from_srgb(float expanded) {
+  return expanded <= 0.04045f ? expanded / 12.92f : std::pow((expanded + 0.055f) / 1.055f, 2.4f);
 }
 
 // Uses a table instead of powers, indexed by the exponent and kBits of the mantissa. From

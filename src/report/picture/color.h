@@ -17,8 +17,8 @@ inline Color operator*(float s, const Color& a) { return {s * a.r, s * a.g, s * 
 // perceptual color space for image processing". Components are not clipped to 0 ... 1.
 Color from_oklch(double lightness, double chroma, double hue_degrees);
 
-// Returns the linear component of an sRGB encoded one, 0 ... 1.
-float from_srgb(float encoded);
+// Returns the linear component of an sRGB expanded one, 0 ... 1.
+float from_srgb(float expanded);
 
 // Returns the byte of the sRGB encoding (IEC 61966-2-1) of a linear component; clipped.
 std::uint8_t to_srgb_byte(float linear);

@@ -8,7 +8,7 @@
 namespace rholm {
 
 // Returns the bytes of the character at the front of `text` (not empty); 0 if there is none.
-// Overlong forms of three and four bytes pass, because the encoded value is not checked.
+// Overlong forms of three and four bytes pass, because the expanded value is not checked.
 inline std::size_t utf8_length(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
   if (lead < 0x80) return 1;

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "rholm/analyze.h"
 #include "rholm/mesh_view.h"
+#include "rholm/transform.h"
 #include "rholm/truncation.h"
 #include "transform/error/closest_distances.h"
 #include "transform/error/error_points.h"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "harmonic/nonuniform/nonuniform_plan.h"
-#include "rholm/analyze.h"
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
+#include "rholm/transform.h"
 
 namespace rholm {
 

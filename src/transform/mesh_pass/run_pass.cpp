@@ -31,7 +31,7 @@ constexpr std::size_t kCommonGrain = 64 * kVerticesPerBlock;
 constexpr std::size_t kRun = 16 * kVerticesPerBlock;
 // The window is chosen before the squares of sources are known. They are assumed to be this many
 // times the sample's value. On steep surfaces the sample misses up to six times (Igea and Ryugu to
-// degree 128 and more, where `analyze --json` reported two passes). The price is a point of width,
+// degree 128 and more, where `expand --json` reported two passes). The price is a point of width,
 // a twentieth of the pass.
 constexpr double kUnseen2 = 8;
 
@@ -51,9 +51,9 @@ class Pass {
         worker_(mesh, options, plan, division_, transform_) {}
 
   Outcome run(MeshPassResult& result) {
-    // Without lumps in common `analyze` of subdivided bodies (1.3 and 5.2 million faces, degrees 64
-    // and 480) takes 1.08 to 1.14 times as long. Sorting costs more: where the faces of these files
-    // are shuffled, and sorted first, it takes 2.2 times as long.
+    // Without lumps in common `expand()` of subdivided bodies (1.3 and 5.2 million faces, degrees
+    // 64 and 480) takes 1.08 to 1.14 times as long. Sorting costs more: where the faces of these
+    // files are shuffled, and sorted first, it takes 2.2 times as long.
     if (division_.count > 1 && has_few_parts() && parts_overlap(mesh_, division_)) {
       common_.emplace(mesh_.n_vertices, lumps_per_vertex(plan_.block.hessians));
     }

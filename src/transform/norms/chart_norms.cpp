@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "base/compensated_sum.h"
-#include "rholm/analyze.h"
+#include "rholm/transform.h"
 #include "transform/geometry/star_geometry.h"
 #include "transform/norms/exact_norms.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/compensated_sum.h"
 #include "base/rounding.h"
-#include "rholm/analyze.h"
+#include "rholm/transform.h"
 
 namespace rholm {
 namespace {
@@ -25,7 +25,7 @@ double rms(double energy) { return std::sqrt(std::max(0.0, energy) / (4 * std::n
 }  // namespace
 
 double precision_of(const Expansion& expansion) {
-  return expansion.precision.value_or(AnalyzeOptions{}.precision);
+  return expansion.precision.value_or(TransformOptions{}.precision);
 }
 
 double precision_of(double norm_squared, const Coefficients& coefficients,

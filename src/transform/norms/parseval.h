@@ -12,7 +12,7 @@ namespace rholm {
 struct CoefficientErrors {
   double mean = 0, varying = 0;
 };
-// Returns the precision of the coefficients or, if it is unknown, the default of AnalyzeOptions.
+// Returns the precision of the coefficients or, if it is unknown, the default of TransformOptions.
 double precision_of(const Expansion& expansion);
 // Returns the larger one of the two errors, both relative: the inverse of coefficient_errors().
 double precision_of(double norm_squared, const Coefficients& coefficients,

@@ -9,7 +9,7 @@
 #include "base/cancel.h"
 #include "base/compensated_sum.h"
 #include "base/parallel.h"
-#include "rholm/analyze.h"
+#include "rholm/transform.h"
 #include "shape/face.h"
 #include "shape/topology/vertex_place.h"
 #include "transform/geometry/star_geometry.h"

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "base/cancel.h"
-#include "rholm/analyze.h"
+#include "rholm/transform.h"
 #include "shape/face.h"
 #include "shape/topology/vertex_place.h"
 #include "transform/geometry/star_geometry.h"

@@ -7,11 +7,11 @@
 
 #include "base/compensated_sum.h"
 #include "base/parallel.h"
-#include "transform/analyze.h"
 #include "transform/error/error_of_degree.h"
 #include "transform/error/error_sites.h"
 #include "transform/error/partial_errors.h"
 #include "transform/tolerance/degree_bracket.h"
+#include "transform/transform.h"
 
 namespace rholm {
 namespace {
@@ -54,7 +54,7 @@ class Search {
         error_(tolerance, sites_, std::sqrt(problem.norm_squared / (4 * std::numbers::pi)),
                context) {}
 
-  ToleranceAnalysis run(const Analysis& first) {
+  ToleranceTransform run(const Transform& first) {
     take(first);
     double degree = by_energies() ? kFinalByEnergies * degree_by_energies() + 1
                                   : kFinalByWitnesses * degree_by_points() + 1;
@@ -71,12 +71,12 @@ class Search {
   bool is_largest() const { return tolerance_.norm == ErrorNorm::kMax; }
   bool is_distance() const { return tolerance_.measure == ErrorMeasure::kDistance; }
   bool by_energies() const { return !is_largest() && !is_distance(); }
-  Expansion& expansion() { return result_.analysis.expansion; }
+  Expansion& expansion() { return result_.transform.expansion; }
   // Returns the degree of the present coefficients.
   int highest() { return expansion().coefficients.degree(); }
 
-  void take(Analysis analysis) {
-    result_.analysis = std::move(analysis);
+  void take(Transform transform) {
+    result_.transform = std::move(transform);
     result_.degrees.push_back(highest());
     expansion().center = problem_.center;
     expansion().norm_squared = problem_.norm_squared;
@@ -140,7 +140,7 @@ class Search {
 
   void measure(ErrorPoints* worst) {
     const bool predict = problem_.mesh.n_triangles <= kMostPredicted;
-    const double precision = known_error(result_.analysis);
+    const double precision = known_error(result_.transform);
     expansion().errors = truncation_errors(
         expansion(), {.precision = precision, .predict = predict}, sites_, context_, worst);
     result_.reached = error_in(*expansion().errors, tolerance_);
@@ -149,7 +149,7 @@ class Search {
   // Cuts to the smallest degree within the tolerance, if there is one. Each lower degree errs more,
   // at points at which some degree erred most or where it was measured.
   void cut_to_smallest() {
-    const Analysis all = result_.analysis;
+    const Transform all = result_.transform;
     const Coefficients& coefficients = all.expansion.coefficients;
     std::vector<double> least = least_errors(coefficients);
     const auto may_be_good = [&](double error) { return error <= result_.allowed + doubt(); };
@@ -171,7 +171,7 @@ class Search {
       for (std::size_t l = 0; l < least.size(); ++l) least[l] = std::max(least[l], more[l]);
     }
     if (tried != coefficients.degree()) {
-      result_.analysis = all;
+      result_.transform = all;
       measure(nullptr);
     }
   }
@@ -206,8 +206,8 @@ class Search {
   // Takes the first degrees of final coefficients. If these may be good enough, computes
   // coefficients of just that degree, the same as without a tolerance. Then the answer does not
   // depend on the number of further degrees.
-  void measure_first(int degree, const Analysis& all, ErrorPoints& worst) {
-    result_.analysis = all;
+  void measure_first(int degree, const Transform& all, ErrorPoints& worst) {
+    result_.transform = all;
     const bool cut = degree < highest();
     if (cut) expansion().coefficients = expansion().coefficients.resized(degree);
     measure(&worst);
@@ -232,18 +232,18 @@ class Search {
   const Context& context_;
   ErrorSites sites_;
   ErrorOfDegree error_;
-  ToleranceAnalysis result_;
+  ToleranceTransform result_;
 };
 
 }  // namespace
 
-ToleranceAnalysis search_tolerance(const ToleranceProblem& problem, const Tolerance& tolerance,
-                                   const Analysis& pilot, const Context& context) {
+ToleranceTransform search_tolerance(const ToleranceProblem& problem, const Tolerance& tolerance,
+                                    const Transform& pilot, const Context& context) {
   return Search(problem, tolerance, context).run(pilot);
 }
 
-ToleranceAnalysis analyze_by(MethodFunction method, const StarChart& chart,
-                             const Tolerance& tolerance, const AnalyzeOptions& options,
+ToleranceTransform expand_by(MethodFunction method, const StarChart& chart,
+                             const Tolerance& tolerance, const TransformOptions& options,
                              const Context& context) {
   check(tolerance);
   check(options);
@@ -255,21 +255,21 @@ ToleranceAnalysis analyze_by(MethodFunction method, const StarChart& chart,
   const MeshView mesh = view_of(chart.mesh);
   ToleranceProblem problem =
       tolerance_problem(mesh, {}, exact_norms(mesh, {}, context), options.precision, context);
-  const auto analyzed = [&](AnalyzeOptions wanted, const TransformTarget& target) {
+  const auto expanded = [&](TransformOptions wanted, const TransformTarget& target) {
     wanted.degree = target.degree;
     wanted.precision = target.precision;
-    return analyze_without_norms(method, chart, wanted, context);
+    return expand_without_norms(method, chart, wanted, context);
   };
   // Pilots use the fast sums for every method: the coefficients are the same.
   problem.pilot = [&](const TransformTarget& target) {
     const MeshPassOptions wanted{.degree = target.degree, .precision = target.precision};
-    return analysis_of(mesh_pass(mesh, wanted, context), target.precision);
+    return transform_of(mesh_pass(mesh, wanted, context), target.precision);
   };
-  problem.transform = [&](const TransformTarget& target) { return analyzed(options, target); };
-  const Analysis pilot = problem.pilot(first_pilot(problem, tolerance));
-  ToleranceAnalysis result = search_tolerance(problem, tolerance, pilot, context);
-  result.analysis.expansion.tail_strength = tail_strength(chart, RadialFunction::kRadius);
-  finish_analysis(options, chart.report.center, result.analysis);
+  problem.transform = [&](const TransformTarget& target) { return expanded(options, target); };
+  const Transform pilot = problem.pilot(first_pilot(problem, tolerance));
+  ToleranceTransform result = search_tolerance(problem, tolerance, pilot, context);
+  result.transform.expansion.tail_strength = tail_strength(chart, RadialFunction::kRadius);
+  finish_transform(options, chart.report.center, result.transform);
   return result;
 }
 

@@ -16,12 +16,12 @@ namespace rholm {
 // measured at points, is within the tolerance, and give the smallest degree. Coefficients of that
 // degree in full precision follow. Their `errors` are set unless the tolerance is decided by
 // Parseval's equation.
-ToleranceAnalysis search_tolerance(const ToleranceProblem& problem, const Tolerance& tolerance,
-                                   const Analysis& pilot, const Context& context);
+ToleranceTransform search_tolerance(const ToleranceProblem& problem, const Tolerance& tolerance,
+                                    const Transform& pilot, const Context& context);
 
-// Runs `analyze` with a tolerance, at the end by `method`, the direct sums of options.method.
-ToleranceAnalysis analyze_by(MethodFunction method, const StarChart& chart,
-                             const Tolerance& tolerance, const AnalyzeOptions& options,
+// Runs `expand()` with a tolerance, at the end by `method`, the direct sums of options.method.
+ToleranceTransform expand_by(MethodFunction method, const StarChart& chart,
+                             const Tolerance& tolerance, const TransformOptions& options,
                              const Context& context);
 
 }  // namespace rholm

@@ -18,10 +18,10 @@ inline constexpr std::size_t kMostPredicted = std::size_t{1} << 18;
 // Degree and precision of the wanted coefficients.
 struct TransformTarget {
   int degree = 0;
-  double precision = 0;  // as in AnalyzeOptions
+  double precision = 0;  // as in TransformOptions
 };
 // Computes coefficients of the mesh about the centre, without norms.
-using TransformTo = std::function<Analysis(const TransformTarget&)>;
+using TransformTo = std::function<Transform(const TransformTarget&)>;
 
 struct ToleranceProblem {
   MeshView mesh;

@@ -78,7 +78,7 @@ TEST(printed_formula, is_wrong_by_a_part_that_refinement_does_not_reduce) {
         test::oracle_coefficients(chart.mesh, 12, RadialFunction::kRadius, 16);
     const double printed = error_of_higher_orders(printed_formula(chart.mesh, 12), expected);
     const double right = error_of_higher_orders(
-        analyze(chart, {.degree = 12, .method = Method::kCurl, .precision = 1e-12})
+        expand(chart, {.degree = 12, .method = Method::kCurl, .precision = 1e-12})
             .expansion.coefficients,
         expected);
     EXPECT_LT(right, 1e-11);
@@ -98,7 +98,7 @@ TEST(printed_formula, returns_1_40_times_the_coefficient_of_a_single_harmonic) {
   for (std::size_t i = 0; i < values.size(); ++i) mesh.vertices[i] *= 1 + values[i];
   EXPECT_NEAR(printed_formula(mesh, 4).c(4, 2) / 0.01, 1.40, 0.03);
   const Coefficients right =
-      analyze(chart_about(mesh, {0, 0, 0}), {.degree = 4, .method = Method::kCurl})
+      expand(chart_about(mesh, {0, 0, 0}), {.degree = 4, .method = Method::kCurl})
           .expansion.coefficients;
   EXPECT_NEAR(right.c(4, 2) / 0.01, 1.0, 0.03);
 }

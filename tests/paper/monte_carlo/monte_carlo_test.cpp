@@ -291,8 +291,8 @@ TEST(monte_carlo, a_relative_deviation_of_few_points_is_not_given) {
 // Above degree 1 a box has a larger rest than the scatter of many samples.
 TEST(monte_carlo, the_truncation_error_is_none_or_within_its_doubt) {
   const StarChart chart = chart_about(box({2, 1.6, 1.2}), {});
-  const Analysis expected =
-      analyze(chart, {.degree = 1, .engine = Engine::kDirect, .precision = 1e-13});
+  const Transform expected =
+      expand(chart, {.degree = 1, .engine = Engine::kDirect, .precision = 1e-13});
   for (const SamplePlaces places : kPlaces) {
     int given = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -382,7 +382,7 @@ TEST(monte_carlo, faces_seen_edge_on_or_from_behind_enter_the_alternating_sum) {
              .allow_signed = true});
   ASSERT_FALSE(chart.report.star_shaped);
   const Coefficients expected =
-      analyze(chart, {.degree = 6, .method = Method::kArea, .precision = 1e-8})
+      expand(chart, {.degree = 6, .method = Method::kArea, .precision = 1e-8})
           .expansion.coefficients;
   for (const SamplePlaces places : kPlaces) {
     const MonteCarlo run = monte_carlo(chart, {.degree = 6, .places = places, .samples = 2000});

@@ -10,11 +10,11 @@
 
 #include "paper/patches/kd_partition.h"
 #include "paper/patches/sphere_delaunay.h"
-#include "rholm/analyze.h"
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
 #include "rholm/primitives.h"
 #include "rholm/star.h"
+#include "rholm/transform.h"
 #include "support/random_data.h"
 #include "support/test_points.h"
 
@@ -78,7 +78,7 @@ TEST(CapIntegral, whole_meshes_have_the_coefficients_of_the_edge_transform) {
   const Mesh mesh = bumpy_sphere(3, 0.3);
   const StarChart chart = make_star_chart(mesh, {.center = {.kind = CenterKind::kNone}});
   const Coefficients whole =
-      analyze(chart, {.degree = 40, .precision = 1e-11}).expansion.coefficients;
+      expand(chart, {.degree = 40, .precision = 1e-11}).expansion.coefficients;
   for (const double radius : {1.0, 1e-120, 1e120}) {
     Mesh scaled = mesh;
     for (Vec3& v : scaled.vertices) v *= radius;

@@ -26,7 +26,7 @@ namespace {
 using namespace test;
 
 Expansion expansion_of(const Mesh& mesh, int degree, Method method = Method::kEdge) {
-  return encode(mesh, {.analyze = {.degree = degree, .method = method}}).analysis.expansion;
+  return expand(mesh, {.degree = degree, .method = method}).transform.expansion;
 }
 
 // RFC 4648, section 10.

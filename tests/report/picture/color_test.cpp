@@ -108,8 +108,8 @@ TEST(to_srgb_byte, follows_the_standard_and_clips) {
 // Rounding of floats, 1e-4 of a byte, may decide ties. Steps are proportional, to test dark values.
 TEST(to_srgb_byte, rounds_the_encoded_value_to_the_nearest) {
   for (double x = 1e-6; x < 1; x *= 1.0001) {
-    const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-    ASSERT_NEAR(to_srgb_byte(static_cast<float>(x)), 255 * encoded, 0.5001) << x;
+    const double expanded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+    ASSERT_NEAR(to_srgb_byte(static_cast<float>(x)), 255 * expanded, 0.5001) << x;
   }
 }
 

@@ -18,7 +18,7 @@ namespace rholm {
 namespace {
 
 Expansion expansion_of(const Mesh& mesh, int degree) {
-  return encode(mesh, {.analyze = {.degree = degree}}).analysis.expansion;
+  return expand(mesh, {.degree = degree}).transform.expansion;
 }
 
 // Returns the text between `name` and `end`.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "rholm/analyze.h"
 #include "rholm/descriptors.h"
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
@@ -12,9 +11,10 @@
 #include "rholm/rotate.h"
 #include "rholm/synthesize.h"
 #include "rholm/topology.h"
+#include "rholm/transform.h"
 #include "support/oracle.h"
 #include "support/random_data.h"
-#include "transform/analyze.h"
+#include "transform/transform.h"
 
 namespace rholm {
 namespace {
@@ -315,9 +315,9 @@ TEST(synthesize, misses_the_mesh_by_the_truncation_error_known_from_its_norm) {
   });
   const Mesh sphere = directions_of(samples, {0, 0, 0});
   for (const int degree : {2, 4, 8, 16, 32, 64}) {
-    const Analysis analysis =
-        analyze_by(edge_method, chart, {.degree = degree, .precision = 1e-8}, {});
-    Expansion expansion = analysis.expansion;
+    const Transform transform =
+        expand_by(edge_method, chart, {.degree = degree, .precision = 1e-8}, {});
+    Expansion expansion = transform.expansion;
     expansion.center = {0, 0, 0};
     const Mesh surface = synthesize(expansion, sphere);
     double square = 0;
@@ -325,7 +325,7 @@ TEST(synthesize, misses_the_mesh_by_the_truncation_error_known_from_its_norm) {
       const Vec3 difference = surface.vertices[i] - samples.vertices[i];
       square += weights[i] * dot(difference, difference);
     }
-    EXPECT_NEAR(std::sqrt(square / (4 * kPi)) / *analysis.truncation_rms, 1, 0.01) << degree;
+    EXPECT_NEAR(std::sqrt(square / (4 * kPi)) / *transform.truncation_rms, 1, 0.01) << degree;
   }
 }
 

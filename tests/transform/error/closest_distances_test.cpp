@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "rholm/analyze.h"
 #include "rholm/primitives.h"
 #include "rholm/star.h"
+#include "rholm/transform.h"
 #include "rholm/truncation.h"
 #include "support/star_polyhedra.h"
 #include "support/true_distance.h"
@@ -102,11 +102,11 @@ TEST(truncation_errors, distances_of_steep_polyhedra_are_those_of_closest_points
     const Mesh mesh = test::star_polyhedron(seed - 1, 0, 0.9, seed);
     const StarChart chart =
         make_star_chart(mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
-    const Analysis analysis = analyze(chart, {.degree = 12, .precision = 1e-10});
-    const TruncationErrors errors = truncation_errors(view_of(mesh), analysis.expansion);
+    const Transform transform = expand(chart, {.degree = 12, .precision = 1e-10});
+    const TruncationErrors errors = truncation_errors(view_of(mesh), transform.expansion);
     EXPECT_TRUE(errors.distances_are_closest);
     const test::TrueDistance truth =
-        test::true_distance(mesh, analysis.expansion.coefficients, 3000);
+        test::true_distance(mesh, transform.expansion.coefficients, 3000);
     const double noise = std::max(truth.there_error, truth.back_error);
     EXPECT_NEAR(*errors.distance_rms, truth.rms(), (0.003 + 4 * noise) * truth.rms()) << seed;
     EXPECT_NEAR(*errors.measured_max_distance, truth.max(), 0.01 * truth.max()) << seed;
@@ -119,11 +119,11 @@ TEST(truncation_errors, distances_of_bumpy_meshes_are_those_of_closest_points) {
   const StarChart chart =
       make_star_chart(mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
   for (const int degree : {4, 8}) {
-    const Analysis analysis = analyze(chart, {.degree = degree, .precision = 1e-10});
-    const TruncationErrors errors = truncation_errors(view_of(mesh), analysis.expansion);
+    const Transform transform = expand(chart, {.degree = degree, .precision = 1e-10});
+    const TruncationErrors errors = truncation_errors(view_of(mesh), transform.expansion);
     EXPECT_TRUE(errors.distances_are_closest);
     const test::TrueDistance truth =
-        test::true_distance(mesh, analysis.expansion.coefficients, 2000);
+        test::true_distance(mesh, transform.expansion.coefficients, 2000);
     const double noise = std::max(truth.there_error, truth.back_error);
     EXPECT_NEAR(*errors.distance_rms, truth.rms(), (0.005 + 4 * noise) * truth.rms()) << degree;
     EXPECT_GT(*errors.measured_max_distance, 0.998 * truth.max()) << degree;
@@ -141,21 +141,21 @@ TEST(truncation_errors, of_sizes_that_do_not_compare_come_at_once) {
   }
 }
 
-TEST(analyze_to_a_tolerance, of_the_distance_is_kept_on_steep_polyhedra_nightly) {
+TEST(expand_to_a_tolerance, of_the_distance_is_kept_on_steep_polyhedra_nightly) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     const Mesh mesh = test::star_polyhedron(2 * (seed - 1), 0, 0.9, seed);
     const StarChart chart =
         make_star_chart(mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
     for (const ErrorNorm norm : {ErrorNorm::kRms, ErrorNorm::kMax}) {
-      const ToleranceAnalysis found =
-          analyze(chart, Tolerance{.error = norm == ErrorNorm::kRms ? 0.01 : 0.06,
-                                   .unit = ToleranceUnit::kDiagonal,
-                                   .norm = norm,
-                                   .measure = ErrorMeasure::kDistance,
-                                   .max_degree = 48});
+      const ToleranceTransform found =
+          expand(chart, Tolerance{.error = norm == ErrorNorm::kRms ? 0.01 : 0.06,
+                                  .unit = ToleranceUnit::kDiagonal,
+                                  .norm = norm,
+                                  .measure = ErrorMeasure::kDistance,
+                                  .max_degree = 48});
       if (!found.met) continue;
       const test::TrueDistance truth =
-          test::true_distance(mesh, found.analysis.expansion.coefficients, 2000);
+          test::true_distance(mesh, found.transform.expansion.coefficients, 2000);
       const double noise = std::max(truth.there_error, truth.back_error);
       if (norm == ErrorNorm::kRms) {
         EXPECT_LE(truth.rms(), found.allowed * (1.003 + 4 * noise)) << seed;

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "rholm/analyze.h"
 #include "rholm/primitives.h"
 #include "rholm/star.h"
+#include "rholm/transform.h"
 #include "support/test_shapes.h"
 
 namespace rholm {
@@ -47,7 +47,7 @@ TEST(error_of_degree, is_that_of_the_model_of_this_degree) {
   const Mesh mesh = test::rotated(bumpy_sphere(3, 0.3));
   const StarChart chart =
       make_star_chart(mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
-  const Analysis coarse = analyze(chart, {.degree = 40, .precision = 1e-4});
+  const Transform coarse = expand(chart, {.degree = 40, .precision = 1e-4});
   for (const ErrorNorm norm : {ErrorNorm::kRms, ErrorNorm::kMax}) {
     for (const ErrorMeasure measure : {ErrorMeasure::kRadius, ErrorMeasure::kDistance}) {
       if (norm == ErrorNorm::kRms && measure == ErrorMeasure::kRadius) continue;  // energies tell
@@ -56,7 +56,7 @@ TEST(error_of_degree, is_that_of_the_model_of_this_degree) {
       ErrorSites sites(view_of(mesh), {});
       ErrorOfDegree error(tolerance, sites, 1, context);
       for (const int degree : {40, 31, 17}) {
-        const Analysis exact = analyze(chart, {.degree = degree, .precision = 1e-10});
+        const Transform exact = expand(chart, {.degree = degree, .precision = 1e-10});
         const double measured =
             error_in(truncation_errors(view_of(mesh), exact.expansion), tolerance);
         EXPECT_NEAR(error.of(coarse.expansion, degree, measured), measured, 0.01 * measured)
@@ -70,7 +70,7 @@ TEST(error_of_degree, is_taken_from_a_part_of_the_points_away_from_the_limit) {
   const Mesh mesh = test::rotated(bumpy_sphere(5, 0.3));
   const StarChart chart =
       make_star_chart(mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
-  const Analysis coarse = analyze(chart, {.degree = 20, .precision = 1e-4});
+  const Transform coarse = expand(chart, {.degree = 20, .precision = 1e-4});
   const Tolerance tolerance{.error = 1e-3, .measure = ErrorMeasure::kDistance};
   const Context context;
   ErrorSites sites(view_of(mesh), {});

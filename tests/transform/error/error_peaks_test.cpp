@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rholm/analyze.h"
 #include "rholm/harmonic.h"
 #include "rholm/primitives.h"
 #include "rholm/star.h"
+#include "rholm/transform.h"
 #include "rholm/truncation.h"
 #include "support/dense_error.h"
 #include "support/test_shapes.h"
@@ -70,10 +70,10 @@ TEST(truncation_errors, measured_max_is_that_of_dense_points_nightly) {
         test::rotated(box({2, 1.6, 1.2})), test::rotated(box({2, 1.6, 0.1})), rougher_sphere()}) {
     const StarChart chart = chart_about_origin(mesh);
     for (const int degree : {5, 11, 23, 90}) {
-      const Analysis analysis = analyze(chart, {.degree = degree, .precision = 1e-9});
+      const Transform transform = expand(chart, {.degree = degree, .precision = 1e-9});
       const double dense =
-          test::largest_error_of_dense_points(mesh, analysis.expansion.coefficients, 28);
-      const TruncationErrors errors = truncation_errors(view_of(mesh), analysis.expansion);
+          test::largest_error_of_dense_points(mesh, transform.expansion.coefficients, 28);
+      const TruncationErrors errors = truncation_errors(view_of(mesh), transform.expansion);
       EXPECT_GT(*errors.measured_max, 0.9995 * dense) << mesh.triangles.size() << ' ' << degree;
       EXPECT_LT(*errors.measured_max, 1.001 * dense) << mesh.triangles.size() << ' ' << degree;
     }
@@ -85,7 +85,7 @@ TEST(truncation_errors, measured_max_is_that_of_dense_points_on_long_faces) {
   const Mesh mesh = test::rotated(box_with_a_pit());
   const StarChart chart = chart_about_origin(mesh);
   for (const int degree : {60, 180}) {
-    const Expansion expansion = analyze(chart, {.degree = degree, .precision = 1e-9}).expansion;
+    const Expansion expansion = expand(chart, {.degree = degree, .precision = 1e-9}).expansion;
     const double dense = test::largest_error_of_dense_points(mesh, expansion.coefficients, 120);
     const TruncationErrors errors = truncation_errors(view_of(mesh), expansion);
     EXPECT_NEAR(*errors.measured_max, dense, 5e-4 * dense) << degree;
@@ -95,7 +95,7 @@ TEST(truncation_errors, measured_max_is_that_of_dense_points_on_long_faces) {
 
 TEST(truncation_errors, are_the_same_bits_for_any_number_of_threads) {
   const Mesh mesh = rougher_sphere();
-  const Expansion expansion = analyze(chart_about_origin(mesh), {.degree = 60}).expansion;
+  const Expansion expansion = expand(chart_about_origin(mesh), {.degree = 60}).expansion;
   const TruncationErrors one = truncation_errors(view_of(mesh), expansion, {}, {.threads = 1});
   const TruncationErrors three = truncation_errors(view_of(mesh), expansion, {}, {.threads = 3});
   EXPECT_EQ(*one.measured_max, *three.measured_max);

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <utility>
 
-#include "rholm/analyze.h"
 #include "rholm/primitives.h"
 #include "rholm/star.h"
+#include "rholm/transform.h"
 #include "rholm/truncation.h"
 #include "support/dense_error.h"
 #include "support/test_shapes.h"
@@ -21,7 +21,7 @@ namespace {
 Expansion expansion_of(const Mesh& mesh, int degree) {
   const StarChart chart =
       make_star_chart(mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
-  return analyze(chart, {.degree = degree, .precision = 1e-9}).expansion;
+  return expand(chart, {.degree = degree, .precision = 1e-9}).expansion;
 }
 
 RadialBound bound_of(const Mesh& mesh, const Expansion& expansion, const BoundOptions& options,

@@ -45,13 +45,13 @@ TEST(truncation_errors, exact_rms_is_that_of_dense_cubature) {
   for (const Mesh& mesh : {test::random_octahedron(5), box({2, 1.6, 1.2})}) {
     const StarChart chart = chart_of(mesh);
     for (const int degree : {8, 32}) {
-      const Analysis analysis = analyze(chart, {.degree = degree, .precision = 1e-14});
+      const Transform transform = expand(chart, {.degree = degree, .precision = 1e-14});
       const TruncationErrors errors =
-          truncation_errors(view_of(mesh), analysis.expansion, {.precision = 1e-14});
+          truncation_errors(view_of(mesh), transform.expansion, {.precision = 1e-14});
       ASSERT_TRUE(errors.rms_is_exact);
-      const double dense = dense_rms(chart.mesh, analysis.expansion.coefficients, 80);
+      const double dense = dense_rms(chart.mesh, transform.expansion.coefficients, 80);
       EXPECT_NEAR(*errors.rms, dense, 1e-6 * dense) << degree;
-      EXPECT_NEAR(*analysis.truncation_rms, dense, 1e-6 * dense) << degree;
+      EXPECT_NEAR(*transform.truncation_rms, dense, 1e-6 * dense) << degree;
     }
   }
 }
@@ -59,13 +59,13 @@ TEST(truncation_errors, exact_rms_is_that_of_dense_cubature) {
 TEST(truncation_errors, measured_rms_is_the_exact_one_to_a_hundredth) {
   const Mesh mesh = test::rotated(bumpy_sphere(3, 0.25));
   const StarChart chart = chart_of(mesh);
-  Analysis analysis = analyze(chart, {.degree = 20, .precision = 1e-12});
+  Transform transform = expand(chart, {.degree = 20, .precision = 1e-12});
   const TruncationErrors exact =
-      truncation_errors(view_of(mesh), analysis.expansion, {.precision = 1e-12});
+      truncation_errors(view_of(mesh), transform.expansion, {.precision = 1e-12});
   ASSERT_TRUE(exact.rms_is_exact);
   // If coefficients are declared inaccurate, Parseval's difference has no meaning.
   const TruncationErrors measured =
-      truncation_errors(view_of(mesh), analysis.expansion, {.precision = 1e-3});
+      truncation_errors(view_of(mesh), transform.expansion, {.precision = 1e-3});
   EXPECT_FALSE(measured.rms_is_exact);
   EXPECT_NEAR(*measured.rms, *exact.rms, 0.01 * *exact.rms);
 }
@@ -74,13 +74,13 @@ TEST(truncation_errors, measured_rms_is_the_exact_one_to_a_hundredth) {
 TEST(truncation_errors, the_largest_is_that_of_the_worst_vertex) {
   const Mesh mesh = test::random_octahedron(3);
   const StarChart chart = chart_of(mesh);
-  const Analysis analysis = analyze(chart, {.degree = 64, .precision = 1e-10});
+  const Transform transform = expand(chart, {.degree = 64, .precision = 1e-10});
   double worst = 0;
   for (const Vec3& x : chart.mesh.vertices) {
     const std::vector<Vec3> u = {x / norm(x)};
-    worst = std::max(worst, std::abs(norm(x) - evaluate(analysis.expansion.coefficients, u)[0]));
+    worst = std::max(worst, std::abs(norm(x) - evaluate(transform.expansion.coefficients, u)[0]));
   }
-  const TruncationErrors errors = truncation_errors(view_of(mesh), analysis.expansion);
+  const TruncationErrors errors = truncation_errors(view_of(mesh), transform.expansion);
   EXPECT_NEAR(*errors.measured_max, worst, 1e-6 * worst);
   ASSERT_TRUE(errors.predicted_max.has_value());
   EXPECT_NEAR(*errors.predicted_max, worst, 0.1 * worst);
@@ -89,8 +89,8 @@ TEST(truncation_errors, the_largest_is_that_of_the_worst_vertex) {
 TEST(truncation_errors, of_the_gauge_are_radial_too) {
   const Mesh mesh = bumpy_sphere(3, 0.2);
   const StarChart chart = chart_of(mesh);
-  const Analysis radius = analyze(chart, {.degree = 40});
-  const Analysis gauge = analyze(chart, {.degree = 40, .method = Method::kGauge});
+  const Transform radius = expand(chart, {.degree = 40});
+  const Transform gauge = expand(chart, {.degree = 40, .method = Method::kGauge});
   const TruncationErrors a = truncation_errors(view_of(mesh), radius.expansion);
   const TruncationErrors b = truncation_errors(view_of(mesh), gauge.expansion);
   EXPECT_FALSE(b.rms_is_exact);
@@ -123,14 +123,14 @@ double error_of(const Tolerance& tolerance, const TruncationErrors& errors) {
   return tolerance.norm == ErrorNorm::kRms ? *errors.distance_rms : *errors.measured_max_distance;
 }
 
-TEST(analyze_to_a_tolerance, finds_the_smallest_degree_that_keeps_it) {
+TEST(expand_to_a_tolerance, finds_the_smallest_degree_that_keeps_it) {
   for (const Mesh& mesh : {box({2, 1.6, 1.2}), test::rotated(bumpy_sphere(3, 0.3))}) {
     const StarChart chart = chart_of(mesh);
     for (const Case& c : cases()) {
-      const ToleranceAnalysis found = analyze(chart, c.tolerance);
+      const ToleranceTransform found = expand(chart, c.tolerance);
       ASSERT_TRUE(found.met) << c.name;
       EXPECT_LE(found.reached, found.allowed) << c.name;
-      Expansion expansion = found.analysis.expansion;
+      Expansion expansion = found.transform.expansion;
       const int degree = expansion.coefficients.degree();
       const auto measured = [&](int l) {
         Expansion cut = expansion;
@@ -146,46 +146,46 @@ TEST(analyze_to_a_tolerance, finds_the_smallest_degree_that_keeps_it) {
   }
 }
 
-TEST(analyze_to_a_tolerance, says_when_the_largest_degree_is_not_enough) {
+TEST(expand_to_a_tolerance, says_when_the_largest_degree_is_not_enough) {
   const StarChart chart = chart_of(box({2, 1.6, 1.2}));
-  const ToleranceAnalysis found = analyze(chart, {.error = 1e-6, .max_degree = 20});
+  const ToleranceTransform found = expand(chart, {.error = 1e-6, .max_degree = 20});
   EXPECT_FALSE(found.met);
-  EXPECT_EQ(found.analysis.expansion.coefficients.degree(), 20);
+  EXPECT_EQ(found.transform.expansion.coefficients.degree(), 20);
   EXPECT_GT(found.reached, 1e-6);
 }
 
-TEST(analyze_to_a_tolerance, a_generous_one_needs_the_mean_alone) {
+TEST(expand_to_a_tolerance, a_generous_one_needs_the_mean_alone) {
   const StarChart chart = chart_of(icosphere(3));
-  EXPECT_EQ(analyze(chart, {.error = 0.5}).analysis.expansion.coefficients.degree(), 0);
+  EXPECT_EQ(expand(chart, {.error = 0.5}).transform.expansion.coefficients.degree(), 0);
 }
 
-TEST(analyze_to_a_tolerance, gives_the_same_bits_for_any_number_of_threads) {
+TEST(expand_to_a_tolerance, gives_the_same_bits_for_any_number_of_threads) {
   const StarChart chart = chart_of(test::rotated(bumpy_sphere(3, 0.3)));
   const Tolerance tolerance{.error = 5e-3, .norm = ErrorNorm::kMax};
-  const ToleranceAnalysis one = analyze(chart, tolerance, {}, {.threads = 1});
+  const ToleranceTransform one = expand(chart, tolerance, {}, {.threads = 1});
   for (const int threads : {2, 4}) {
-    const ToleranceAnalysis many = analyze(chart, tolerance, {}, {.threads = threads});
+    const ToleranceTransform many = expand(chart, tolerance, {}, {.threads = threads});
     EXPECT_EQ(many.reached, one.reached);
-    const auto a = one.analysis.expansion.coefficients.values();
-    const auto b = many.analysis.expansion.coefficients.values();
+    const auto a = one.transform.expansion.coefficients.values();
+    const auto b = many.transform.expansion.coefficients.values();
     EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
   }
 }
 
-TEST(analyze_to_a_tolerance, refuses_what_means_nothing) {
+TEST(expand_to_a_tolerance, refuses_what_means_nothing) {
   const StarChart chart = chart_of(icosphere(1));
-  EXPECT_THROW(analyze(chart, Tolerance{.error = 0}), Error);
-  EXPECT_THROW(analyze(chart, Tolerance{.error = std::nan("")}), Error);
-  EXPECT_THROW(analyze(chart, Tolerance{.error = 1, .max_degree = -1}), Error);
-  EXPECT_THROW(analyze(chart, Tolerance{.error = 1}, {.method = Method::kGauge}), Error);
+  EXPECT_THROW(expand(chart, Tolerance{.error = 0}), Error);
+  EXPECT_THROW(expand(chart, Tolerance{.error = std::nan("")}), Error);
+  EXPECT_THROW(expand(chart, Tolerance{.error = 1, .max_degree = -1}), Error);
+  EXPECT_THROW(expand(chart, Tolerance{.error = 1}, {.method = Method::kGauge}), Error);
 }
 
-TEST(analyze_to_a_tolerance, can_be_cancelled) {
+TEST(expand_to_a_tolerance, can_be_cancelled) {
   const StarChart chart = chart_of(bumpy_sphere(3));
   int calls = 0;
   const Context context{.progress = [&](std::string_view, double) { return ++calls < 3; }};
   try {
-    analyze(chart, Tolerance{.error = 1e-3, .norm = ErrorNorm::kMax}, {}, context);
+    expand(chart, Tolerance{.error = 1e-3, .norm = ErrorNorm::kMax}, {}, context);
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kCancelled);

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/random.h"
-#include "rholm/analyze.h"
 #include "rholm/primitives.h"
 #include "rholm/star.h"
+#include "rholm/transform.h"
 #include "support/test_shapes.h"
 #include "transform/error/error_points.h"
 #include "transform/error/face_scan.h"
@@ -36,7 +36,7 @@ TEST(worst_points, have_the_largest_errors_of_all) {
     for (const Method method : {Method::kEdge, Method::kGauge}) {
       for (const int degree : {0, 6, 40, 170}) {
         const Expansion expansion =
-            analyze(chart, {.degree = degree, .method = method, .precision = 1e-10}).expansion;
+            expand(chart, {.degree = degree, .method = method, .precision = 1e-10}).expansion;
         const ErrorPoints all = extreme_points(view, {}, scan, degree);
         const PointErrors exact = point_errors(all, expansion, degree, true, 1e-10, {});
         const double radial = largest(exact.radial);
@@ -64,7 +64,7 @@ TEST(worst_points, have_the_largest_errors_of_all) {
 TEST(worst_points, are_of_faces) {
   const Mesh mesh = bumpy_sphere(5, 0.3);
   const Expansion expansion =
-      analyze(chart_about_origin(mesh), {.degree = 10, .precision = 1e-8}).expansion;
+      expand(chart_about_origin(mesh), {.degree = 10, .precision = 1e-8}).expansion;
   const RadialModel model(expansion, 10, 20'000, true, 1e-8, {});
   for (const double far : {5.0, 1e25}) {
     for (const bool usual_number : {false, true}) {
@@ -88,7 +88,7 @@ TEST(worst_points, of_a_long_gauge_are_at_its_ends_too) {
                        (1 + 1e-4 * random_uniform(1, i));
   }
   const Expansion expansion =
-      analyze(chart_about_origin(mesh), {.degree = 24, .method = Method::kGauge, .precision = 1e-9})
+      expand(chart_about_origin(mesh), {.degree = 24, .method = Method::kGauge, .precision = 1e-9})
           .expansion;
   const MeshView view = view_of(mesh);
   const FaceScan scan = scan_faces(view, Vec3{}, {});

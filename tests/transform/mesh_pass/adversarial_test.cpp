@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <string>
 
-#include "rholm/analyze.h"
 #include "rholm/topology.h"
+#include "rholm/transform.h"
 #include "support/adversarial_meshes.h"
 #include "transform/mesh_pass/plan/error_budget.h"
 #include "transform/mesh_pass/verify.h"
@@ -18,11 +18,11 @@ namespace {
 
 Coefficients by_direct_sums(const test::AdversarialMesh& made) {
   const StarChart chart{.mesh = made.mesh, .edges = pair_edges(made.mesh), .report = {}};
-  AnalyzeOptions options;
+  TransformOptions options;
   options.degree = made.degree;
   options.engine = Engine::kDirect;
   options.precision = 1e-4 * made.precision;
-  return analyze(chart, options, {}).expansion.coefficients;
+  return expand(chart, options, {}).expansion.coefficients;
 }
 
 void judge(const test::AdversarialMesh& made) {

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <vector>
 
-#include "rholm/analyze.h"
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
+#include "rholm/transform.h"
 #include "support/oracle.h"
 #include "support/random_bodies.h"
 #include "transform/mesh_pass/pass.h"
@@ -22,8 +22,8 @@ using test::relative_error;
 void check_error_of_pass(const Mesh& mesh, const std::vector<int>& degrees, double precision) {
   const StarChart chart{.mesh = mesh, .edges = pair_edges(mesh), .report = {}};
   const Coefficients exact =
-      analyze(chart,
-              {.degree = degrees.back(), .engine = Engine::kDirect, .precision = 1e-2 * precision})
+      expand(chart,
+             {.degree = degrees.back(), .engine = Engine::kDirect, .precision = 1e-2 * precision})
           .expansion.coefficients;
   for (const int degree : degrees) {
     const MeshPassOptions options{.degree = degree, .precision = precision};

@@ -49,8 +49,8 @@ StarChart chart_of(const Mesh& mesh, const Vec3& center) {
                                 .allow_signed = true});
 }
 
-Analysis oracle_of(const StarChart& chart, int degree) {
-  return analyze(
+Transform oracle_of(const StarChart& chart, int degree) {
+  return expand(
       chart,
       {.degree = degree, .method = Method::kArea, .engine = Engine::kDirect, .precision = 1e-13});
 }
@@ -99,7 +99,7 @@ void sweep(const Case& c, Sweep& totals) {
   const StarChart chart = chart_of(c.mesh, c.center);
   const Coefficients expected = oracle_of(chart, c.degree).expansion.coefficients;
   const double c00 = std::abs(expected.c(0, 0));
-  // AnalyzeOptions::precision says "about", which the factor 4 stands for.
+  // TransformOptions::precision says "about", which the factor 4 stands for.
   const double steepest = std::max(c.slope, 1.0 / (8 * c.degree));
   const double rounding = 4e-15 * c00 / norm_without_mean(expected) / steepest;
   double logarithm = 0;
@@ -137,10 +137,10 @@ TEST(mesh_pass, keeps_wanted_precisions_and_wastes_no_more_than_a_factor_of_thir
 TEST(mesh_pass, lumps_rough_meshes_with_hessians) {
   const Mesh mesh = rough_sphere(5);
   const StarChart chart = chart_of(mesh, {0.1, 0.1, 0});
-  const Analysis expected = analyze(chart, {.degree = 30, .precision = 1e-11});
+  const Transform expected = expand(chart, {.degree = 30, .precision = 1e-11});
   std::size_t nodes = 0;
   for (const double wish : {1e-2, 1e-4}) {
-    const Analysis found = analyze(chart, {.degree = 30, .precision = wish});
+    const Transform found = expand(chart, {.degree = 30, .precision = wish});
     EXPECT_LT(relative_error(found.expansion.coefficients, expected.expansion.coefficients), wish);
     EXPECT_GT(found.fast->lumped_triangles, mesh.triangles.size() * 9 / 10);
     EXPECT_GT(found.fast->nodes, nodes);
@@ -194,9 +194,9 @@ TEST(mesh_pass, reaches_what_rounding_allows_on_a_ball) {
   for (const int subdivisions : {3, 5}) {
     for (const int degree : {1, 2, 5}) {
       const StarChart chart = chart_of(icosphere(subdivisions), {});
-      const Analysis analysis = analyze(chart, {.degree = degree});
-      EXPECT_TRUE(analysis.fast->reached) << subdivisions << ", L " << degree;
-      EXPECT_LT(norm_without_mean(analysis.expansion.coefficients), 1.5e-14);
+      const Transform transform = expand(chart, {.degree = degree});
+      EXPECT_TRUE(transform.fast->reached) << subdivisions << ", L " << degree;
+      EXPECT_LT(norm_without_mean(transform.expansion.coefficients), 1.5e-14);
     }
   }
 }
@@ -217,11 +217,11 @@ TEST(mesh_pass, single_precision_is_enough_where_nodes_take_a_part) {
 // The oracle is compared with another one that shares no integrals with it.
 TEST(mesh_pass, agrees_with_the_curl_method) {
   const StarChart chart = chart_of(test::rotated(bumpy_sphere(2, 0.25)), {0.1, 0, -0.1});
-  const Analysis expected =
-      analyze(chart, {.degree = 24, .method = Method::kCurl, .precision = 1e-13});
+  const Transform expected =
+      expand(chart, {.degree = 24, .method = Method::kCurl, .precision = 1e-13});
   for (const double wish : {1e-4, 1e-8, 1e-12}) {
-    const Analysis analysis = analyze(chart, {.degree = 24, .precision = wish});
-    EXPECT_LT(relative_error(analysis.expansion.coefficients, expected.expansion.coefficients),
+    const Transform transform = expand(chart, {.degree = 24, .precision = wish});
+    EXPECT_LT(relative_error(transform.expansion.coefficients, expected.expansion.coefficients),
               wish + 1e-14);
   }
 }
@@ -331,8 +331,8 @@ TEST(mesh_pass, every_instruction_set_keeps_the_precision) {
     const Coefficients expected = oracle_of(chart, 20).expansion.coefficients;
     test::for_each_target([&](const char* target) {
       for (const double precision : {1e-3, 1e-6, 1e-11}) {
-        const Analysis analysis = analyze(chart, {.degree = 20, .precision = precision});
-        EXPECT_LT(relative_error(analysis.expansion.coefficients, expected), precision) << target;
+        const Transform transform = expand(chart, {.degree = 20, .precision = precision});
+        EXPECT_LT(relative_error(transform.expansion.coefficients, expected), precision) << target;
       }
     });
   }

@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "rholm/analyze.h"
 #include "rholm/primitives.h"
 #include "rholm/rotate.h"
 #include "rholm/topology.h"
+#include "rholm/transform.h"
 #include "support/random_bodies.h"
 #include "transform/mesh_pass/pass.h"
 #include "transform/mesh_pass/plan/error_budget.h"
@@ -27,7 +27,7 @@ using test::random_bodies::ring;
 
 Coefficients exact_of(const Mesh& mesh, int degree, double precision) {
   const StarChart chart{.mesh = mesh, .edges = pair_edges(mesh), .report = {}};
-  return analyze(chart, {.degree = degree, .engine = Engine::kDirect, .precision = precision})
+  return expand(chart, {.degree = degree, .engine = Engine::kDirect, .precision = precision})
       .expansion.coefficients;
 }
 

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "rholm/analyze.h"
 #include "rholm/primitives.h"
 #include "rholm/rotate.h"
 #include "rholm/topology.h"
+#include "rholm/transform.h"
 #include "support/random_bodies.h"
 #include "transform/mesh_pass/plan/error_budget.h"
 
@@ -31,10 +31,10 @@ Judged judge(const Mesh& mesh, int degree, double precision, Method oracle = Met
   MeshPassResult found = mesh_pass(view_of(mesh), options, {});
   verify_pass(view_of(mesh), options, {}, found);
   const StarChart chart{.mesh = mesh, .edges = pair_edges(mesh), .report = {}};
-  const Coefficients exact = analyze(chart, {.degree = degree,
-                                             .method = oracle,
-                                             .engine = Engine::kDirect,
-                                             .precision = 1e-3 * precision})
+  const Coefficients exact = expand(chart, {.degree = degree,
+                                            .method = oracle,
+                                            .engine = Engine::kDirect,
+                                            .precision = 1e-3 * precision})
                                  .expansion.coefficients;
   Coefficients error = found.coefficients;
   for (std::size_t i = 0; i < error.values().size(); ++i) error.values()[i] -= exact.values()[i];
@@ -102,7 +102,7 @@ TEST(verify_pass, of_a_flat_cone_seen_from_below_its_tip_keeps_the_wish) {
       expect_is_kept(judge(seen, 5, 1e-9, Method::kArea), 1e-9);
       const StarChart chart{.mesh = seen, .edges = pair_edges(seen), .report = {}};
       const auto sum = [&](Method method) {
-        return analyze(
+        return expand(
                    chart,
                    {.degree = 5, .method = method, .engine = Engine::kDirect, .precision = 1e-12})
             .expansion.coefficients;

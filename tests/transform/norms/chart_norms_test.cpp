@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "rholm/analyze.h"
 #include "rholm/primitives.h"
+#include "rholm/transform.h"
 #include "support/oracle.h"
 #include "support/test_meshes.h"
 #include "support/test_shapes.h"
@@ -89,7 +89,7 @@ TEST(vertex_error_strength, predicts_the_largest_error_at_vertices) {
     const StarChart chart = test::chart_about(shape.mesh, shape.center);
     for (const Method method : {Method::kEdge, Method::kGauge}) {
       for (const int L : {64, 128, 256}) {
-        const Analysis a = analyze(chart, {.degree = L, .method = method, .precision = 1e-10});
+        const Transform a = expand(chart, {.degree = L, .method = method, .precision = 1e-10});
         const double predicted =
             vertex_error_strength(chart, a.expansion.function) / (2 * kPi * (L + 1));
         const double measured = largest_error_at_vertices(chart, a.expansion);
@@ -105,7 +105,7 @@ TEST(tail_strength, predicts_the_truncation_error_of_coarse_meshes) {
     const StarChart chart = test::chart_about(shape.mesh, shape.center);
     for (const Method method : {Method::kEdge, Method::kGauge}) {
       for (const int L : {32, 64, 128}) {
-        const Analysis a = analyze(chart, {.degree = L, .method = method, .precision = 1e-10});
+        const Transform a = expand(chart, {.degree = L, .method = method, .precision = 1e-10});
         const double predicted =
             tail_strength(chart, a.expansion.function) / (3 * kPi * std::pow(L + 1, 3));
         EXPECT_NEAR(predicted / (4 * kPi * std::pow(*a.truncation_rms, 2)), 1, 0.15)

@@ -6,9 +6,9 @@
 #include <limits>
 #include <numbers>
 
-#include "rholm/analyze.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
+#include "rholm/transform.h"
 #include "support/executor_by.h"
 #include "support/packed_mesh.h"
 #include "support/random_data.h"

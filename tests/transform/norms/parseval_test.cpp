@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "rholm/analyze.h"
 #include "rholm/primitives.h"
 #include "rholm/rms_beyond.h"
+#include "rholm/transform.h"
 #include "support/test_meshes.h"
 #include "support/test_shapes.h"
 
@@ -150,13 +150,13 @@ TEST(truncation_rms, is_none_or_within_its_doubt) {
     const StarChart chart = make_star_chart(
         mesh, {.center = {.kind = CenterKind::kGiven, .point = {0.1, 0.05, 0}, .rays = 0}});
     for (const int degree : {0, 12, 32}) {
-      const Analysis exact =
-          analyze(chart, {.degree = degree, .engine = Engine::kDirect, .precision = 1e-14});
+      const Transform exact =
+          expand(chart, {.degree = degree, .engine = Engine::kDirect, .precision = 1e-14});
       ASSERT_TRUE(exact.truncation_rms);
       for (const Engine engine : {Engine::kFast, Engine::kDirect}) {
         for (const double precision : {1e-1, 1e-2, 1e-3, 1e-5, 1e-8}) {
-          const Analysis coarse =
-              analyze(chart, {.degree = degree, .engine = engine, .precision = precision});
+          const Transform coarse =
+              expand(chart, {.degree = degree, .engine = engine, .precision = precision});
           ASSERT_EQ(coarse.truncation_rms.has_value(), coarse.truncation_rms_doubt.has_value());
           if (!coarse.truncation_rms) continue;
           ++given;

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "rholm/analyze.h"
 #include "rholm/primitives.h"
 #include "rholm/star.h"
+#include "rholm/transform.h"
 #include "support/dense_error.h"
 #include "support/test_shapes.h"
 #include "transform/error/error_of_degree.h"
@@ -37,7 +37,7 @@ TEST(search_tolerance, doubles_the_degree_until_it_is_good) {
   for (const Mesh& mesh : {box({2, 1.6, 1.2}), test::rotated(bumpy_sphere(3, 0.3))}) {
     const StarChart chart = chart_of(mesh);
     for (const Tolerance& tolerance : tolerances()) {
-      const ToleranceAnalysis found = analyze(chart, tolerance);
+      const ToleranceTransform found = expand(chart, tolerance);
       const std::vector<int>& degrees = found.degrees;
       ASSERT_GE(degrees.size(), 2u);
       EXPECT_EQ(degrees[0], first_degree(mesh.triangles.size(), tolerance));
@@ -62,11 +62,11 @@ TEST(search_tolerance, doubles_the_degree_until_it_is_good) {
 TEST(search_tolerance, finds_the_smallest_degree_exactly_for_the_rms_radius) {
   for (const Mesh& mesh : {box({2, 1.6, 1.2}), test::rotated(bumpy_sphere(3, 0.3))}) {
     const StarChart chart = chart_of(mesh);
-    const Analysis exact = analyze(chart, {.degree = 150, .precision = 1e-12});
+    const Transform exact = expand(chart, {.degree = 150, .precision = 1e-12});
     for (const double error : {0.2, 3e-2, 3e-3}) {
-      const ToleranceAnalysis found = analyze(chart, Tolerance{.error = error, .max_degree = 150});
+      const ToleranceTransform found = expand(chart, Tolerance{.error = error, .max_degree = 150});
       ASSERT_TRUE(found.met);
-      const int degree = found.analysis.expansion.coefficients.degree();
+      const int degree = found.transform.expansion.coefficients.degree();
       const auto tail = [&](int l) {
         const Coefficients first = exact.expansion.coefficients.resized(l);
         double rest = *exact.expansion.norm_squared;
@@ -87,13 +87,13 @@ TEST(search_tolerance, finds_the_smallest_degree_exactly_for_the_rms_radius) {
 void check_smallest_degree(const std::vector<Mesh>& meshes) {
   for (const Mesh& mesh : meshes) {
     const StarChart chart = chart_of(mesh);
-    const Analysis exact = analyze(chart, {.degree = 100, .precision = 1e-10});
+    const Transform exact = expand(chart, {.degree = 100, .precision = 1e-10});
     const int n = mesh.triangles.size() > 100 ? 8 : 24;
     for (const double error : {0.2, 0.08}) {
       Tolerance tolerance{.error = error, .norm = ErrorNorm::kMax, .max_degree = 100};
-      const ToleranceAnalysis found = analyze(chart, tolerance);
+      const ToleranceTransform found = expand(chart, tolerance);
       ASSERT_TRUE(found.met) << mesh.triangles.size() << ' ' << found.reached;
-      const int degree = found.analysis.expansion.coefficients.degree();
+      const int degree = found.transform.expansion.coefficients.degree();
       const auto largest = [&](int l, int rounds) {
         return test::largest_error_of_dense_points(mesh, exact.expansion.coefficients.resized(l), n,
                                                    rounds);
@@ -106,7 +106,7 @@ void check_smallest_degree(const std::vector<Mesh>& meshes) {
       }
       for (const int most : {degree, degree + 1, degree + 9}) {
         tolerance.max_degree = most;
-        EXPECT_EQ(analyze(chart, tolerance).analysis.expansion.coefficients.degree(), degree);
+        EXPECT_EQ(expand(chart, tolerance).transform.expansion.coefficients.degree(), degree);
       }
     }
   }
@@ -134,7 +134,7 @@ void check_smallest_degree_for_distances(const std::vector<DistanceCase>& shapes
     std::vector<TruncationErrors> errors;
     const auto errors_of = [&](int degree) {
       while (std::ssize(errors) <= degree) {
-        const Analysis lower = analyze(chart, {.degree = static_cast<int>(errors.size())});
+        const Transform lower = expand(chart, {.degree = static_cast<int>(errors.size())});
         errors.push_back(truncation_errors(view_of(shape.mesh), lower.expansion));
       }
       return errors[static_cast<std::size_t>(degree)];
@@ -144,16 +144,16 @@ void check_smallest_degree_for_distances(const std::vector<DistanceCase>& shapes
                           .norm = norm,
                           .measure = ErrorMeasure::kDistance,
                           .max_degree = 100};
-      const ToleranceAnalysis found = analyze(chart, tolerance);
+      const ToleranceTransform found = expand(chart, tolerance);
       ASSERT_TRUE(found.met);
-      const int degree = found.analysis.expansion.coefficients.degree();
+      const int degree = found.transform.expansion.coefficients.degree();
       for (int l = 0; l < degree; ++l) {
         const double error = error_in(errors_of(l), tolerance);
         EXPECT_GT(error, tolerance.error) << to_string(norm) << ' ' << l << " of " << degree;
       }
       for (const int most : {degree, degree + 1, degree + 9}) {
         tolerance.max_degree = most;
-        EXPECT_EQ(analyze(chart, tolerance).analysis.expansion.coefficients.degree(), degree)
+        EXPECT_EQ(expand(chart, tolerance).transform.expansion.coefficients.degree(), degree)
             << to_string(norm) << ' ' << most;
       }
     }
@@ -175,9 +175,9 @@ TEST(search_tolerance, ends_with_the_largest_degree_where_none_is_good_nightly) 
     tolerance.error = 1e-6;
     for (const int most : {0, 20}) {
       tolerance.max_degree = most;
-      const ToleranceAnalysis found = analyze(chart, tolerance);
+      const ToleranceTransform found = expand(chart, tolerance);
       EXPECT_FALSE(found.met);
-      EXPECT_EQ(found.analysis.expansion.coefficients.degree(), most);
+      EXPECT_EQ(found.transform.expansion.coefficients.degree(), most);
       EXPECT_GT(found.reached, found.allowed);
     }
   }

@@ -14,7 +14,7 @@ import { WindowChoice } from "./windows";
 import * as tool from "../tools/degrees";
 import { Check, Hint, Select, Slider } from "../widgets";
 
-const wanted = new Option<number>("analyze", "degree");
+const wanted = new Option<number>("expand", "degree");
 
 // Explains why the item has no degrees, if this is known beforehand, and offers other steps.
 function NoDegrees({ one }: { one: Item }) {
@@ -74,12 +74,12 @@ function Analyze({ one }: { one: Item }) {
     <>
       <Hint>Split the shape into degrees: coarse form first, then detail.</Hint>
       <NumberControl of={wanted} />
-      <MoreOptions op="analyze" />
+      <MoreOptions op="expand" />
       <Button
         main
         onClick={() =>
           step(
-            { op: "analyze", item: one.id, degree: wanted.value, center: "auto", ...othersChosen("analyze") },
+            { op: "expand", item: one.id, degree: wanted.value, center: "auto", ...othersChosen("expand") },
             "Analysing",
           )
         }

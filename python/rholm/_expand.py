@@ -20,12 +20,12 @@ from ._shapes import MeshLike, as_mesh, name_of
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._keywords import AnalyzeKeywords, CenterKeywords, ChartKeywords, EncodeKeywords, ToleranceKeywords
+    from ._keywords import CenterKeywords, ChartKeywords, ExpandKeywords, ToleranceKeywords, TransformKeywords
 
-    class TransformKeywords(AnalyzeKeywords, ToleranceKeywords, total=False):
+    class ChartExpandKeywords(TransformKeywords, ToleranceKeywords, total=False):
         """Method and tolerance of an expansion."""
 
-    class ExpandKeywords(TransformKeywords, CenterKeywords, ChartKeywords, EncodeKeywords, total=False):
+    class MeshExpandKeywords(ToleranceKeywords, CenterKeywords, ChartKeywords, ExpandKeywords, total=False):
         """Degree or tolerance of a model, and the permitted changes to the mesh."""
 
 
@@ -40,23 +40,20 @@ def center_options(center: Any, **rays: Any) -> _core.CenterOptions:
     return options
 
 
-def transform_options(
-    degree: int | None, tolerance: float | None, measure: str | None, analyze: Any, allowed: Any
-) -> tuple[_core.AnalyzeOptions, _core.Tolerance | None]:
-    """Returns options for the arguments of `expand` and `analyze`. `analyze` and `allowed` are the
-    given fields of AnalyzeOptions and Tolerance.
-    """
+def tolerance_of(
+    degree: int | None, tolerance: float | None, measure: str | None, allowed: Any
+) -> _core.Tolerance | None:
+    """Returns the wanted tolerance, or None. `allowed` has the given fields of Tolerance."""
     if degree is not None and tolerance is not None:
         raise InvalidInputError("degree and tolerance exclude one another: give one of them")
-    wanted = _core.AnalyzeOptions(degree=degree, **analyze)
     if tolerance is None:
-        return wanted, None
+        return None
     kept = _core.Tolerance(error=tolerance, **allowed)
     kept.measure = measure or ("distance" if kept.unit == "diagonal" else "radius")
-    return wanted, kept
+    return kept
 
 
-@takes(_core.AnalyzeOptions, _core.Tolerance, _core.CenterOptions, _core.ChartOptions, _core.EncodeOptions)
+@takes(_core.Tolerance, _core.CenterOptions, _core.ChartOptions, _core.ExpandOptions)
 def expand(
     shape: MeshLike,
     degree: int | None = None,
@@ -67,7 +64,7 @@ def expand(
     length_unit: str = "",
     threads: int = 0,
     progress: Progress = None,
-    **options: Unpack[ExpandKeywords],
+    **options: Unpack[MeshExpandKeywords],
 ) -> Expansion:
     """Computes the spherical-harmonic coefficients of a closed mesh.
 
@@ -100,7 +97,7 @@ def expand(
     Returns
     -------
     s : Expansion
-        Expansion with ``s.errors`` and ``s.encoded``, the report of the computation.
+        Expansion with ``s.errors`` and ``s.expanded``, the report of the computation.
 
     Raises
     ------
@@ -123,19 +120,17 @@ def expand(
     >>> round(s.volume / (4 / 3 * 3.14159265 * 6), 2)
     1.0
     """
-    kinds = (_core.AnalyzeOptions, _core.Tolerance, _core.CenterOptions, _core.ChartOptions)
-    analyze, allowed, rays, signed, rest = given_of(
-        *kinds, _core.EncodeOptions, given={**options}, function="expand"
-    )
-    wanted = _core.EncodeOptions(**rest)
-    wanted.analyze, wanted.tolerance = transform_options(degree, tolerance, measure, analyze, allowed)
+    kinds = (_core.Tolerance, _core.CenterOptions, _core.ChartOptions, _core.ExpandOptions)
+    allowed, rays, signed, rest = given_of(*kinds, given={**options}, function="expand")
+    wanted = _core.ExpandOptions(degree=degree, **rest)
+    wanted.tolerance = tolerance_of(degree, tolerance, measure, allowed)
     wanted.chart = _core.ChartOptions(center=center_options(center, **rays), **signed)
     with caller(threads, progress) as how:
         if isinstance(shape, (str, os.PathLike)):
-            encoded, _ = _core.encode_file(os.fspath(shape), wanted, how)
+            expanded, _ = _core.expand_file(os.fspath(shape), wanted, how)
         else:
-            encoded = _core.encode(*_mesh_arrays(shape), wanted, how)
-    expansion = Expansion._of(encoded.analysis.expansion, encoded, shape, name_of(shape))
+            expanded = _core.expand_mesh(*_mesh_arrays(shape), wanted, how)
+    expansion = Expansion._of(expanded.transform.expansion, expanded, shape, name_of(shape))
     return expansion.with_unit(length_unit) if length_unit else expansion
 
 
@@ -148,19 +143,6 @@ def _mesh_arrays(shape: Any) -> tuple[Any, Any]:
             return core.vertices, core.triangles
         arrays = (shape[0], shape[1], {})
     return unwritable(vertex_rows(arrays[0])), unwritable(triangle_rows(arrays[1]))
-
-
-def encode(shape: MeshLike, **options: Any) -> _core.Encoded:
-    """Returns the report that `expand` makes on the way from a mesh to an expansion.
-
-    Parameters
-    ----------
-    shape, **options
-        As in `expand`.
-    """
-    encoded = expand(shape, **options).encoded
-    assert encoded is not None
-    return encoded
 
 
 def from_array(

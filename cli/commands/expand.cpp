@@ -1,4 +1,4 @@
-// rholm analyze: from a mesh to its coefficients.
+// rholm expand: from a mesh to its coefficients.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -8,11 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "cli/commands/analyze.h"
-#include "cli/commands/analyze_options.h"
-#include "cli/commands/analyze_report.h"
-#include "cli/commands/atlas_report.h"
 #include "cli/commands/commands.h"
+#include "cli/commands/expand.h"
+#include "cli/commands/expand_options.h"
+#include "cli/commands/expand_report.h"
 #include "cli/files/inputs.h"
 #include "cli/files/memory_needed.h"
 #include "cli/files/outputs.h"
@@ -27,13 +26,12 @@
 namespace rholm::cli {
 namespace {
 
-using Options = AnalyzeCommandOptions;
-using Run = AnalyzeRun;
+using Options = ExpandCommandOptions;
+using Run = ExpandRun;
 
-EncodeOptions encode_options(const Options& options) {
-  EncodeOptions wanted;
-  wanted.analyze = options.analyze.values;
-  wanted.analyze.method = parse_name<Method>(options.method);
+ExpandOptions expand_options(const Options& options) {
+  ExpandOptions wanted = options.expand.values;
+  wanted.method = parse_name<Method>(options.method);
   wanted.tolerance = options.tolerance.parsed();
   wanted.errors = !options.no_errors;
   wanted.chart = chart_options(options.chart, options.center);
@@ -93,7 +91,7 @@ Context within_memory(double triangles, double kept, const Options& options,
 // Throws OutOfMemory if not even one thread fits.
 void require_pass(double triangles, double kept, const Options& options) {
   const double needed = kept + memory_of_pass(triangles, 1, options);
-  options.memory.require(needed, "analyzing " + display_name(options.input),
+  options.memory.require(needed, "expanding " + display_name(options.input),
                          needed + most_of_work(options));
 }
 
@@ -111,8 +109,8 @@ bool may_stay(double vertices, double faces, const Options& options) {
   return may_stay(options) && vertices < faces;
 }
 
-// Returns the largest number of bytes while the mesh of a file is read and analyzed on one thread.
-double memory_to_read_and_analyze(const std::string& path, const Options& options) {
+// Returns the largest number of bytes while the mesh of a file is read and expanded on one thread.
+double memory_to_read_and_expand(const std::string& path, const Options& options) {
   const ShapeMemory shape = memory_to_read(path);
   const double work = may_stay(shape.vertices, shape.faces, options)
                           ? shape.kept() + memory_of_pass(shape.faces, 1, options)
@@ -132,7 +130,7 @@ void check_read_mesh(const Mesh& mesh, const Options& options) {
     require_pass(faces, sizeof(Vec3) * vertices + sizeof(Triangle) * faces, options);
   } else {
     options.memory.require(paired + memory_of_grid(options),
-                           "analyzing " + display_name(options.input));
+                           "expanding " + display_name(options.input));
   }
 }
 
@@ -141,7 +139,7 @@ void check_read_mesh(const Mesh& mesh, const Options& options) {
 void check_room_to_read(std::uintmax_t bytes, const std::string& path, const Options& options) {
   std::optional<std::string> refused;
   if (options.memory.gib && !is_stream(path)) {
-    refused = options.memory.refusal(memory_to_read_and_analyze(path, options));
+    refused = options.memory.refusal(memory_to_read_and_expand(path, options));
   } else {
     const double needed = 2.0 * static_cast<double>(bytes);
     const auto limit = static_cast<double>(options.memory.limit());
@@ -159,18 +157,18 @@ void check_room_to_read(std::uintmax_t bytes, const std::string& path, const Opt
 }
 
 // Encodes a stream. Input that does not fit in memory is kept in a file.
-Encoded encode_stream(const Options& options, const EncodeOptions& wanted, Session& session) {
+Expanded expand_stream(const Options& options, const ExpandOptions& wanted, Session& session) {
   const Stopwatch reading;
   StageTime read_in;
   const SpooledInput input(options.input, options.memory.limit() / 4, options.memory.folder());
-  const auto with_time = [&](Encoded encoded) {
-    encoded.times["read"] = read_in;
-    return encoded;
+  const auto with_time = [&](Expanded expanded) {
+    expanded.times["read"] = read_in;
+    return expanded;
   };
   if (const std::optional<MappedMesh> mapped = input.mesh(session.context())) {
     read_in = reading.elapsed();
-    if (auto encoded = encode_mapped(*mapped, wanted, within_memory(*mapped, options, session))) {
-      return with_time(std::move(*encoded));
+    if (auto expanded = expand_mapped(*mapped, wanted, within_memory(*mapped, options, session))) {
+      return with_time(std::move(*expanded));
     }
   }
   if (input.is_in_file()) check_room_to_read(input.bytes().size(), options.input, options);
@@ -180,13 +178,13 @@ Encoded encode_stream(const Options& options, const EncodeOptions& wanted, Sessi
   const double kept = static_cast<double>(sizeof(Vec3) * mesh.vertices.size() +
                                           sizeof(Triangle) * mesh.triangles.size());
   const auto faces = static_cast<double>(mesh.triangles.size());
-  return with_time(encode(mesh, wanted, within_memory(faces, kept, options, session)));
+  return with_time(expand(mesh, wanted, within_memory(faces, kept, options, session)));
 }
 
 // Encodes an input. A mesh that needs no change is mapped, not read.
-Encoded encode_input(const Options& options, const EncodeOptions& wanted, const AnalyzeBy& by,
-                     Session& session) {
-  if (options.input == "-") return encode_stream(options, wanted, session);
+Expanded expand_input(const Options& options, const ExpandOptions& wanted, const ExpandBy& by,
+                      Session& session) {
+  if (options.input == "-") return expand_stream(options, wanted, session);
   Context context = session.context();
   if (options.memory.gib && !is_stream(options.input)) {
     const std::optional<MappedMesh> mapped = map_mesh(options.input, context);
@@ -197,7 +195,7 @@ Encoded encode_input(const Options& options, const EncodeOptions& wanted, const 
       context = within_memory(shape.faces, shape.kept(), options, session);
     }
   }
-  return by.encode_file(options.input, wanted, context, [&] {
+  return by.expand_file(options.input, wanted, context, [&] {
     std::error_code none;
     const std::uintmax_t size = std::filesystem::file_size(options.input, none);
     if (!none) check_room_to_read(size, options.input, options);
@@ -208,33 +206,28 @@ Encoded encode_input(const Options& options, const EncodeOptions& wanted, const 
 }
 
 // Throws NotConverged for a tolerance that is not reached; the output is already written.
-void check_reached(const Options& options, const Encoded& encoded) {
-  if (encoded.tolerance && !encoded.tolerance->met) {
+void check_reached(const Options& options, const Expanded& expanded) {
+  if (expanded.tolerance && !expanded.tolerance->met) {
     throw Error(ErrorCode::kNotConverged,
                 fmt::format("the tolerance of {} is not kept by degree {}, which was written: the "
                             "error is {}; a higher --max-degree may do",
-                            text_of(encoded.tolerance->allowed),
-                            encoded.analysis.expansion.coefficients.degree(),
-                            text_of(encoded.tolerance->reached)));
+                            text_of(expanded.tolerance->allowed),
+                            expanded.transform.expansion.coefficients.degree(),
+                            text_of(expanded.tolerance->reached)));
   }
-  const std::optional<FastReport>& fast = encoded.analysis.fast;
+  const std::optional<FastReport>& fast = expanded.transform.fast;
   if (!fast || fast->reached) return;
   throw Error(ErrorCode::kNotConverged,
               fmt::format("the wanted precision of {} was not reached in what was written: the "
                           "error is {}; --engine direct is slower and exact",
-                          text_of(options.analyze.values.precision), text_of(fast->error)));
+                          text_of(options.expand.values.precision), text_of(fast->error)));
 }
 
 constexpr std::string_view kMonteCarlo = "monte-carlo-";  // before the places of the points
 
-int run(const Options& options, const AnalyzeBy& by, Session& session) {
+int run(const Options& options, const ExpandBy& by, Session& session) {
   by.check_input(options.input);
   options.memory.keep(session);
-  if (options.atlas) return analyze_atlas(options, session);
-  if (!options.fit.empty() || !options.patches.names.empty() || !options.caps.names.empty() ||
-      !options.columns.empty()) {
-    throw UsageError("--fit, --extension, --max-numbers and --columns go with --atlas");
-  }
   const bool has_degree = degree_of(options).has_value();
   if (has_degree && options.tolerance.tolerance) {
     throw UsageError("--degree L or --tolerance E: only one of the two can be kept");
@@ -244,42 +237,42 @@ int run(const Options& options, const AnalyzeBy& by, Session& session) {
   }
   if (options.method.starts_with(kMonteCarlo)) {
     const std::string places = options.method.substr(kMonteCarlo.size());
-    return analyze_by_monte_carlo(options, parse_name<SamplePlaces>(places), session);
+    return expand_by_monte_carlo(options, parse_name<SamplePlaces>(places), session);
   }
   if (is_given_to_monte_carlo(options)) {
     throw UsageError(
         "--samples, --deviation and --most-samples go with the methods "
         "monte-carlo-edge and monte-carlo-triangle");
   }
-  const EncodeOptions wanted = encode_options(options);
+  const ExpandOptions wanted = expand_options(options);
   const CoefficientsOutput output =
       coefficients_output(options.output, options.format, options.json);
   const Convention convention = options.convention.output_convention();
   check_writable(options.output);
 
   Run run;
-  run.encoded = encode_input(options, wanted, by, session);
-  run.diagonal = run.encoded.diagonal;
-  run.encoded.analysis.expansion.unit = options.length_unit;
-  run.times.insert(run.encoded.times.begin(), run.encoded.times.end());
-  run.times.insert(run.encoded.analysis.times.begin(), run.encoded.analysis.times.end());
-  if (run.encoded.flipped) session.note(kFlipped);
-  if (!run.encoded.star.star_shaped) {
+  run.expanded = expand_input(options, wanted, by, session);
+  run.diagonal = run.expanded.diagonal;
+  run.expanded.transform.expansion.unit = options.length_unit;
+  run.times.insert(run.expanded.times.begin(), run.expanded.times.end());
+  run.times.insert(run.expanded.transform.times.begin(), run.expanded.transform.times.end());
+  if (run.expanded.flipped) session.note(kFlipped);
+  if (!run.expanded.star.star_shaped) {
     session.warn(
         "the surface is not star-shaped: the coefficients are those of the signed sum of its "
         "radii. They do not give back the body: its volume, area and errors do not follow from "
-        "them. --atlas makes a model that does");
+        "them. 'rholm compress' makes a model that does");
   }
   const Stopwatch writing;
-  write_coefficients_output(run.encoded.analysis.expansion, output, convention, session);
+  write_coefficients_output(run.expanded.transform.expansion, output, convention, session);
   run.times["write"] = writing.elapsed();
 
   if (options.json) {
-    print_json(analyze_json(options, run));
+    print_json(expand_json(options, run));
   } else {
-    session.note(analyze_text(options, run));
+    session.note(expand_text(options, run));
   }
-  check_reached(options, run.encoded);
+  check_reached(options, run.expanded);
   return 0;
 }
 
@@ -302,32 +295,18 @@ std::vector<Option> transform_options(Options& o) {
                    "random points, with a deviation of each coefficient",
            .target = &o.method,
            .choices = method_names()},
-          field_option_of(o.analyze, "engine"),
+          field_option_of(o.expand, "engine"),
           center_option(o.center),
           field_option_of(o.chart, "signed"),
-          field_option_of(o.analyze, "precision"),
+          field_option_of(o.expand, "precision"),
           {.name = "no-errors",
            .help = "do not measure and predict the errors of the surface",
            .target = &o.no_errors}};
 }
 
-std::vector<Option> atlas_options(Options& o) {
-  return {{.name = "atlas",
-           .help = "any shape, star-shaped or not, also points with normals: as few large caps "
-                   "that keep --tolerance, the rms distance between the surfaces",
-           .target = &o.atlas},
-          {.name = "fit",
-           .help = "of an atlas. least-squares: the default; integral: the paper's way, to compare "
-                   "with: patches by a kd-tree, integrals over their points to --degree",
-           .target = &o.fit,
-           .choices = {"least-squares", "integral"}},
-          field_option_of(o.patches, "extension", "with --fit integral, "),
-          field_option_of(o.caps, "max_numbers", "of an atlas: ")};
-}
-
 // Returns the option without its default: a degree or a tolerance is required.
 Option degree_option(Options& o) {
-  Option option = field_option_of(o.analyze, "degree");
+  Option option = field_option_of(o.expand, "degree");
   option.help.resize(option.help.rfind("; "));
   return option;
 }
@@ -341,14 +320,13 @@ std::vector<Option> option_list(Options& o) {
                                .offer = Offer::kShapes},
                               degree_option(o)};
   append(list, tolerance_options(o.tolerance));
-  append(list, atlas_options(o));
   append(list, transform_options(o));
   append(list,
          {field_option_of(o.monte_carlo, "samples", random),
           field_option_of(o.monte_carlo, "deviation", random),
           field_option_of(o.monte_carlo, "most_samples", random),
           field_option_of(o.monte_carlo, "seed", random), field_option_of(o.chart.center, "rays"),
-          weld_option(o.weld), length_unit_option(o.length_unit), columns_option(o.columns),
+          weld_option(o.weld), length_unit_option(o.length_unit),
           output_option(o.output, fmt::format("file of coefficients: {}; - for standard output",
                                               coefficients_extensions())),
           format_option(o.format, coefficients_format_names())});
@@ -360,19 +338,19 @@ std::vector<Option> option_list(Options& o) {
 
 }  // namespace
 
-Command analyze_command() {
-  return analyze_command_by({.encode_file =
-                                 [](const std::string& path, const EncodeOptions& options,
-                                    const Context& context, const std::function<Mesh()>& read) {
-                                   return encode_file(path, options, context, read);
-                                 },
-                             .check_input = [](const std::string&) {}});
+Command expand_command() {
+  return expand_command_by({.expand_file =
+                                [](const std::string& path, const ExpandOptions& options,
+                                   const Context& context, const std::function<Mesh()>& read) {
+                                  return expand_file(path, options, context, read);
+                                },
+                            .check_input = [](const std::string&) {}});
 }
 
-Command analyze_command_by(const AnalyzeBy& by) {
+Command expand_command_by(const ExpandBy& by) {
   auto options = std::make_shared<Options>();
   return {
-      .name = "analyze",
+      .name = "expand",
       .summary = "From a mesh to its coefficients",
       .description =
           "Expands the radius of a star-shaped mesh (or 1/radius, with --method gauge) in "
@@ -382,7 +360,8 @@ Command analyze_command_by(const AnalyzeBy& by) {
           "model. With --tolerance the smallest degree is found whose error is small "
           "enough.\n\nIdentical vertices are joined, a mesh that is inside out is "
           "turned, and said. A mesh that is not star-shaped is refused with exit code 3: "
-          "--atlas makes a model of any shape. With --signed it is expanded nevertheless: along "
+          "'rholm compress' makes a model of any shape. With --signed it is expanded nevertheless: "
+          "along "
           "each direction the radii at which the surface faces outwards count as they are, those "
           "at which it faces inwards negative. The sum is what the integrals over the mesh give, "
           "and says how alike two such surfaces are; volume, area and errors of the body do not "
@@ -391,13 +370,13 @@ Command analyze_command_by(const AnalyzeBy& by) {
           "other formats the header says what it can, and the numbers are 4-pi normalised "
           "without Condon-Shortley phase unless told otherwise.",
       .options = option_list(*options),
-      .examples = {"rholm analyze bumpy.ply --degree 32 -o bumpy.h5",
-                   "rholm analyze bumpy.ply --tolerance 1e-3 --unit diagonal --norm max -o "
+      .examples = {"rholm expand bumpy.ply --degree 32 -o bumpy.h5",
+                   "rholm expand bumpy.ply --tolerance 1e-3 --unit diagonal --norm max -o "
                    "bumpy.h5",
-                   "rholm analyze bumpy.ply --degree 8 --format shtools -o -",
-                   "rholm analyze bumpy.ply --atlas --tolerance 1e-2 --unit diagonal -o caps.h5"},
+                   "rholm expand bumpy.ply --degree 8 --format shtools -o -"},
       .run = [options, by](Session& session) { return run(*options, by, session); },
-      .if_not_star = "--atlas, or --center auto",
+      .if_not_star =
+          "'rholm compress' makes a model of any shape; --center auto looks for a centre",
       .per_shape = PerShape{.extension = "h5"}};
 }
 

@@ -22,11 +22,11 @@ namespace rholm {
 // Returns an executor whose other processes open the mesh described by `mesh`; may be empty.
 using ExecutorOfMesh = std::function<std::unique_ptr<Executor>(const std::string& mesh)>;
 
-// Works as encode_file() of model.h. Processes share the mesh pass and the norms if these use the
+// Works as expand_file() of model.h. Processes share the mesh pass and the norms if these use the
 // mesh as it is in the file. Work of another process throws the same errors as the pass itself.
-Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
-                    const Context& context, const std::function<Mesh()>& read,
-                    const ExecutorOfMesh& executor_of);
+Expanded expand_file(const std::filesystem::path& path, const ExpandOptions& options,
+                     const Context& context, const std::function<Mesh()>& read,
+                     const ExecutorOfMesh& executor_of);
 
 // The mesh in one of the other processes, mapped or read as in the first process.
 class SharedMesh {

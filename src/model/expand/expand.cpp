@@ -1,4 +1,4 @@
-#include "model/encode/expand.h"
+#include "model/expand/expand.h"
 
 #include <optional>
 #include <string>
@@ -11,12 +11,12 @@
 #include "rholm/star.h"
 #include "shape/repair/thin_faces.h"
 #include "shape/vertex_range.h"
-#include "transform/analyze.h"
 #include "transform/error/error_sites.h"
 #include "transform/mesh_pass/verify.h"
 #include "transform/norms/exact_norms.h"
 #include "transform/tolerance/search.h"
 #include "transform/tolerance/tolerance.h"
+#include "transform/transform.h"
 
 namespace rholm {
 namespace {
@@ -32,40 +32,40 @@ StarReport star_report(const MeshPassResult& pass, const Vec3& center) {
   return report;
 }
 
-bool may_fold(const EncodeOptions& options) {
+bool may_fold(const ExpandOptions& options) {
   return options.chart.allow_signed && !options.tolerance;
 }
 
 // Returns the fault that a pass finds in the mesh, if there is one.
-std::optional<NotInPlace> fault_in(const MeshPassResult& pass, const EncodeOptions& options) {
+std::optional<NotInPlace> fault_in(const MeshPassResult& pass, const ExpandOptions& options) {
   if (!pass.closed) return NotInPlace::kNotClosed;
   if (!(pass.volume > 0)) return NotInPlace::kInsideOut;
   if (pass.bad_triangles > 0 && !may_fold(options)) return NotInPlace::kFolded;
   return std::nullopt;
 }
 
-// Stores the result of a search for a degree; `encoded` keeps its times.
-void set_found(ToleranceAnalysis found, const EncodeOptions& options, Encoded& encoded) {
-  encoded.tolerance = ToleranceReport{.allowed = found.allowed,
-                                      .reached = found.reached,
-                                      .met = found.met,
-                                      .degrees = std::move(found.degrees)};
-  const StageTimes times = std::move(encoded.analysis.times);
-  encoded.analysis = std::move(found.analysis);
-  encoded.analysis.times.insert(times.begin(), times.end());
-  if (!options.errors) encoded.analysis.expansion.errors.reset();
+// Stores the result of a search for a degree; `expanded` keeps its times.
+void set_found(ToleranceTransform found, const ExpandOptions& options, Expanded& expanded) {
+  expanded.tolerance = ToleranceReport{.allowed = found.allowed,
+                                       .reached = found.reached,
+                                       .met = found.met,
+                                       .degrees = std::move(found.degrees)};
+  const StageTimes times = std::move(expanded.transform.times);
+  expanded.transform = std::move(found.transform);
+  expanded.transform.times.insert(times.begin(), times.end());
+  if (!options.errors) expanded.transform.expansion.errors.reset();
 }
 
 // Measures the errors of the surface, unless they are not wanted or a search has done so. `sites`
 // belong to the mesh about the centre of its expansion. If `predict`, the largest errors are also
 // predicted from the edges.
-void add_errors(ErrorSites& sites, bool predict, const EncodeOptions& options,
-                const Context& context, Encoded& encoded) {
-  Analysis& analysis = encoded.analysis;
-  if (!options.errors || analysis.expansion.errors) return;
-  const double precision = known_error(analysis);
-  analysis.expansion.errors = timed(encoded.times, "errors", [&] {
-    return truncation_errors(analysis.expansion, {.precision = precision, .predict = predict},
+void add_errors(ErrorSites& sites, bool predict, const ExpandOptions& options,
+                const Context& context, Expanded& expanded) {
+  Transform& transform = expanded.transform;
+  if (!options.errors || transform.expansion.errors) return;
+  const double precision = known_error(transform);
+  transform.expansion.errors = timed(expanded.times, "errors", [&] {
+    return truncation_errors(transform.expansion, {.precision = precision, .predict = predict},
                              sites, context);
   });
 }
@@ -75,7 +75,7 @@ void add_errors(ErrorSites& sites, bool predict, const EncodeOptions& options,
 // properties.
 class Expand {
  public:
-  Expand(const MeshView& mesh, const EncodeOptions& options, const MeshPassOptions& hooks,
+  Expand(const MeshView& mesh, const ExpandOptions& options, const MeshPassOptions& hooks,
          const Context& context, const std::optional<StarReport>& prepared = {})
       : mesh_(mesh),
         options_(options),
@@ -86,13 +86,12 @@ class Expand {
     if (seen_) pass_options_.center = seen_->center;
   }
 
-  std::variant<Encoded, NotInPlace> run() {
+  std::variant<Expanded, NotInPlace> run() {
     if (!prepared_ && !find_center()) return NotInPlace::kNoCenter;
     const std::optional<ToleranceProblem> problem = tolerance_problem();
-    const TransformTarget first =
-        problem ? first_pilot(*problem, *options_.tolerance)
-                : TransformTarget{options_.analyze.degree, options_.analyze.precision};
-    MeshPassResult pass = timed(encoded_.times, "transform", [&] { return pass_to(first); });
+    const TransformTarget first = problem ? first_pilot(*problem, *options_.tolerance)
+                                          : TransformTarget{options_.degree, options_.precision};
+    MeshPassResult pass = timed(expanded_.times, "transform", [&] { return pass_to(first); });
     const bool star_shaped = prepared_ ? seen_->star_shaped : pass.bad_triangles == 0;
     if (!prepared_) {
       if (const std::optional<NotInPlace> fault = fault_in(pass, options_)) return *fault;
@@ -101,17 +100,17 @@ class Expand {
       if (star_shaped && !covers_once(norms())) return NotInPlace::kCoveredTwice;
     }
     if (!problem) {
-      timed(encoded_.times, "transform",
+      timed(expanded_.times, "transform",
             [&] { verify_pass(mesh_, pass_options_, context_, pass); });
     }
     if (seen_ && (prepared_ || !star_shaped)) {
-      encoded_.star = *seen_;
+      expanded_.star = *seen_;
     } else {
-      encoded_.star = star_report(pass, center());
-      encoded_.star.center_fell_back = seen_.has_value();
+      expanded_.star = star_report(pass, center());
+      expanded_.star.center_fell_back = seen_.has_value();
     }
-    set_pass(pass, analysis());
-    analysis().precision = first.precision;
+    set_pass(pass, transform());
+    transform().precision = first.precision;
     if (problem) search(*problem);
     if (star_shaped) {
       finish_star();
@@ -119,17 +118,17 @@ class Expand {
       finish_signed();
     }
     set_counts();
-    return std::move(encoded_);
+    return std::move(expanded_);
   }
 
  private:
-  Analysis& analysis() { return encoded_.analysis; }
+  Transform& transform() { return expanded_.transform; }
   const Vec3& center() const { return pass_options_.center; }
 
   // Returns true if there is a centre.
   bool find_center() {
     report_progress(context_, "center", 0);
-    const StageTimer timer(encoded_.times, "center");
+    const StageTimer timer(expanded_.times, "center");
     const CenterOptions& wanted = options_.chart.center;
     if (wanted.kind == CenterKind::kNone) return true;
     if (wanted.kind == CenterKind::kGiven) {
@@ -150,7 +149,7 @@ class Expand {
   // A tolerance needs the norms before the first pass, everything else after it.
   const ExactNorms& norms() {
     if (!norms_) {
-      norms_ = timed(analysis().times, "norms", [&] {
+      norms_ = timed(transform().times, "norms", [&] {
         return exact_norms(mesh_, center(), context_, options_.errors ? &sizes_ : nullptr,
                            pass_options_.executor);
       });
@@ -167,36 +166,36 @@ class Expand {
   std::optional<ToleranceProblem> tolerance_problem() {
     if (!options_.tolerance) return std::nullopt;
     ToleranceProblem problem =
-        rholm::tolerance_problem(mesh_, center(), norms(), options_.analyze.precision, context_);
+        rholm::tolerance_problem(mesh_, center(), norms(), options_.precision, context_);
     problem.pilot = [this](const TransformTarget& target) {
-      return analysis_of(pass_to(target), target.precision);
+      return transform_of(pass_to(target), target.precision);
     };
     problem.transform = [this](const TransformTarget& target) {
       MeshPassResult pass = pass_to(target);
       verify_pass(mesh_, pass_options_, context_, pass);
-      return analysis_of(std::move(pass), target.precision);
+      return transform_of(std::move(pass), target.precision);
     };
     return problem;
   }
 
   void search(const ToleranceProblem& problem) {
-    timed(encoded_.times, "transform", [&] {
-      set_found(search_tolerance(problem, *options_.tolerance, analysis(), context_), options_,
-                encoded_);
+    timed(expanded_.times, "transform", [&] {
+      set_found(search_tolerance(problem, *options_.tolerance, transform(), context_), options_,
+                expanded_);
     });
   }
 
   void finish_star() {
-    Expansion& expansion = analysis().expansion;
+    Expansion& expansion = transform().expansion;
     expansion.norm_squared = norms().radius_squared;
     const bool paired = mesh_.n_triangles <= kMostPredicted;
     if (paired) {
-      expansion.tail_strength = timed(analysis().times, "norms",
+      expansion.tail_strength = timed(transform().times, "norms",
                                       [&] { return tail_strength(mesh_, center(), context_); });
     }
-    finish_analysis(options_.analyze, center(), analysis());
+    finish_transform(transform_options(options_), center(), transform());
     ErrorSites sites(mesh_, center(), std::move(sizes_), context_.threads);
-    add_errors(sites, paired, options_, context_, encoded_);
+    add_errors(sites, paired, options_, context_, expanded_);
   }
 
   // Finishes the signed sum of a surface with faces that turn inwards. There are no norms and no
@@ -204,29 +203,29 @@ class Expand {
   void finish_signed() {
     const int rays = options_.chart.center.rays;
     if (!seen_ && rays > 0) {
-      encoded_.star = timed(encoded_.times, "rays",
-                            [&] { return check_star(mesh_, center(), rays, context_); });
+      expanded_.star = timed(expanded_.times, "rays",
+                             [&] { return check_star(mesh_, center(), rays, context_); });
     }
-    analysis().expansion.signed_sum = true;
-    finish_analysis(options_.analyze, center(), analysis());
+    transform().expansion.signed_sum = true;
+    finish_transform(transform_options(options_), center(), transform());
   }
 
   void set_counts() {
-    encoded_.diagonal = diagonal_of(mesh_, context_);
-    encoded_.vertices = mesh_.n_vertices;
-    encoded_.faces = mesh_.n_triangles;
-    encoded_.edges = mesh_.n_triangles / 2 * 3;
+    expanded_.diagonal = diagonal_of(mesh_, context_);
+    expanded_.vertices = mesh_.n_vertices;
+    expanded_.faces = mesh_.n_triangles;
+    expanded_.edges = mesh_.n_triangles / 2 * 3;
   }
 
   const MeshView& mesh_;
-  const EncodeOptions& options_;
+  const ExpandOptions& options_;
   MeshPassOptions pass_options_;  // includes the centre, once it is found
   const Context& context_;
   const bool prepared_;
   std::optional<StarReport> seen_;  // set for a prepared mesh, or one without a kernel
   std::optional<ExactNorms> norms_;
   FaceSizes sizes_;  // with the norms, if errors are wanted
-  Encoded encoded_;
+  Expanded expanded_;
 };
 
 // Adds to the error that the mesh was turned, also if no centre sees it.
@@ -245,39 +244,41 @@ auto timed_center(const PreparedMesh& mesh, StageTimes& times, const Seek& seek)
 }
 
 // Expands by other methods than the mesh pass: the gauge, and the oracles.
-Encoded expand_by_chart(PreparedMesh& mesh, const EncodeOptions& options, const Context& context) {
-  Encoded encoded;
+Expanded expand_by_chart(PreparedMesh& mesh, const ExpandOptions& options, const Context& context) {
+  Expanded expanded;
   const Mesh& welded = mesh.shape.welded.mesh;
-  const StarChart chart = timed_center(mesh, encoded.times, [&] {
+  const StarChart chart = timed_center(mesh, expanded.times, [&] {
     return make_star_chart(welded, std::move(mesh.edges), options.chart, context);
   });
-  encoded.star = chart.report;
-  encoded.vertices = chart.mesh.vertices.size();
-  encoded.faces = chart.mesh.triangles.size();
-  encoded.edges = chart.edges.size();
-  timed(encoded.times, "transform", [&] {
+  expanded.star = chart.report;
+  expanded.vertices = chart.mesh.vertices.size();
+  expanded.faces = chart.mesh.triangles.size();
+  expanded.edges = chart.edges.size();
+  timed(expanded.times, "transform", [&] {
     if (options.tolerance) {
-      set_found(analyze(chart, *options.tolerance, options.analyze, context), options, encoded);
+      set_found(expand(chart, *options.tolerance, transform_options(options), context), options,
+                expanded);
     } else {
-      encoded.analysis = analyze(chart, options.analyze, context);
+      expanded.transform = expand(chart, transform_options(options), context);
     }
   });
   if (chart.report.star_shaped) {
-    ErrorSites sites(view_of(welded), encoded.analysis.expansion.center, context.threads);
-    add_errors(sites, true, options, context, encoded);
+    ErrorSites sites(view_of(welded), expanded.transform.expansion.center, context.threads);
+    add_errors(sites, true, options, context, expanded);
   }
-  return encoded;
+  return expanded;
 }
 
 }  // namespace
 
-std::variant<Encoded, NotInPlace> expand_in_place(const MeshView& mesh,
-                                                  const EncodeOptions& options,
-                                                  const MeshPassOptions& hooks,
-                                                  const Context& context) {
-  check(options.analyze);
+std::variant<Expanded, NotInPlace> expand_in_place(const MeshView& mesh,
+                                                   const ExpandOptions& options,
+                                                   const MeshPassOptions& hooks,
+                                                   const Context& context) {
+  check(transform_options(options));
   if (options.tolerance) check(*options.tolerance);
-  if (!uses_mesh_pass(options.analyze) || options.weld_tolerance != 0) return NotInPlace::kOptions;
+  if (!uses_mesh_pass(transform_options(options)) || options.weld_tolerance != 0)
+    return NotInPlace::kOptions;
   if (mesh.n_triangles == 0) return NotInPlace::kUnusable;
   try {
     return Expand(mesh, options, hooks, context).run();
@@ -299,18 +300,18 @@ PreparedMesh prepare(const Mesh& mesh, double weld_tolerance) {
   return prepared;
 }
 
-Encoded expand(PreparedMesh& mesh, const EncodeOptions& options, const Context& context) {
+Expanded expand(PreparedMesh& mesh, const ExpandOptions& options, const Context& context) {
   report_progress(context, "center", 0);
-  if (!uses_mesh_pass(options.analyze)) return expand_by_chart(mesh, options, context);
+  if (!uses_mesh_pass(transform_options(options))) return expand_by_chart(mesh, options, context);
   // The star check is more precise than a pass: it uses the rounding error of each face.
   const Mesh& welded = mesh.shape.welded.mesh;
   StageTimes times;
   const StarReport star =
       timed_center(mesh, times, [&] { return seen_surface(welded, options.chart, context); });
   if (options.tolerance) require_one_sheet(star);
-  Encoded encoded = std::get<Encoded>(Expand(view_of(welded), options, {}, context, star).run());
-  encoded.times.merge(times);
-  return encoded;
+  Expanded expanded = std::get<Expanded>(Expand(view_of(welded), options, {}, context, star).run());
+  expanded.times.merge(times);
+  return expanded;
 }
 
 }  // namespace rholm

@@ -1,15 +1,15 @@
-#include "mpi/analyze.h"
+#include "mpi/expand.h"
 
 #include <algorithm>
 #include <memory>
 #include <set>
 
 #include "base/bytes.h"
-#include "cli/commands/analyze.h"
+#include "cli/commands/expand.h"
 #include "cli/terminal/interrupt.h"
 #include "cluster/collect.h"
 #include "cluster/rank_executor.h"
-#include "model/encode/encode.h"
+#include "model/expand/expand_file.h"
 #include "mpi/rank_options.h"
 
 namespace rholm::mpi {
@@ -18,36 +18,36 @@ namespace {
 // Ranks share one expansion by the fast engine with the method edge. For other options they would
 // wait for rank 0.
 void keep_what_is_shared(cli::Command& command) {
-  static const std::set<std::string> others = {"atlas",     "fit",          "extension", "samples",
-                                               "deviation", "most-samples", "seed",      "weld"};
+  static const std::set<std::string> others = {"samples", "deviation", "most-samples", "seed",
+                                               "weld"};
   std::erase_if(command.options,
                 [](const cli::Option& option) { return others.contains(option.name); });
   for (cli::Option& option : command.options) {
     if (option.name == "method") {
       option.choices = {"edge"};
-      option.help = "edge: the radius, over edges and faces; 'rholm analyze' has others";
+      option.help = "edge: the radius, over edges and faces; 'rholm expand' has others";
     } else if (option.name == "SHAPE") {
       option.help = "file of a closed mesh, or, on one rank, - for standard input";
     } else if (option.name == "engine") {
       option.choices = {"fast"};
-      option.help = "fast: sums on an oversampled grid; 'rholm analyze' has another";
+      option.help = "fast: sums on an oversampled grid; 'rholm expand' has another";
     }
   }
 }
 
 }  // namespace
 
-cli::Command analyze_command(Ranks* ranks) {
-  cli::Command command = cli::analyze_command_by(
-      {.encode_file =
-           [ranks](const std::string& path, const EncodeOptions& options, const Context& context,
+cli::Command expand_command(Ranks* ranks) {
+  cli::Command command = cli::expand_command_by(
+      {.expand_file =
+           [ranks](const std::string& path, const ExpandOptions& options, const Context& context,
                    const std::function<Mesh()>& read) {
-             if (ranks->size() == 1) return encode_file(path, options, context, read);
-             return encode_file(path, options, context, read, [&](const std::string& mesh) {
+             if (ranks->size() == 1) return expand_file(path, options, context, read);
+             return expand_file(path, options, context, read, [&](const std::string& mesh) {
                return std::make_unique<RankExecutor>(
                    *ranks, context.threads,
                    [ranks, mesh, threads = context.threads](const Parts& parts) {
-                     call(*ranks, kAnalyzeService,
+                     call(*ranks, kExpandService,
                           ByteWriter()
                               .number(static_cast<std::uint64_t>(threads))
                               .text(mesh)
@@ -61,20 +61,19 @@ cli::Command analyze_command(Ranks* ranks) {
   keep_what_is_shared(command);
   command.description =
       "Expands the radius of a star-shaped mesh in real spherical harmonics, with the result of "
-      "rholm analyze to the byte.\n\nThe ranks share the pass over the triangles, and the norms. "
+      "rholm expand to the byte.\n\nThe ranks share the pass over the triangles, and the norms. "
       "Each rank opens the file itself, whose path means the same on all machines. Rank 0 alone "
       "looks for the centre, measures errors and writes; it makes the pass alone where triangles "
       "lie "
       "in random order, and all of a mesh that has to be changed first: not closed, inside out. "
-      "Atlases, other methods and --weld are those of rholm analyze.";
-  command.examples = {
-      "mpirun -n 16 rholm-mpi analyze huge.ply --degree 480 -o huge.h5",
-      "srun rholm-mpi analyze huge.ply --tolerance 1e-3 --unit diagonal -o huge.h5"};
-  command.if_not_star = "--center auto, or --atlas of 'rholm analyze'";
+      "Other methods and --weld are options of rholm expand.";
+  command.examples = {"mpirun -n 16 rholm-mpi expand huge.ply --degree 480 -o huge.h5",
+                      "srun rholm-mpi expand huge.ply --tolerance 1e-3 --unit diagonal -o huge.h5"};
+  command.if_not_star = "--center auto, or 'rholm compress'";
   return command;
 }
 
-std::function<void(Ranks& ranks, const std::string& bytes)> analyze_service() {
+std::function<void(Ranks& ranks, const std::string& bytes)> expand_service() {
   struct Opened {
     std::string name;
     std::unique_ptr<SharedMesh> mesh;

@@ -1,14 +1,14 @@
 // All methods behind one signature.
-#include "rholm/analyze.h"
+#include "rholm/transform.h"
 
 #include "paper/methods/paper_methods.h"
 #include "rholm/error.h"
 #include "rholm/truncation.h"
-#include "transform/analyze.h"
 #include "transform/methods/methods.h"
 #include "transform/methods/radius_cubature.h"
 #include "transform/methods/sources.h"
 #include "transform/tolerance/search.h"
+#include "transform/transform.h"
 
 namespace rholm {
 namespace {
@@ -46,13 +46,13 @@ MethodFunction sums_of(Method method) {
 
 }  // namespace
 
-Analysis analyze(const StarChart& chart, const AnalyzeOptions& options, const Context& context) {
-  return analyze_by(sums_of(options.method), chart, options, context);
+Transform expand(const StarChart& chart, const TransformOptions& options, const Context& context) {
+  return expand_by(sums_of(options.method), chart, options, context);
 }
 
-ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
-                          const AnalyzeOptions& options, const Context& context) {
-  return analyze_by(sums_of(options.method), chart, tolerance, options, context);
+ToleranceTransform expand(const StarChart& chart, const Tolerance& tolerance,
+                          const TransformOptions& options, const Context& context) {
+  return expand_by(sums_of(options.method), chart, tolerance, options, context);
 }
 
 }  // namespace rholm

@@ -1,5 +1,5 @@
 // Reasons why a mesh cannot be expanded in place, and the ways that are then taken.
-#include "model/encode/expand.h"
+#include "model/expand/expand.h"
 
 #include <gtest/gtest.h>
 
@@ -23,10 +23,10 @@
 namespace rholm {
 namespace {
 
-constexpr EncodeOptions kOptions{.analyze = {.degree = 8, .precision = 1e-9}};
+constexpr ExpandOptions kOptions{.degree = 8, .precision = 1e-9};
 
-EncodeOptions about(const Vec3& center) {
-  EncodeOptions options = kOptions;
+ExpandOptions about(const Vec3& center) {
+  ExpandOptions options = kOptions;
   options.chart.center = {.kind = CenterKind::kGiven, .point = center, .rays = 0};
   return options;
 }
@@ -43,16 +43,16 @@ struct Stages {
   }
 };
 
-NotInPlace reason_of(const Mesh& mesh, const EncodeOptions& options = kOptions) {
+NotInPlace reason_of(const Mesh& mesh, const ExpandOptions& options = kOptions) {
   const auto result = expand_in_place(view_of(mesh), options, {}, {});
   if (const NotInPlace* reason = std::get_if<NotInPlace>(&result)) return *reason;
   ADD_FAILURE() << "expanded in place";
   return {};
 }
 
-ErrorCode code_of(const Mesh& mesh, const EncodeOptions& options = kOptions) {
+ErrorCode code_of(const Mesh& mesh, const ExpandOptions& options = kOptions) {
   try {
-    encode(mesh, options);
+    expand(mesh, options);
   } catch (const Error& error) {
     return error.code();
   }
@@ -62,14 +62,14 @@ ErrorCode code_of(const Mesh& mesh, const EncodeOptions& options = kOptions) {
 
 TEST(expand_in_place, leaves_welding_and_other_methods) {
   const Mesh mesh = bumpy_sphere(2);
-  EncodeOptions welding = kOptions, direct = kOptions, gauge = kOptions;
+  ExpandOptions welding = kOptions, direct = kOptions, gauge = kOptions;
   welding.weld_tolerance = 1e-9;
-  direct.analyze.engine = Engine::kDirect;
-  gauge.analyze.method = Method::kGauge;
-  for (const EncodeOptions& options : {welding, direct, gauge}) {
+  direct.engine = Engine::kDirect;
+  gauge.method = Method::kGauge;
+  for (const ExpandOptions& options : {welding, direct, gauge}) {
     EXPECT_EQ(reason_of(mesh, options), NotInPlace::kOptions);
     Stages stages;
-    EXPECT_TRUE(encode(mesh, options, stages.context()).star.star_shaped);
+    EXPECT_TRUE(expand(mesh, options, stages.context()).star.star_shaped);
     EXPECT_EQ(stages.topology, 1);
   }
 }
@@ -120,16 +120,16 @@ TEST(expand_in_place, leaves_turning_to_prepare) {
   Mesh mesh = bumpy_sphere(3);
   flip(mesh);
   EXPECT_EQ(reason_of(mesh, about({})), NotInPlace::kInsideOut);
-  EXPECT_TRUE(encode(mesh, about({})).flipped);
+  EXPECT_TRUE(expand(mesh, about({})).flipped);
 }
 
 TEST(expand_in_place, takes_folds_where_they_are_allowed) {
   const Mesh prism = test::l_prism(1);
-  EncodeOptions options = about({2, 0.5, 0.1});
+  ExpandOptions options = about({2, 0.5, 0.1});
   EXPECT_EQ(reason_of(prism, options), NotInPlace::kFolded);
   EXPECT_EQ(code_of(prism, options), ErrorCode::kNotStarShaped);
   options.chart.allow_signed = true;
-  EXPECT_TRUE(std::holds_alternative<Encoded>(expand_in_place(view_of(prism), options, {}, {})));
+  EXPECT_TRUE(std::holds_alternative<Expanded>(expand_in_place(view_of(prism), options, {}, {})));
   // An alternating sum has no error that could be kept within a tolerance.
   options.tolerance = Tolerance{.error = 0.1};
   EXPECT_EQ(reason_of(prism, options), NotInPlace::kFolded);
@@ -144,8 +144,8 @@ TEST(expand_in_place, sees_a_second_sheet) {
   EXPECT_EQ(code_of(mesh, about({})), ErrorCode::kNotStarShaped);
 }
 
-void expect_same_bits(const Encoded& a, const Encoded& b) {
-  const Expansion &x = a.analysis.expansion, &y = b.analysis.expansion;
+void expect_same_bits(const Expanded& a, const Expanded& b) {
+  const Expansion &x = a.transform.expansion, &y = b.transform.expansion;
   EXPECT_TRUE(std::ranges::equal(x.coefficients.values(), y.coefficients.values()));
   EXPECT_EQ(x.center, y.center);
   EXPECT_EQ(x.norm_squared, y.norm_squared);
@@ -166,8 +166,8 @@ void expect_same_bits(const Encoded& a, const Encoded& b) {
 }
 
 // The centre is searched for or given, and in one case the degree is searched for.
-std::vector<EncodeOptions> several_ways() {
-  EncodeOptions volume = kOptions, tolerance = kOptions;
+std::vector<ExpandOptions> several_ways() {
+  ExpandOptions volume = kOptions, tolerance = kOptions;
   volume.chart.center.kind = CenterKind::kVolume;
   tolerance.tolerance = Tolerance{.error = 0.02, .norm = ErrorNorm::kMax};
   return {kOptions, about({0.01, 0.02, 0}), volume, tolerance};
@@ -177,10 +177,10 @@ TEST(expand, a_turned_mesh_gives_the_bits_of_one_that_is_outward) {
   const Mesh mesh = test::rotated(bumpy_sphere(3));
   Mesh inward = mesh;
   flip(inward);
-  for (const EncodeOptions& options : several_ways()) {
-    const Encoded turned = encode(inward, options);
+  for (const ExpandOptions& options : several_ways()) {
+    const Expanded turned = expand(inward, options);
     EXPECT_TRUE(turned.flipped);
-    expect_same_bits(turned, encode(mesh, options));
+    expect_same_bits(turned, expand(mesh, options));
   }
 }
 
@@ -196,12 +196,12 @@ TEST(expand, a_welded_mesh_gives_the_bits_of_one_without_seams) {
     soup.triangles.push_back({first, first + 1, first + 2});
   }
   constexpr double kWeld = 1e-9;
-  for (EncodeOptions options : several_ways()) {
+  for (ExpandOptions options : several_ways()) {
     options.weld_tolerance = 0;
-    EXPECT_THROW(encode(soup, options), Error);
-    const Encoded expected = encode(outward(soup, kWeld).welded.mesh, options);
+    EXPECT_THROW(expand(soup, options), Error);
+    const Expanded expected = expand(outward(soup, kWeld).welded.mesh, options);
     options.weld_tolerance = kWeld;
-    const Encoded welded = encode(soup, options);
+    const Expanded welded = expand(soup, options);
     EXPECT_EQ(welded.merged_vertices, soup.vertices.size() - mesh.vertices.size());
     expect_same_bits(welded, expected);
   }
@@ -209,7 +209,7 @@ TEST(expand, a_welded_mesh_gives_the_bits_of_one_without_seams) {
 
 // Compares with direct sums on a chart.
 TEST(expand, a_turned_surface_that_folds_has_the_wanted_precision) {
-  const std::pair<Mesh, EncodeOptions> cases[] = {
+  const std::pair<Mesh, ExpandOptions> cases[] = {
       {test::l_prism(1), about({2, 0.5, 0.1})},
       {test::rotated(torus(2, 0.5, 40, 20)), kOptions}};  // has an empty kernel
   for (auto [mesh, options] : cases) {
@@ -217,14 +217,14 @@ TEST(expand, a_turned_surface_that_folds_has_the_wanted_precision) {
     flip(inward);
     options.chart.allow_signed = true;
     options.chart.center.rays = 2000;
-    const Encoded turned = encode(inward, options);
+    const Expanded turned = expand(inward, options);
     EXPECT_TRUE(turned.flipped);
-    EXPECT_TRUE(turned.analysis.expansion.signed_sum);
-    expect_same_bits(turned, encode(mesh, options));
-    options.analyze.engine = Engine::kDirect;
-    EXPECT_LT(test::relative_error(turned.analysis.expansion.coefficients,
-                                   encode(inward, options).analysis.expansion.coefficients),
-              2 * options.analyze.precision);
+    EXPECT_TRUE(turned.transform.expansion.signed_sum);
+    expect_same_bits(turned, expand(mesh, options));
+    options.engine = Engine::kDirect;
+    EXPECT_LT(test::relative_error(turned.transform.expansion.coefficients,
+                                   expand(inward, options).transform.expansion.coefficients),
+              2 * options.precision);
   }
 }
 
@@ -248,7 +248,7 @@ TEST(expand_in_place, passes_on_at_once_what_is_no_fault_of_the_mesh) {
   }
 }
 
-TEST(encode, passes_on_at_once_what_is_no_fault_of_the_mesh) {
+TEST(expand, passes_on_at_once_what_is_no_fault_of_the_mesh) {
   const Mesh mesh = bumpy_sphere(3);
   for (const ErrorCode code : kNotOfTheMesh) {
     bool again = false;
@@ -258,7 +258,7 @@ TEST(encode, passes_on_at_once_what_is_no_fault_of_the_mesh) {
       return true;
     }};
     try {
-      encode(mesh, kOptions, context);
+      expand(mesh, kOptions, context);
       ADD_FAILURE() << to_string(code);
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), code);
@@ -267,33 +267,33 @@ TEST(encode, passes_on_at_once_what_is_no_fault_of_the_mesh) {
   }
 }
 
-TEST(encode, refuses_options_out_of_range_before_all_work) {
+TEST(expand, refuses_options_out_of_range_before_all_work) {
   const Mesh mesh = bumpy_sphere(3);
-  EncodeOptions degree = kOptions, precision = kOptions, tolerance = kOptions, most = kOptions;
-  degree.analyze.degree = -1;
-  precision.analyze.precision = 1;
+  ExpandOptions degree = kOptions, precision = kOptions, tolerance = kOptions, most = kOptions;
+  degree.degree = -1;
+  precision.precision = 1;
   tolerance.tolerance = Tolerance{.error = 0};
   most.tolerance = Tolerance{.error = 1, .max_degree = -1};
-  for (const EncodeOptions& options : {degree, precision, tolerance, most}) {
+  for (const ExpandOptions& options : {degree, precision, tolerance, most}) {
     Stages stages;
-    EXPECT_THROW(encode(mesh, options, stages.context()), Error);
+    EXPECT_THROW(expand(mesh, options, stages.context()), Error);
     EXPECT_EQ(stages.center + stages.topology, 0);
   }
 }
 
 // A fault of the mesh in the file is also a fault in memory: the mesh is prepared at once.
-TEST(encode_file, does_not_try_a_second_time_what_the_mesh_cannot) {
+TEST(expand_file, does_not_try_a_second_time_what_the_mesh_cannot) {
   Mesh open = bumpy_sphere(3);
   open.triangles.pop_back();
   const testing::TemporaryFolder folder;
   write_shape(open, folder / "m.ply");
   Stages stages;
-  EXPECT_THROW(encode_file(folder / "m.ply", kOptions, stages.context()), Error);
+  EXPECT_THROW(expand_file(folder / "m.ply", kOptions, stages.context()), Error);
   EXPECT_EQ(stages.center, 1);  // the chart starts no second search
   EXPECT_EQ(stages.topology, 1);
 }
 
-TEST(encode_file, asks_the_caller_to_read_only_what_cannot_stay_in_the_file) {
+TEST(expand_file, asks_the_caller_to_read_only_what_cannot_stay_in_the_file) {
   const testing::TemporaryFolder folder;
   Mesh closed = bumpy_sphere(3), open = closed;
   open.triangles.pop_back();
@@ -301,11 +301,11 @@ TEST(encode_file, asks_the_caller_to_read_only_what_cannot_stay_in_the_file) {
   write_shape(open, folder / "open.ply");
   int reads = 0;
   const auto reader = [&](const Mesh& mesh) { return [&reads, &mesh] { return ++reads, mesh; }; };
-  const Encoded encoded = encode_file(folder / "closed.ply", kOptions, {}, reader(closed));
+  const Expanded expanded = expand_file(folder / "closed.ply", kOptions, {}, reader(closed));
   EXPECT_EQ(reads, 0);
-  EXPECT_TRUE(encoded.times.contains("read"));
+  EXPECT_TRUE(expanded.times.contains("read"));
   Stages stages;
-  EXPECT_THROW(encode_file(folder / "open.ply", kOptions, stages.context(), reader(open)), Error);
+  EXPECT_THROW(expand_file(folder / "open.ply", kOptions, stages.context(), reader(open)), Error);
   EXPECT_EQ(reads, 1);
   EXPECT_EQ(stages.center, 1);
 }

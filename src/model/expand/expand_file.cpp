@@ -1,4 +1,4 @@
-#include "model/encode/encode.h"
+#include "model/expand/expand_file.h"
 
 #include <string>
 #include <utility>
@@ -7,7 +7,7 @@
 
 #include "base/bytes.h"
 #include "base/stopwatch.h"
-#include "model/encode/expand.h"
+#include "model/expand/expand.h"
 #include "rholm/error.h"
 #include "rholm/large_mesh.h"
 #include "rholm/shape_io.h"
@@ -28,18 +28,18 @@ std::string bytes_of(Place place, const std::filesystem::path& path, const MeshV
 }
 
 // Continues with a mesh that cannot be expanded in place.
-Encoded encode_prepared(const Mesh& mesh, const EncodeOptions& options, const Context& context) {
+Expanded expand_prepared(const Mesh& mesh, const ExpandOptions& options, const Context& context) {
   StageTimes times;
   report_progress(context, "topology", 0);
   PreparedMesh prepared =
       timed(times, "topology", [&] { return prepare(mesh, options.weld_tolerance); });
-  Encoded encoded = expand(prepared, options, context);
-  encoded.times.merge(times);
-  encoded.diagonal = bounds(mesh.vertices).diagonal();
-  encoded.merged_vertices = prepared.shape.welded.merged_vertices;
-  encoded.collapsed_triangles = prepared.shape.welded.collapsed_triangles;
-  encoded.flipped = prepared.shape.flipped;
-  return encoded;
+  Expanded expanded = expand(prepared, options, context);
+  expanded.times.merge(times);
+  expanded.diagonal = bounds(mesh.vertices).diagonal();
+  expanded.merged_vertices = prepared.shape.welded.merged_vertices;
+  expanded.collapsed_triangles = prepared.shape.welded.collapsed_triangles;
+  expanded.flipped = prepared.shape.flipped;
+  return expanded;
 }
 
 }  // namespace
@@ -54,9 +54,9 @@ MeshPassOptions hooks_of(const MappedMesh& mesh) {
   return hooks;
 }
 
-Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
-                    const Context& context, const std::function<Mesh()>& read,
-                    const ExecutorOfMesh& executor_of) {
+Expanded expand_file(const std::filesystem::path& path, const ExpandOptions& options,
+                     const Context& context, const std::function<Mesh()>& read,
+                     const ExecutorOfMesh& executor_of) {
   StageTimes times;
   const auto in_place = [&](MeshPassOptions hooks, Place place, const MeshView& mesh) {
     const std::unique_ptr<Executor> executor =
@@ -65,21 +65,21 @@ Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& opti
     return expand_in_place(mesh, options, hooks, context);
   };
   // The reader may change faces that no pass can use so that a pass can use them.
-  std::variant<Encoded, NotInPlace> result = NotInPlace::kUnusable;
+  std::variant<Expanded, NotInPlace> result = NotInPlace::kUnusable;
   if (const auto mapped = timed(times, "read", [&] { return map_mesh(path, context); })) {
     result = in_place(hooks_of(*mapped), Place::kMapped, mapped->view());
   }
-  if (!std::holds_alternative<Encoded>(result)) {
+  if (!std::holds_alternative<Expanded>(result)) {
     const Mesh mesh = timed(times, "read", read);
     validate(mesh);
     if (std::get<NotInPlace>(result) == NotInPlace::kUnusable) {
       result = in_place({}, Place::kRead, view_of(mesh));
     }
-    if (!std::holds_alternative<Encoded>(result)) result = encode_prepared(mesh, options, context);
+    if (!std::holds_alternative<Expanded>(result)) result = expand_prepared(mesh, options, context);
   }
-  Encoded& encoded = std::get<Encoded>(result);
-  encoded.times.merge(times);
-  return std::move(encoded);
+  Expanded& expanded = std::get<Expanded>(result);
+  expanded.times.merge(times);
+  return std::move(expanded);
 }
 
 SharedMesh::SharedMesh(std::string_view mesh, const Context& context) {
@@ -113,20 +113,20 @@ Executor::Work SharedMesh::work_of(std::string_view job, std::string_view input)
   ByteReader::refuse();
 }
 
-std::optional<Encoded> encode_mapped(const MappedMesh& mesh, const EncodeOptions& options,
-                                     const Context& context) {
+std::optional<Expanded> expand_mapped(const MappedMesh& mesh, const ExpandOptions& options,
+                                      const Context& context) {
   auto result = expand_in_place(mesh.view(), options, hooks_of(mesh), context);
-  if (Encoded* encoded = std::get_if<Encoded>(&result)) return std::move(*encoded);
+  if (Expanded* expanded = std::get_if<Expanded>(&result)) return std::move(*expanded);
   return std::nullopt;
 }
 
-Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
-                    const Context& context, const std::function<Mesh()>& read) {
-  return encode_file(path, options, context, read, {});
+Expanded expand_file(const std::filesystem::path& path, const ExpandOptions& options,
+                     const Context& context, const std::function<Mesh()>& read) {
+  return expand_file(path, options, context, read, {});
 }
 
-Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
-                    const Context& context, std::vector<std::string>* warnings) {
+Expanded expand_file(const std::filesystem::path& path, const ExpandOptions& options,
+                     const Context& context, std::vector<std::string>* warnings) {
   const std::function<Mesh()> read = [&] {
     ShapeFile file = read_shape(path, {}, context);
     if (warnings != nullptr) {
@@ -135,21 +135,21 @@ Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& opti
     if (Mesh* mesh = std::get_if<Mesh>(&file.shape)) return std::move(*mesh);
     throw Error(ErrorCode::kInvalidInput, path.string() + " holds points, not a mesh");
   };
-  return encode_file(path, options, context, read);
+  return expand_file(path, options, context, read);
 }
 
-Encoded encode(const Mesh& mesh, const EncodeOptions& options, const Context& context) {
+Expanded expand(const Mesh& mesh, const ExpandOptions& options, const Context& context) {
   validate(mesh);
   auto result = expand_in_place(view_of(mesh), options, {}, context);
-  if (Encoded* encoded = std::get_if<Encoded>(&result)) return std::move(*encoded);
-  return encode_prepared(mesh, options, context);
+  if (Expanded* expanded = std::get_if<Expanded>(&result)) return std::move(*expanded);
+  return expand_prepared(mesh, options, context);
 }
 
-Encoded encode(const MeshView& mesh, const EncodeOptions& options, const Context& context) {
+Expanded expand(const MeshView& mesh, const ExpandOptions& options, const Context& context) {
   validate(mesh);
   auto result = expand_in_place(mesh, options, {}, context);
-  if (Encoded* encoded = std::get_if<Encoded>(&result)) return std::move(*encoded);
-  return encode_prepared(mesh_of(mesh), options, context);
+  if (Expanded* expanded = std::get_if<Expanded>(&result)) return std::move(*expanded);
+  return expand_prepared(mesh_of(mesh), options, context);
 }
 
 }  // namespace rholm

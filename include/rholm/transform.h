@@ -76,8 +76,8 @@ void visit_fields(FieldsOf<FastReport>, const Visitor& field) {
   field(&F::reached, {.name = "reached", .help = "whether the error is within the precision"});
 }
 
-// Degree, method and precision for analyze().
-struct AnalyzeOptions {
+// Degree, method and precision for expand().
+struct TransformOptions {
   int degree = 64;                // L, 0 ... kMaxDegree
   Method method = Method::kEdge;  // kGauge expands 1/r, the others r
   // How sums are computed: the fast engine keeps the wanted precision, direct sums are the
@@ -89,10 +89,9 @@ struct AnalyzeOptions {
   double precision = 1e-8;
 };
 
-// Lists the fields of AnalyzeOptions (fields.h).
-template <typename Visitor>
-void visit_fields(FieldsOf<AnalyzeOptions>, const Visitor& field) {
-  using O = AnalyzeOptions;
+// Lists the fields (fields.h) that TransformOptions and ExpandOptions of model.h have in common.
+template <typename O, typename Visitor>
+void visit_transform_fields(const Visitor& field) {
   field(&O::degree, {.name = "degree",
                      .help = "the highest degree; there are (L+1)^2 coefficients",
                      .value = "L",
@@ -112,9 +111,13 @@ void visit_fields(FieldsOf<AnalyzeOptions>, const Visitor& field) {
                         .least = 1e-14,
                         .most = 0.1});
 }
+template <typename Visitor>
+void visit_fields(FieldsOf<TransformOptions>, const Visitor& field) {
+  visit_transform_fields<TransformOptions>(field);
+}
 
 // Coefficients, and how they were computed.
-struct Analysis {
+struct Transform {
   Expansion expansion;         // expansion with centre and method, and with norm and tail if known
   std::size_t edge_nodes = 0;  // number of quadrature nodes on edges
   std::size_t face_nodes = 0;  // number of quadrature nodes on faces
@@ -124,7 +127,7 @@ struct Analysis {
   std::optional<double> closure_residual;
   std::optional<FastReport> fast;  // set by the fast engine with the method edge
   // Precision that the coefficients were computed for. The search for a degree may use a finer
-  // precision than AnalyzeOptions::precision.
+  // precision than TransformOptions::precision.
   double precision = 0;
   StageTimes times;  // stages "triangles", "spread", "fourier", "verify", "norms"
   // Truncation error over solid angle, sqrt(||f - f_L||^2 / 4 pi), in the unit of f, and its
@@ -135,10 +138,10 @@ struct Analysis {
   std::optional<double> truncation_rms, truncation_rms_doubt;
 };
 
-// Lists the fields of Analysis (fields.h), without the expansion.
+// Lists the fields of Transform (fields.h), without the expansion.
 template <typename Visitor>
-void visit_fields(FieldsOf<Analysis>, const Visitor& field) {
-  using A = Analysis;
+void visit_fields(FieldsOf<Transform>, const Visitor& field) {
+  using A = Transform;
   field(&A::edge_nodes, {.name = "edge_nodes", .help = "quadrature nodes on edges"});
   field(&A::face_nodes, {.name = "face_nodes", .help = "quadrature nodes on faces"});
   field(&A::closure_residual,
@@ -157,7 +160,7 @@ void visit_fields(FieldsOf<Analysis>, const Visitor& field) {
 
 // Computes the coefficients of the surface by the chosen method. Throws InvalidInput for a degree
 // or precision out of range, a centre on a vertex, or (gauge) a face seen edge on.
-Analysis analyze(const StarChart& chart, const AnalyzeOptions& options = {},
+Transform expand(const StarChart& chart, const TransformOptions& options = {},
                  const Context& context = {});
 
 // Return int r^2 dOmega and int q^2 dOmega of a star-shaped surface in closed form, (M7).

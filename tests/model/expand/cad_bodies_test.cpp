@@ -87,13 +87,13 @@ TEST(CadBodies, are_analysed_with_the_errors_of_the_exact_body) {
     const CadBody body = cad_body(i);
     if (body.junctions) continue;
     SCOPED_TRACE(body.name + " " + std::to_string(i));
-    EncodeOptions options{.analyze = {.degree = 8}};
+    ExpandOptions options{.degree = 8};
     options.chart.center.rays = 0;
-    const Encoded exact = encode(body.exact, options);
+    const Expanded exact = expand(body.exact, options);
     options.chart.center = {.kind = CenterKind::kGiven, .point = exact.star.center, .rays = 0};
-    const Encoded written = encode(body.written, options);
-    const Expansion& one = exact.analysis.expansion;
-    const Expansion& other = written.analysis.expansion;
+    const Expanded written = expand(body.written, options);
+    const Expansion& one = exact.transform.expansion;
+    const Expansion& other = written.transform.expansion;
     const double mean = std::abs(one.coefficients.c(0, 0));
     for (int l = 0; l <= 8; ++l) {
       for (int m = 0; m <= l; ++m) {

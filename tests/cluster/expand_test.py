@@ -1,4 +1,4 @@
-"""rholm-mpi analyze gives the bytes of rholm analyze on any number of ranks; how runs end."""
+"""rholm-mpi expand gives the bytes of rholm expand on any number of ranks; how runs end."""
 
 import json
 import os
@@ -11,15 +11,15 @@ sys.path.insert(0, os.path.dirname(__file__))
 from harness_mpi import ProgramTest, RANKS, RHOLM, RHOLM_MPI, held, main, nightly
 
 
-class Analyze(ProgramTest):
+class Expand(ProgramTest):
     every_way = False
 
     def check_same(self, *words, ranks=RANKS, threads=(1, 2), code=0):
         """Compares the file, and the report except for its times."""
-        one = self.rholm("analyze", *words, "--json", "-o", "one.h5", code=code)
+        one = self.rholm("expand", *words, "--json", "-o", "one.h5", code=code)
         for n in ranks:
             for t in threads if self.every_way else threads[n % len(threads):][:1]:
-                run = self.finished(RHOLM_MPI, "analyze", *words, "--json", "-o", "all.h5", "--threads", t, ranks=n)
+                run = self.finished(RHOLM_MPI, "expand", *words, "--json", "-o", "all.h5", "--threads", t, ranks=n)
                 self.assertEqual(run.code, code, run)
                 self.assertEqual(self.bytes("all.h5"), self.bytes("one.h5"), f"{words} on {n} ranks")
                 reports = [json.loads(text) for text in (one.stdout, run.stdout)]
@@ -31,17 +31,17 @@ class Analyze(ProgramTest):
         return json.loads(one.stdout)
 
 
-class SameBytes(Analyze):
+class SameBytes(Expand):
     def test_of_a_mesh_where_it_lies(self):
         self.make("mesh.ply", "bumpy", "--subdivisions", 6)
         for words in (("--degree", 24), ("--degree", 24, "--precision", 1e-3), ("--tolerance", 1e-3)):
             self.check_same("mesh.ply", *words)
-        self.assertGreater(self.exchanged("analyze", "mesh.ply", "--degree", 24, "-o", "all.h5"), 2e4)
+        self.assertGreater(self.exchanged("expand", "mesh.ply", "--degree", 24, "-o", "all.h5"), 2e4)
 
     def test_of_a_mesh_that_is_read(self):
         self.make("mesh.obj", "bumpy", "--subdivisions", 6)
         self.check_same("mesh.obj", "--degree", 100, "--no-errors", ranks=(1, 3))
-        self.assertGreater(self.exchanged("analyze", "mesh.obj", "--degree", 100, "-o", "all.h5"), 2e4)
+        self.assertGreater(self.exchanged("expand", "mesh.obj", "--degree", 100, "-o", "all.h5"), 2e4)
 
     def test_of_a_mesh_that_is_changed_first(self):
         self.make("mesh.ply", "bumpy", "--subdivisions", 5)
@@ -59,9 +59,9 @@ class SameBytes(Analyze):
 
     def test_of_standard_input_on_one_rank(self):
         self.make("mesh.ply", "bumpy", "--subdivisions", 3)
-        self.rholm("analyze", "mesh.ply", "--degree", 8, "-o", "one.h5")
+        self.rholm("expand", "mesh.ply", "--degree", 8, "-o", "one.h5")
         with open(self.folder / "mesh.ply", "rb") as mesh:
-            run = subprocess.run([RHOLM_MPI, "analyze", "-", "--degree", "8", "-o", "all.h5"], cwd=self.folder,
+            run = subprocess.run([RHOLM_MPI, "expand", "-", "--degree", "8", "-o", "all.h5"], cwd=self.folder,
                                  stdin=mesh, capture_output=True)
         self.assertEqual(run.returncode, 0, run)
         self.assertEqual(self.bytes("all.h5"), self.bytes("one.h5"))
@@ -78,7 +78,7 @@ class SameBytesInEveryWay(SameBytes):
     every_way = True
 
 
-class Refused(Analyze):
+class Refused(Expand):
     def check(self, words, code, says, ranks=3):
         run = self.finished(RHOLM_MPI, *words, ranks=ranks)
         self.assertEqual(run.code, code, run)
@@ -88,18 +88,18 @@ class Refused(Analyze):
 
     def test_what_ranks_do_not_share(self):
         self.make("mesh.ply", "bumpy", "--subdivisions", 3)
-        for words in (("--atlas",), ("--weld", "1e-3"), ("--method", "gauge"), ("--engine", "direct"),
+        for words in (("--weld", "1e-3"), ("--method", "gauge"), ("--engine", "direct"),
                       ("--method", "monte-carlo-edge"), ("--samples", "4")):
-            self.check(("analyze", "mesh.ply", "--degree", 8, "-o", "o.h5", *words), 2, words[0])
+            self.check(("expand", "mesh.ply", "--degree", 8, "-o", "o.h5", *words), 2, words[0])
 
     def test_standard_input_on_several_ranks(self):
-        self.check(("analyze", "-", "--degree", 8, "-o", "o.h5"), 2, "standard input can be read by one rank alone")
+        self.check(("expand", "-", "--degree", 8, "-o", "o.h5"), 2, "standard input can be read by one rank alone")
         os.mkfifo(self.folder / "pipe.ply")
-        self.check(("analyze", "pipe.ply", "--degree", 8, "-o", "o.h5"), 2, "pipe.ply can be read by one rank alone")
+        self.check(("expand", "pipe.ply", "--degree", 8, "-o", "o.h5"), 2, "pipe.ply can be read by one rank alone")
 
     def test_an_output_that_cannot_be_written(self):
         self.make("mesh.ply", "bumpy", "--subdivisions", 3)
-        self.check(("analyze", "mesh.ply", "--degree", 8, "-o", "none/o.h5"), 1, "none/o.h5")
+        self.check(("expand", "mesh.ply", "--degree", 8, "-o", "none/o.h5"), 1, "none/o.h5")
 
     def test_files_that_no_rank_can_use(self):
         self.make("mesh.ply", "bumpy", "--subdivisions", 6)
@@ -113,7 +113,7 @@ class Refused(Analyze):
         for name, data in files.items():
             if data is not None:
                 (self.folder / name).write_bytes(data)
-            words = ("analyze", name, "--degree", 8, "-o", "o.h5")
+            words = ("expand", name, "--degree", 8, "-o", "o.h5")
             alone = subprocess.run([RHOLM, *[str(w) for w in words]], cwd=self.folder, capture_output=True, text=True)
             self.assertGreater(alone.returncode, 0)
             message = alone.stderr.strip().splitlines()[-1].split(": error: ")[-1]
@@ -134,7 +134,7 @@ class Refused(Analyze):
             bad.unlink()
             if data is not None:
                 bad.write_bytes(data)
-            run = self.apart(RHOLM_MPI, "analyze", "mesh.ply", "--degree", 16, "-o", "o.h5", ranks=3)
+            run = self.apart(RHOLM_MPI, "expand", "mesh.ply", "--degree", 16, "-o", "o.h5", ranks=3)
             self.assertEqual(run.code, code, run)
             self.assertEqual(len(self.errors(run)), 1, run)
             self.assertRegex(self.errors(run)[0], r": error: rank 2 on \S+: ")
@@ -142,7 +142,7 @@ class Refused(Analyze):
             self.assertEqual([p.name for p in (self.folder / "0").iterdir()], ["mesh.ply"])
 
 
-class Stopped(Analyze):
+class Stopped(Expand):
     """Runs that end too early write nothing and leave no rank behind."""
 
     def setUp(self):
@@ -157,7 +157,7 @@ class Stopped(Analyze):
         """Starts a run of some seconds: every triangle has its own nodes. A run that is done before it is
         stopped waits where its file is about to get its name."""
         self.mark.unlink(missing_ok=True)
-        run = self.start(RHOLM_MPI, "analyze", "mesh.ply", "--degree", 700, "--precision", 1e-13, "-o", "o.h5",
+        run = self.start(RHOLM_MPI, "expand", "mesh.ply", "--degree", 700, "--precision", 1e-13, "-o", "o.h5",
                          "--threads", 1, "--patience", 10, ranks=ranks, environment=held(self.mark, "o.h5$"))
         # Ranks open the mesh after a message of rank 0. Before MPI has started, no rank can report that it
         # stops.

@@ -26,10 +26,10 @@ enum class NotInPlace {
 // Expands a mesh without copying it, by the mesh pass. It uses `check`, `release` and `executor` of
 // `hooks`. Throws InvalidInput for options out of range, and errors that are not due to the mesh:
 // Io, OutOfMemory, Cancelled, and exceptions of hooks or the progress callback.
-std::variant<Encoded, NotInPlace> expand_in_place(const MeshView& mesh,
-                                                  const EncodeOptions& options,
-                                                  const MeshPassOptions& hooks,
-                                                  const Context& context);
+std::variant<Expanded, NotInPlace> expand_in_place(const MeshView& mesh,
+                                                   const ExpandOptions& options,
+                                                   const MeshPassOptions& hooks,
+                                                   const Context& context);
 
 // A mesh prepared for expansion: welded, turned outwards, with paired edges.
 struct PreparedMesh {
@@ -42,6 +42,6 @@ PreparedMesh prepare(const Mesh& mesh, double weld_tolerance);
 
 // Expands a prepared mesh in the same way, or by another method on a chart, which takes the edges
 // of the mesh. Throws InvalidInput and NotStarShaped for meshes that no method can expand.
-Encoded expand(PreparedMesh& mesh, const EncodeOptions& options, const Context& context);
+Expanded expand(PreparedMesh& mesh, const ExpandOptions& options, const Context& context);
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// rholm analyze with an exchangeable encoder. Layer: cli.
+// rholm expand with an exchangeable encoder. Layer: cli.
 #pragma once
 
 #include <functional>
@@ -10,18 +10,18 @@
 
 namespace rholm::cli {
 
-// Type of encode_file() in model.h.
-using EncodeFile =
-    std::function<Encoded(const std::string& path, const EncodeOptions& options,
-                          const Context& context, const std::function<Mesh()>& read)>;
+// Type of expand_file() in model.h.
+using ExpandFile =
+    std::function<Expanded(const std::string& path, const ExpandOptions& options,
+                           const Context& context, const std::function<Mesh()>& read)>;
 
-struct AnalyzeBy {
-  EncodeFile encode_file;
+struct ExpandBy {
+  ExpandFile expand_file;
   // Throws UsageError for an input that the encoder cannot read.
   std::function<void(const std::string& path)> check_input;
 };
 // Makes the command with this encoder for single expansions; atlases and Monte Carlo methods always
 // use the encoder of this process.
-Command analyze_command_by(const AnalyzeBy& by);
+Command expand_command_by(const ExpandBy& by);
 
 }  // namespace rholm::cli

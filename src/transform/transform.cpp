@@ -1,4 +1,4 @@
-#include "transform/analyze.h"
+#include "transform/transform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ RadialFunction function_of(Method method) {
 
 namespace {
 
-MethodOptions method_options(const StarGeometry& geometry, const AnalyzeOptions& options) {
+MethodOptions method_options(const StarGeometry& geometry, const TransformOptions& options) {
   const MeanAndNorm scale = mean_and_norm(geometry, function_of(options.method));
   const double c00 = std::abs(scale.mean) * std::sqrt(4 * std::numbers::pi);
   // An error below the rounding of c_00 cannot be reached, however exact the sum is.
@@ -48,13 +48,13 @@ void check_finite(const Coefficients& c) {
 
 // The relative error of c_00 is the precision: a separate cubature sums each face to that
 // precision.
-void set_truncation_rms(double norm_squared, Analysis& analysis) {
-  const Coefficients& c = analysis.expansion.coefficients;
+void set_truncation_rms(double norm_squared, Transform& transform) {
+  const Coefficients& c = transform.expansion.coefficients;
   const CoefficientErrors errors =
-      coefficient_errors(norm_squared, c, analysis.precision, known_error(analysis));
+      coefficient_errors(norm_squared, c, transform.precision, known_error(transform));
   const ParsevalRest rest = parseval_rest(norm_squared, c, errors);
-  analysis.truncation_rms = rms_of(rest, kBelieved);
-  if (analysis.truncation_rms) analysis.truncation_rms_doubt = rms_doubt(rest);
+  transform.truncation_rms = rms_of(rest, kBelieved);
+  if (transform.truncation_rms) transform.truncation_rms_doubt = rms_doubt(rest);
 }
 
 }  // namespace
@@ -67,31 +67,31 @@ EnumNames names_of(Method) {
 namespace {
 
 // Computes coefficients by one of the methods: direct sums, or the gauge's fast sums.
-void by_method(MethodFunction method, const StarChart& chart, const AnalyzeOptions& options,
-               const Context& context, Analysis& analysis) {
+void by_method(MethodFunction method, const StarChart& chart, const TransformOptions& options,
+               const Context& context, Transform& transform) {
   const StarGeometry geometry = star_geometry(chart);
   MethodResult sums = method(geometry, method_options(geometry, options), context);
   const bool gauge = options.method == Method::kGauge;
   const double unscale = gauge ? geometry.scale : 1 / geometry.scale;
   for (double& value : sums.coefficients.values()) value *= unscale;
-  analysis.edge_nodes = sums.edge_nodes;
-  analysis.face_nodes = sums.face_nodes;
-  analysis.closure_residual = closure_residual(geometry);
-  analysis.expansion.coefficients = std::move(sums.coefficients);
+  transform.edge_nodes = sums.edge_nodes;
+  transform.face_nodes = sums.face_nodes;
+  transform.closure_residual = closure_residual(geometry);
+  transform.expansion.coefficients = std::move(sums.coefficients);
 }
 
-void by_mesh_pass(const StarChart& chart, const AnalyzeOptions& options, const Context& context,
-                  Analysis& analysis) {
+void by_mesh_pass(const StarChart& chart, const TransformOptions& options, const Context& context,
+                  Transform& transform) {
   const MeshView mesh = view_of(chart.mesh);
   const MeshPassOptions wanted{.degree = options.degree, .precision = options.precision};
   MeshPassResult pass = mesh_pass(mesh, wanted, context);
   verify_pass(mesh, wanted, context, pass);
-  set_pass(pass, analysis);
+  set_pass(pass, transform);
 }
 
 }  // namespace
 
-void check(const AnalyzeOptions& options) {
+void check(const TransformOptions& options) {
   if (options.degree < 0 || options.degree > kMaxDegree) {
     throw Error(ErrorCode::kInvalidInput, "the degree must be between 0 and " +
                                               std::to_string(kMaxDegree) + ", not " +
@@ -103,76 +103,76 @@ void check(const AnalyzeOptions& options) {
   }
 }
 
-bool uses_mesh_pass(const AnalyzeOptions& options) {
+bool uses_mesh_pass(const TransformOptions& options) {
   return options.engine == Engine::kFast && options.method == Method::kEdge;
 }
 
-void set_pass(MeshPassResult& pass, Analysis& analysis) {
-  analysis.fast = pass.report;
-  analysis.times.insert(pass.times.begin(), pass.times.end());
-  analysis.expansion.coefficients = std::move(pass.coefficients);
+void set_pass(MeshPassResult& pass, Transform& transform) {
+  transform.fast = pass.report;
+  transform.times.insert(pass.times.begin(), pass.times.end());
+  transform.expansion.coefficients = std::move(pass.coefficients);
 }
 
-Analysis analysis_of(MeshPassResult pass, double precision) {
-  Analysis analysis;
-  set_pass(pass, analysis);
-  analysis.precision = precision;
-  return analysis;
+Transform transform_of(MeshPassResult pass, double precision) {
+  Transform transform;
+  set_pass(pass, transform);
+  transform.precision = precision;
+  return transform;
 }
 
-double known_error(const Analysis& analysis) {
-  if (!analysis.fast) return analysis.precision;
+double known_error(const Transform& transform) {
+  if (!transform.fast) return transform.precision;
   // The error of the fast engine is relative to the degrees found, which may hold next to nothing.
-  const Coefficients& c = analysis.expansion.coefficients;
+  const Coefficients& c = transform.expansion.coefficients;
   const double mean = c.c(0, 0);
-  const double varying = analysis.expansion.norm_squared.value_or(0) - mean * mean;
-  if (!(varying > 0)) return analysis.fast->error;
+  const double varying = transform.expansion.norm_squared.value_or(0) - mean * mean;
+  if (!(varying > 0)) return transform.fast->error;
   double found = 0;
   for (const double value : c.values().subspan(1)) found += value * value;
-  return analysis.fast->error * std::sqrt(std::min(1.0, found / varying));
+  return transform.fast->error * std::sqrt(std::min(1.0, found / varying));
 }
 
-void finish_analysis(const AnalyzeOptions& options, const Vec3& center, Analysis& analysis) {
-  Expansion& expansion = analysis.expansion;
+void finish_transform(const TransformOptions& options, const Vec3& center, Transform& transform) {
+  Expansion& expansion = transform.expansion;
   check_finite(expansion.coefficients);
   expansion.function = function_of(options.method);
   expansion.center = center;
   expansion.method = to_string(options.method);
-  const bool reached = !analysis.fast || analysis.fast->reached;
+  const bool reached = !transform.fast || transform.fast->reached;
   expansion.precision =
-      reached ? analysis.precision : std::max(analysis.precision, known_error(analysis));
+      reached ? transform.precision : std::max(transform.precision, known_error(transform));
   if (expansion.norm_squared) {
-    set_truncation_rms(*expansion.norm_squared, analysis);
+    set_truncation_rms(*expansion.norm_squared, transform);
   }
 }
 
-Analysis analyze_without_norms(MethodFunction method, const StarChart& chart,
-                               const AnalyzeOptions& options, const Context& context) {
+Transform expand_without_norms(MethodFunction method, const StarChart& chart,
+                               const TransformOptions& options, const Context& context) {
   report_progress(context, "transform", 0);
-  Analysis analysis;
-  analysis.precision = options.precision;
+  Transform transform;
+  transform.precision = options.precision;
   if (uses_mesh_pass(options)) {
-    by_mesh_pass(chart, options, context, analysis);
+    by_mesh_pass(chart, options, context, transform);
   } else {
-    by_method(method, chart, options, context, analysis);
+    by_method(method, chart, options, context, transform);
   }
-  return analysis;
+  return transform;
 }
 
-Analysis analyze_by(MethodFunction method, const StarChart& chart, const AnalyzeOptions& options,
+Transform expand_by(MethodFunction method, const StarChart& chart, const TransformOptions& options,
                     const Context& context) {
   check(options);
-  Analysis analysis = analyze_without_norms(method, chart, options, context);
-  analysis.expansion.signed_sum = !chart.report.star_shaped;
+  Transform transform = expand_without_norms(method, chart, options, context);
+  transform.expansion.signed_sum = !chart.report.star_shaped;
   if (chart.report.star_shaped) {
-    const StageTimer timer(analysis.times, "norms");
+    const StageTimer timer(transform.times, "norms");
     const bool gauge = options.method == Method::kGauge;
-    analysis.expansion.norm_squared =
+    transform.expansion.norm_squared =
         gauge ? gauge_norm_squared(chart) : radius_norm_squared(chart);
-    analysis.expansion.tail_strength = tail_strength(chart, function_of(options.method));
+    transform.expansion.tail_strength = tail_strength(chart, function_of(options.method));
   }
-  finish_analysis(options, chart.report.center, analysis);
-  return analysis;
+  finish_transform(options, chart.report.center, transform);
+  return transform;
 }
 
 }  // namespace rholm

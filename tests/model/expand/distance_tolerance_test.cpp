@@ -56,14 +56,14 @@ TEST(distance_tolerance, is_kept_by_closest_points_on_random_polyhedra) {
     if (!is_star(d.mesh)) continue;
     const StarChart chart =
         make_star_chart(d.mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
-    const ToleranceAnalysis found = analyze(chart, d.tolerance, {}, {.threads = 1, .progress = {}});
+    const ToleranceTransform found = expand(chart, d.tolerance, {}, {.threads = 1, .progress = {}});
     if (!found.met) {
       ++unreached;
-      EXPECT_EQ(found.analysis.expansion.coefficients.degree(), d.tolerance.max_degree);
+      EXPECT_EQ(found.transform.expansion.coefficients.degree(), d.tolerance.max_degree);
       continue;
     }
     ++met;
-    const Coefficients& c = found.analysis.expansion.coefficients;
+    const Coefficients& c = found.transform.expansion.coefficients;
     const auto error = [&](const test::TrueDistance& truth) {
       return d.tolerance.norm == ErrorNorm::kRms ? truth.rms() : truth.max();
     };

@@ -1,4 +1,4 @@
-// Options of rholm analyze. Layer: cli.
+// Options of rholm expand. Layer: cli.
 #pragma once
 
 #include <optional>
@@ -9,29 +9,22 @@
 #include "cli/options/memory_options.h"
 #include "cli/options/tolerance_options.h"
 #include "cli/terminal/session.h"
-#include "rholm/compress.h"
 #include "rholm/model.h"
 #include "rholm/monte_carlo.h"
-#include "rholm/patch_atlas.h"
 
 namespace rholm::cli {
 
-struct AnalyzeCommandOptions {
+struct ExpandCommandOptions {
   std::string input;
-  Given<AnalyzeOptions> analyze;  // without the method
-  std::string method = "edge";    // a method, or "monte-carlo-" with the places of points
+  Given<ExpandOptions> expand;  // without the method
+  std::string method = "edge";  // a method, or "monte-carlo-" with the places of points
   ToleranceOptions tolerance;
   ChartOptions chart;  // without the centre
   std::string center = "auto";
   bool no_errors = false;
   double weld = 0;
-  Given<MonteCarloOptions> monte_carlo;  // its seed is also used for an atlas
-  bool atlas = false;
-  std::string fit;  // method for an atlas; empty: least-squares
-  Given<CompressOptions> caps;
-  Given<PatchAtlasOptions> patches;
+  Given<MonteCarloOptions> monte_carlo;
   std::string length_unit;
-  std::string columns;  // meaning of columns of points; empty: from the file
   MemoryOptions memory;
   std::string output;
   std::string format;
@@ -40,19 +33,19 @@ struct AnalyzeCommandOptions {
 };
 
 // Returns the degree, if given.
-inline std::optional<int> degree_of(const AnalyzeCommandOptions& options) {
-  if (!options.analyze.has("degree")) return std::nullopt;
-  return options.analyze.values.degree;
+inline std::optional<int> degree_of(const ExpandCommandOptions& options) {
+  if (!options.expand.has("degree")) return std::nullopt;
+  return options.expand.values.degree;
 }
 
 // Returns true if an option only of Monte Carlo methods was given; a seed is ignored.
-inline bool is_given_to_monte_carlo(const AnalyzeCommandOptions& options) {
+inline bool is_given_to_monte_carlo(const ExpandCommandOptions& options) {
   const Given<MonteCarloOptions>& given = options.monte_carlo;
   return given.has("samples") || given.has("deviation") || given.has("most_samples");
 }
 
 // Runs the whole command for Monte Carlo methods; returns the exit code.
-int analyze_by_monte_carlo(const AnalyzeCommandOptions& options, SamplePlaces places,
-                           Session& session);
+int expand_by_monte_carlo(const ExpandCommandOptions& options, SamplePlaces places,
+                          Session& session);
 
 }  // namespace rholm::cli

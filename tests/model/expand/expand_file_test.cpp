@@ -27,7 +27,7 @@ namespace {
 
 using testing::TemporaryFolder;
 
-constexpr EncodeOptions kOptions{.analyze = {.degree = 12, .precision = 1e-9}};
+constexpr ExpandOptions kOptions{.degree = 12, .precision = 1e-9};
 
 // Writes a binary PLY file of doubles and calls `use` with its path.
 void with_file(const Mesh& mesh, const std::function<void(const std::filesystem::path&)>& use) {
@@ -36,18 +36,18 @@ void with_file(const Mesh& mesh, const std::function<void(const std::filesystem:
   use(folder / "m.ply");
 }
 
-std::optional<Encoded> mapped(const std::filesystem::path& path) {
+std::optional<Expanded> mapped(const std::filesystem::path& path) {
   const std::optional<MappedMesh> map = map_mesh(path);
   EXPECT_TRUE(map.has_value());
-  return map ? encode_mapped(*map, kOptions) : std::nullopt;
+  return map ? expand_mapped(*map, kOptions) : std::nullopt;
 }
 
-Encoded read(const std::filesystem::path& path) {
-  return encode(std::get<Mesh>(read_shape(path).shape), kOptions);
+Expanded read(const std::filesystem::path& path) {
+  return expand(std::get<Mesh>(read_shape(path).shape), kOptions);
 }
 
-void expect_equal(const Encoded& a, const Encoded& b) {
-  const auto &x = a.analysis.expansion, &y = b.analysis.expansion;
+void expect_equal(const Expanded& a, const Expanded& b) {
+  const auto &x = a.transform.expansion, &y = b.transform.expansion;
   EXPECT_TRUE(std::ranges::equal(x.coefficients.values(), y.coefficients.values()));
   EXPECT_EQ(x.center, y.center);
   EXPECT_EQ(x.norm_squared, y.norm_squared);
@@ -59,61 +59,61 @@ void expect_equal(const Encoded& a, const Encoded& b) {
   EXPECT_EQ(a.flipped, b.flipped);
 }
 
-TEST(encode_mapped, gives_what_the_same_file_gives_when_it_is_read) {
+TEST(expand_mapped, gives_what_the_same_file_gives_when_it_is_read) {
   const Mesh bumpy = test::rotated(bumpy_sphere(4)), cube = box({1, 2, 3}, 5);
   // Meshes have seams: each triangle has its own corners.
   for (const Mesh& mesh : {bumpy, cube, test::exploded(bumpy), test::random_octahedron(2)}) {
     with_file(mesh, [&](const auto& path) {
-      const std::optional<Encoded> encoded = mapped(path);
-      ASSERT_TRUE(encoded.has_value());
-      expect_equal(*encoded, read(path));
-      expect_equal(*encoded, encode_file(path, kOptions));
-      EXPECT_EQ(encoded->faces, mesh.triangles.size());
-      EXPECT_EQ(encoded->edges, mesh.triangles.size() / 2 * 3);
-      EXPECT_TRUE(encoded->analysis.fast.has_value());
+      const std::optional<Expanded> expanded = mapped(path);
+      ASSERT_TRUE(expanded.has_value());
+      expect_equal(*expanded, read(path));
+      expect_equal(*expanded, expand_file(path, kOptions));
+      EXPECT_EQ(expanded->faces, mesh.triangles.size());
+      EXPECT_EQ(expanded->edges, mesh.triangles.size() / 2 * 3);
+      EXPECT_TRUE(expanded->transform.fast.has_value());
     });
   }
 }
 
 // A mesh with seams has the coefficients of the welded mesh.
-TEST(encode_mapped, does_not_mind_seams) {
+TEST(expand_mapped, does_not_mind_seams) {
   const Mesh mesh = test::rotated(bumpy_sphere(3));
-  std::optional<Encoded> whole, soup;
+  std::optional<Expanded> whole, soup;
   with_file(mesh, [&](const auto& path) { whole = mapped(path); });
   with_file(test::exploded(mesh), [&](const auto& path) { soup = mapped(path); });
   ASSERT_TRUE(whole && soup);
-  const auto a = whole->analysis.expansion.coefficients.values();
-  const auto b = soup->analysis.expansion.coefficients.values();
+  const auto a = whole->transform.expansion.coefficients.values();
+  const auto b = soup->transform.expansion.coefficients.values();
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-9);
 }
 
-TEST(encode_mapped, leaves_what_must_be_changed_first_to_the_reader) {
+TEST(expand_mapped, leaves_what_must_be_changed_first_to_the_reader) {
   Mesh inward = bumpy_sphere(3);
   flip(inward);
   with_file(inward, [&](const auto& path) {
     EXPECT_FALSE(mapped(path).has_value());
-    const Encoded encoded = encode_file(path, kOptions);
-    EXPECT_TRUE(encoded.flipped);
-    expect_equal(encoded, read(path));
+    const Expanded expanded = expand_file(path, kOptions);
+    EXPECT_TRUE(expanded.flipped);
+    expect_equal(expanded, read(path));
   });
   with_file(bumpy_sphere(3), [&](const auto& path) {
     const std::optional<MappedMesh> map = map_mesh(path);
     ASSERT_TRUE(map.has_value());
-    EncodeOptions options = kOptions;
+    ExpandOptions options = kOptions;
     options.weld_tolerance = 1e-9;
-    EXPECT_FALSE(encode_mapped(*map, options).has_value());
+    EXPECT_FALSE(expand_mapped(*map, options).has_value());
     options = kOptions;
-    options.analyze.engine = Engine::kDirect;
-    EXPECT_FALSE(encode_mapped(*map, options).has_value());
+    options.engine = Engine::kDirect;
+    EXPECT_FALSE(expand_mapped(*map, options).has_value());
     options = kOptions;
-    options.analyze.method = Method::kGauge;
-    EXPECT_FALSE(encode_mapped(*map, options).has_value());
+    options.method = Method::kGauge;
+    EXPECT_FALSE(expand_mapped(*map, options).has_value());
   });
 }
 
 ErrorCode code_of(const std::filesystem::path& path) {
   try {
-    encode_file(path, kOptions);
+    expand_file(path, kOptions);
   } catch (const Error& error) {
     return error.code();
   }
@@ -128,7 +128,7 @@ void expect_refused(const Mesh& mesh, ErrorCode code) {
   });
 }
 
-TEST(encode_mapped, takes_no_mesh_that_is_not_closed_or_not_star_shaped) {
+TEST(expand_mapped, takes_no_mesh_that_is_not_closed_or_not_star_shaped) {
   Mesh open = bumpy_sphere(4);
   open.triangles.pop_back();
   expect_refused(open, ErrorCode::kInvalidInput);
@@ -141,7 +141,7 @@ TEST(encode_mapped, takes_no_mesh_that_is_not_closed_or_not_star_shaped) {
 
 // Every face is oriented outwards, and all directions are covered twice. The second cover has so
 // few triangles that a sample of the mesh may contain none of them.
-TEST(encode_mapped, finds_a_second_sheet_of_few_triangles) {
+TEST(expand_mapped, finds_a_second_sheet_of_few_triangles) {
   Mesh around = icosphere(0);
   for (Vec3& v : around.vertices) v *= 3;
   const Mesh fine = bumpy_sphere(6);
@@ -151,7 +151,7 @@ TEST(encode_mapped, finds_a_second_sheet_of_few_triangles) {
 
 // A file with as many bytes as its triangles need, but with a quad and a pair in place of two of
 // them: only the counts show it.
-TEST(encode_mapped, leaves_other_polygons_to_the_reader) {
+TEST(expand_mapped, leaves_other_polygons_to_the_reader) {
   with_file(bumpy_sphere(3), [&](const auto& path) {
     std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
     file.seekp(-26, std::ios::end);
@@ -174,7 +174,7 @@ TEST(encode_mapped, leaves_other_polygons_to_the_reader) {
 }
 
 // All faces are quads: a box with one quad per side.
-TEST(encode_file, cuts_quads_into_triangles) {
+TEST(expand_file, cuts_quads_into_triangles) {
   const Mesh cube = box({2, 2, 2});
   const TemporaryFolder folder;
   std::ofstream file(folder / "m.ply", std::ios::binary);
@@ -195,11 +195,11 @@ TEST(encode_file, cuts_quads_into_triangles) {
   }
   file.close();
   EXPECT_FALSE(map_mesh(folder / "m.ply").has_value());
-  const Encoded quads = encode_file(folder / "m.ply", kOptions);
-  const Encoded triangles = encode(cube, kOptions);
+  const Expanded quads = expand_file(folder / "m.ply", kOptions);
+  const Expanded triangles = expand(cube, kOptions);
   EXPECT_EQ(quads.faces, 12u);
-  const auto a = quads.analysis.expansion.coefficients.values();
-  const auto b = triangles.analysis.expansion.coefficients.values();
+  const auto a = quads.transform.expansion.coefficients.values();
+  const auto b = triangles.transform.expansion.coefficients.values();
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-8);
 }
 

@@ -1,10 +1,10 @@
-// rholm analyze with random points.
+// rholm expand with random points.
 #include <fmt/format.h>
 
 #include <string>
 
-#include "cli/commands/analyze_options.h"
-#include "cli/commands/analyze_report.h"
+#include "cli/commands/expand_options.h"
+#include "cli/commands/expand_report.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
 #include "cli/files/prepare.h"
@@ -17,10 +17,10 @@
 namespace rholm::cli {
 namespace {
 
-MonteCarloOptions monte_carlo_options(const AnalyzeCommandOptions& options, SamplePlaces places) {
+MonteCarloOptions monte_carlo_options(const ExpandCommandOptions& options, SamplePlaces places) {
   const std::optional<int> degree = degree_of(options);
   if (!degree) throw UsageError("Monte Carlo needs --degree: it has no --tolerance");
-  const Given<AnalyzeOptions>& transform = options.analyze;
+  const Given<ExpandOptions>& transform = options.expand;
   if ((transform.has("engine") && transform.values.engine == Engine::kFast) ||
       transform.has("precision")) {
     throw UsageError(
@@ -36,7 +36,7 @@ MonteCarloOptions monte_carlo_options(const AnalyzeCommandOptions& options, Samp
   return wanted;
 }
 
-Json json_of_run(const AnalyzeCommandOptions& options, const MonteCarlo& found,
+Json json_of_run(const ExpandCommandOptions& options, const MonteCarlo& found,
                  const StarReport& star) {
   Json json;
   json["file"] = options.input;
@@ -72,8 +72,8 @@ std::string text_of_deviation(const MonteCarlo& found) {
 
 }  // namespace
 
-int analyze_by_monte_carlo(const AnalyzeCommandOptions& options, SamplePlaces places,
-                           Session& session) {
+int expand_by_monte_carlo(const ExpandCommandOptions& options, SamplePlaces places,
+                          Session& session) {
   const MonteCarloOptions wanted = monte_carlo_options(options, places);
   const CoefficientsOutput output =
       coefficients_output(options.output, options.format, options.json);

@@ -1,5 +1,5 @@
 // From a mesh to an expansion: encoding, its steps, errors, random points.
-#include "rholm/analyze.h"
+#include "rholm/transform.h"
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -79,52 +79,53 @@ void bind_star(nb::module_& m) {
 }
 
 void bind_options(nb::module_& m) {
-  Options<AnalyzeOptions>(m, "AnalyzeOptions", "Which function is expanded, and how.").fields();
+  Options<TransformOptions>(m, "TransformOptions", "Which function is expanded, and how.").fields();
   Options<Tolerance>(m, "Tolerance", "The largest error that is allowed.").fields();
   Options<CenterOptions>(m, "CenterOptions", "Where the centre is sought.").fields();
   m.def("parse_center", &parse_center);
   Options<ChartOptions>(m, "ChartOptions", "Which centre, and which surfaces.").fields();
-  Options<EncodeOptions>(m, "EncodeOptions", "What is wanted of a model.").fields();
+  Options<ExpandOptions>(m, "ExpandOptions", "What is wanted of a model.").fields();
 }
 
 void bind_results(nb::module_& m) {
   Record<FastReport>(m, "FastReport", "How the fast engine did it.").fields();
-  Record<Analysis>(m, "Analysis", "How coefficients were found.")
+  Record<Transform>(m, "Transform", "How coefficients were found.")
       .fields()
-      .hidden("expansion", [](Analysis& a) -> Expansion& { return a.expansion; })
+      .hidden("expansion", [](Transform& a) -> Expansion& { return a.expansion; })
       .type()
-      .def_prop_ro("expansion", [](const Analysis& a) { return a.expansion; });
+      .def_prop_ro("expansion", [](const Transform& a) { return a.expansion; });
   Record<ToleranceReport>(m, "ToleranceReport", "How a tolerance was kept.").fields();
-  Record<Encoded>(m, "Encoded", "What was found out on the way from a mesh to an expansion.")
+  Record<Expanded>(m, "Expanded", "What was found out on the way from a mesh to an expansion.")
       .fields();
 }
 
-void bind_encode(nb::module_& m) {
+void bind_expand(nb::module_& m) {
   m.def(
-      "encode",
-      [](const AnyVertices& vertices, const AnyTriangles& triangles, const EncodeOptions& options,
+      "expand_mesh",
+      [](const AnyVertices& vertices, const AnyTriangles& triangles, const ExpandOptions& options,
          const Caller& caller) {
         const MeshView view = view_of_arrays(vertices, triangles);
-        return caller.run([&](const Context& context) { return encode(view, options, context); });
+        return caller.run([&](const Context& context) { return expand(view, options, context); });
       },
       nb::arg().noconvert(), nb::arg().noconvert(), nb::arg(), nb::arg());
-  m.def("encode_file",
-        [](const std::string& path, const EncodeOptions& options, const Caller& caller) {
+  m.def("expand_file",
+        [](const std::string& path, const ExpandOptions& options, const Caller& caller) {
           std::vector<std::string> warnings;
-          Encoded encoded = caller.run([&](const Context& context) {
-            return encode_file(path, options, context, &warnings);
+          Expanded expanded = caller.run([&](const Context& context) {
+            return expand_file(path, options, context, &warnings);
           });
-          return nb::make_tuple(std::move(encoded), warnings);
+          return nb::make_tuple(std::move(expanded), warnings);
         });
-  m.def("analyze", [](const StarChart& chart, const AnalyzeOptions& options, const Caller& caller) {
-    return caller.run([&](const Context& context) { return analyze(chart, options, context); });
+  m.def("expand_chart", [](const StarChart& chart, const TransformOptions& options,
+                           const Caller& caller) {
+    return caller.run([&](const Context& context) { return expand(chart, options, context); });
   });
-  m.def("analyze_to_tolerance", [](const StarChart& chart, const Tolerance& tolerance,
-                                   const AnalyzeOptions& options, const Caller& caller) {
-    ToleranceAnalysis found = caller.run(
-        [&](const Context& context) { return analyze(chart, tolerance, options, context); });
+  m.def("expand_chart_to_tolerance", [](const StarChart& chart, const Tolerance& tolerance,
+                                        const TransformOptions& options, const Caller& caller) {
+    ToleranceTransform found = caller.run(
+        [&](const Context& context) { return expand(chart, tolerance, options, context); });
     return nb::make_tuple(
-        std::move(found.analysis),
+        std::move(found.transform),
         ToleranceReport{found.allowed, found.reached, found.met, std::move(found.degrees)});
   });
 }
@@ -185,11 +186,11 @@ void bind_monte_carlo(nb::module_& m) {
 
 }  // namespace
 
-void bind_analysis(nb::module_& m) {
+void bind_transform(nb::module_& m) {
   bind_options(m);
   bind_star(m);
   bind_results(m);
-  bind_encode(m);
+  bind_expand(m);
   bind_norms(m);
   bind_monte_carlo(m);
 }
