@@ -307,7 +307,7 @@ void visit_fields(FieldsOf<OrientReport>, const Visitor& field) {
 }
 
 // Share of unsure points above which normals, and surfaces made with them, are unreliable.
-inline constexpr double kTooUnsure = 0.2;  // chosen: a fifth of the normals may be reversed
+inline constexpr double kTooUnsure = 0.2;  // chosen: a shape with a fifth inside out is unusable
 
 // Computes unit normals that point out of the solid. Directions come from planes and paraboloids
 // through the nearest points. They are fitted between rows where points lie in rows, and to one

@@ -70,9 +70,9 @@ struct ReconstructOptions {
   CapBlend blend = CapBlend::kSmooth;    // kSpline: the paper's weights, for comparison
   // Parts of the surface with an area below this share of the largest part's area are dropped.
   double min_component = 0.01;
-  // False: isolated points far from all others are removed. If
-  // such points exist, points near the surface with deviating
-  // normals or heights are removed too. True: all points are kept.
+  // False: isolated points far from all others, at any distance, are removed. If such points exist,
+  // points near the surface with deviating normals or heights are removed too. True: all points are
+  // kept.
   bool keep_outliers = false;
   // Point from which all points were measured. If empty, attributes
   // sensor_x, sensor_y, sensor_z of the cloud are used if all three exist
