@@ -222,7 +222,7 @@ void visit_fields(FieldsOf<ScanAlignment>, const Visitor& field) {
 // InvalidInput for an invalid cloud. Same input, same bits for any number of threads.
 ScanAlignment align_scans(PointCloud& cloud, const Context& context = {});
 
-// How normals are computed, and which side is outside.
+// Options for computing normals and their signs.
 struct OrientOptions {
   int neighbors = 0;             // number in a fit, 3 ... 1000; 0: chosen from the data
   bool keep_directions = false;  // keep directions of given nonzero normals, choose only signs

@@ -403,13 +403,13 @@ struct Reconstruction {
 // named as another format.
 Reconstruction reconstruct(const PointCloud& cloud, const ReconstructOptions& options = {},
                            const Context& context = {});
-// Same, without a copy of the points.
+// Reconstructs a surface without a copy of the points.
 Reconstruction reconstruct(PointCloud&& cloud, const ReconstructOptions& options = {},
                            const Context& context = {});
-// Same for the points of a file. Formats of PointStream (PLY, lines of numbers) with more points
-// than a tile are read in portions, other formats and meshes as a whole. A mesh contributes
-// vertices with the mean normals of their faces. `columns` is as in ShapeReadOptions. Throws also
-// as read_shape() and PointStream.
+// Reconstructs a surface from the points of a file. Formats of PointStream (PLY, lines of numbers)
+// with more points than a tile are read in portions, other formats and meshes as a whole. A mesh
+// contributes vertices with the mean normals of their faces. `columns` is as in ShapeReadOptions.
+// Throws also as read_shape() and PointStream.
 Reconstruction reconstruct(const std::filesystem::path& points,
                            const ReconstructOptions& options = {}, const Context& context = {},
                            const std::string& columns = {});
