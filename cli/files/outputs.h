@@ -1,5 +1,5 @@
-// Output files of the command line. Wrong requests are refused before the work begins. Layer:
-// cli.
+// Output files of the command line. Wrong requests are refused before the work begins.
+// Layer: cli.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// Editing of shapes in a web page: `rholm studio` serves it by HTTP, notebooks by messages. Layer:
-// studio.
+// Editing of shapes in a web page, which `rholm studio` serves by HTTP and notebooks by messages.
+// Layer: studio.
 #pragma once
 
 #include <chrono>
