@@ -38,8 +38,8 @@ struct FastReport {
   double error = 0;
   double band_error = 0;  // error of the degrees above 3L/4, relative to the norm of these degrees
   // Share of the triangles that both errors come from. 1: a second, finer pass over the rotated
-  // mesh, as for small meshes. Below 1: rule errors come from a sample of a larger mesh (sizes in
-  // docs/performance.md). 0: both errors are estimates of the error model.
+  // mesh, as for small meshes. Below 1: rule errors come from a sample of a larger mesh (method
+  // 3h). 0: both errors are estimates of the error model.
   double measured_share = 0;
   double error_doubt = 0;  // the true error may exceed the measured error by this much
   int passes = 0;          // number of passes over the triangles
@@ -173,10 +173,10 @@ double tail_strength(const StarChart& chart, RadialFunction function);
 double tail_strength(const MeshView& mesh, const Vec3& center, const Context& context = {});
 
 // Largest truncation errors at vertices, times 2 pi (L + 1): the maximum over vertices of |sum of
-// s_e over the edges that meet there|, times r^2 for the radius. Accuracy: Within 10 % of the
-// largest error where L times the angle of the edges is above 10 (measured, L >= 64); too large on
-// finer meshes. Edges between saddle vertices may have larger errors than the vertices: 2 |s_e| r^2
-// instead of the sum.
+// s_e over the edges that meet there|, times r^2 for the radius. The value is within 10 % of the
+// largest error where L times the angle of the edges is above 10 (measured, L >= 64), and too large
+// on finer meshes. Edges between saddle vertices may have larger errors than the vertices: 2 |s_e|
+// r^2 instead of the sum.
 struct ErrorStrengths {
   double radius = 0;  // strength for the radius, in the mesh's unit
   double gauge = 0;   // strength for 1/r, in 1/unit

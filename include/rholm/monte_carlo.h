@@ -13,9 +13,9 @@
 // many on a mesh of many faces, already with two samples per place. Deviations of whole-surface
 // estimates would have rounds - 1 degrees of freedom, and 3 sigma of 4 rounds hold 94 %. If the
 // number of pairs that matter is small (coarse mesh, small samples), `deviation` is the standard
-// error times Student's factor. Then 3 deviations hold the error in about 99.7 % of all seeds. Over
-// 1000 seeds at 2, 4, 8 and 32 points per place on meshes of 4 and 8 faces, they hold it for 99.6
-// to 99.9 % of all coefficients, at least 98.7 % of each. The stopping rule uses the standard
+// error times Student's factor. Then 3 deviations hold the error in about 99.7 % of all seeds.
+// Over 1000 seeds at 2, 4, 8 and 32 points per place on meshes of 4 and 8 faces they hold 99.6
+// to 99.9 % of all coefficients, and at least 98.7 % of each. The stopping rule uses the standard
 // error.
 #pragma once
 

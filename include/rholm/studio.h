@@ -1,4 +1,4 @@
-// Editing of shapes in a web page, which `rholm studio` serves by HTTP and notebooks by messages.
+// Editing of shapes in a web page: `rholm studio` serves it by HTTP, notebooks by messages.
 // Layer: studio.
 #pragma once
 
