@@ -102,8 +102,8 @@ struct CoefficientsError {
 };
 CoefficientsError compare_coefficients(const Coefficients& found, const Coefficients& reference);
 
-// Coefficients to compare with, about the given centre: by the direct engine if that takes only
-// seconds, otherwise by the fast engine, with a far higher precision than `precision`.
+// Coefficients to compare with, about the given centre. They come from the direct engine if it
+// takes only seconds, otherwise from the fast engine with a far higher precision than `precision`.
 struct Reference {
   Coefficients coefficients;
   Engine engine = Engine::kFast;

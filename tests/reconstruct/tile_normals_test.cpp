@@ -99,7 +99,7 @@ TEST(tile_normals, of_one_tile_are_those_of_all_points) {
     mean += norm(whole.normals[i] - found.normal());
     EXPECT_NEAR(whole.attributes[0].values[i], static_cast<double>(found.confidence), 0.05);
   });
-  // single precision and other frames
+  // single precision, other frames
   EXPECT_LT(mean / static_cast<double>(given.points.size()), 1e-6);
 }
 
