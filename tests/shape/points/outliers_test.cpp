@@ -54,7 +54,8 @@ TEST(Outliers, stray_points_are_found_and_the_surface_is_not_lost) {
     ++off_surface;
     found += flags[i];
   }
-  // In the first of the three looks; random normals agree with five of sixteen once in twenty.
+  // In the first of three passes, random normals agree with five of sixteen neighbours once in
+  // twenty.
   EXPECT_GT(static_cast<double>(found), 0.9 * static_cast<double>(off_surface));
 }
 
