@@ -14,7 +14,7 @@ import rholm
 
 Array = npt.NDArray[Any]
 Result = dict[str, Array]
-# : Runs a job in the other packages' environment, without measuring it: contender, data, options.
+#: Runs a job in the other packages' environment, without measuring it: contender, data, options.
 Prepare = Callable[..., Result]
 
 
