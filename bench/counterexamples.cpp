@@ -55,8 +55,8 @@ Tried try_body(const test::BodyGenes& genes) {
     return norm > 0 ? norm_of_degrees(error, 1, body.degree) / norm : 0;
   };
   double error = error_by(Method::kEdge);
-  // Sums over edges have terms that cancel where the surface is near; cubature of the faces has no
-  // such terms.
+  // Sums over edges have terms that cancel where the surface is near. Cubature of the faces has no
+  // terms that cancel.
   if (error > body.precision) error = error_by(Method::kArea);
   return {.genes = genes,
           .true_error = error / body.precision,

@@ -14,7 +14,7 @@ namespace {
 
 const Context kOneThread{.threads = 1, .progress = {}};
 constexpr double kEdge = 0.0083;  // mean edge on this sphere
-constexpr double kRadius = 0.49;  // of a disc with 10 000 vertices
+constexpr double kRadius = 0.49;  // radius of a disc with 10 000 vertices
 const Vec3 kTop = {0, 0, 1};
 
 const Mesh& sphere() {

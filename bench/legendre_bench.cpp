@@ -1,6 +1,6 @@
 // The Legendre stage on L + 1 Gauss rings, and whole transforms of the smallest grids of degree L.
-// If the build has found libsharp, it is compared: a whole transform, and one with a single
-// longitude, which is its Legendre stage and a pass over its phases.
+// If the build has found libsharp, it is compared. One of its transforms is whole, and one has a
+// single longitude, which amounts to its Legendre stage and a pass over its phases.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // Throughput of the readers of shapes, compared with a plain copy of the same file, on one thread
 // from the page cache. The counter bytes_per_second is the size of the file over the time.
 //
-// The copy is a lower bound for the time of a reader: read() into new memory, then memcpy to other
-// new memory (a reader, too, must fill its own arrays).
+// The copy is a lower bound for the time of a reader. It consists of read() into new memory, then
+// memcpy to other new memory, because a reader must fill its own arrays, too.
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
 #include <unistd.h>

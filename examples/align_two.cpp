@@ -17,7 +17,7 @@ rholm::Expansion expansion_of(const std::string& path) {
 void run(const std::string& path, const std::string& onto, const std::string& out) {
   const rholm::Expansion a = expansion_of(path);
   const rholm::Expansion b = expansion_of(onto);
-  // Both are expanded about the centroids of their solids, which move with the shape.
+  // Both surfaces are expanded about the centroids of their solids, which move with the shape.
   const rholm::Placement placement = rholm::align(a, b, rholm::AlignCenters::kVolume);
   const rholm::Alignment& found = placement.alignment;
   const rholm::Expansion moved = rholm::placed(a, placement);

@@ -57,7 +57,7 @@ Part part_of(const std::string& bytes) {
   return part;
 }
 
-// How to continue after an interruption, as long as the journal exists.
+// Progress, and the way to continue after an interruption as long as the journal exists.
 struct Progress {
   std::mutex mutex;
   std::string journal;

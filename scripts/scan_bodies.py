@@ -11,7 +11,7 @@ import rholm
 INPUTS = {"1k": (1000, 1), "3k": (3000, 1), "10k": (10000, 1), "100k": (100000, 1),
           "r5": (30000, 5), "r20": (60000, 20)}
 SIXTY = ("1k", "10k", "100k", "r5", "r20")
-AXIS = (0.3, 0.5, 1)  # of slices; rings of the torus have its own axis
+AXIS = (0.3, 0.5, 1)  # axis of slices; rings of the torus have its own axis
 
 
 def tube(curve, radius, n=600, m=48):

@@ -113,7 +113,7 @@ def fits(points, normals, seeds, planes, scale, ratio):
 def curvatures(points, normals, seeds, planes, radius):
     """Returns normal curvatures at the seeds across the planes of rows (S,). They belong to weighted
     quadrics fitted to all points within a radius except for opposite sheets. Edges have the curvature
-    that such distant rows can resolve."""
+    that rows at this distance can resolve."""
     tree, found = cKDTree(points), []
     for i, near in zip(seeds, tree.query_ball_point(points[seeds], radius)):
         near = np.array(near)[normals[near] @ normals[i] > -0.2]

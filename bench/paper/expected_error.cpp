@@ -1,6 +1,6 @@
-// The variance of one triangle's estimate is half the mean square of the difference of two points'
-// contributions Omega r conj(Y)(u), over the number of points. Summed over all coefficients, the
-// addition theorem gives
+// The variance of one triangle's estimate follows from pairs of points and their contributions
+// Omega r conj(Y)(u). It is half the mean square of the difference of two contributions, divided by
+// the number of points. Summed over all coefficients, the addition theorem gives
 //   Omega^2 / 2 (r1^2 K(1) + r2^2 K(1) - 2 r1 r2 K(u1 . u2)),  K(t) = sum_l (2l+1)/(4 pi) P_l(t).
 // Triangles are independent: their variances add up.
 #include "expected_error.h"

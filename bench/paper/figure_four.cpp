@@ -1,5 +1,5 @@
-// Figure 4: the error of points on edges and of points on triangles at the same number of points,
-// for random points and for nodes of Gauss rules.
+// Figure 4: the error of points on edges and of points on triangles at the same number of points.
+// Points are random, or nodes of Gauss rules.
 #include <vector>
 
 #include "experiments.h"

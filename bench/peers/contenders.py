@@ -54,8 +54,7 @@ def mesh_arrays(vertices: Any, triangles: Any) -> dict[str, npt.NDArray[Any]]:
 
 @contender
 def rholm_expand(data: Arrays, *, whole: bool = False, **options: Any) -> Job:
-    """Expands a mesh: with `whole` also centre, star check and truncation errors, otherwise only the
-    transform."""
+    """Expands a mesh; with `whole`, also finds centre, star check and truncation errors."""
     import rholm
 
     if not whole:

@@ -14,7 +14,7 @@ import rholm
 
 Array = npt.NDArray[Any]
 Result = dict[str, Array]
-# : Runs a job in the other packages' environment, without measuring it: contender, data, options.
+#: Runs a job in the other packages' environment, without measuring it: contender, data, options.
 Prepare = Callable[..., Result]
 
 
@@ -165,8 +165,7 @@ def oracle(prepare: Prepare) -> dict[str, float]:
 
 
 def surface_columns(result: Result, truth: rholm.Mesh, samples: int = 100_000) -> dict[str, float]:
-    """Returns distances between a surface and the true one, relative to the diagonal, and the volume's
-    error."""
+    """Returns distances between a surface and the true one over the diagonal, and the volume's error."""
     mesh = rholm.Mesh(result["vertices"], result["triangles"])
     c = rholm.compare(truth, mesh, samples=samples)
     return {
@@ -178,7 +177,7 @@ def surface_columns(result: Result, truth: rholm.Mesh, samples: int = 100_000) -
 
 
 def voxels(data: Path | None, prepare: Prepare) -> Iterator[Group]:
-    """Compares ways from a solid to coefficients and back to a surface: by voxels, by the mesh."""
+    """Compares ways from a solid to coefficients and back to a surface: voxels, and the mesh."""
     name, mesh = read(data, "asteroid-bennu.ply", lambda: rholm.bumpy_sphere(5))
     arrays = arrays_of(mesh)
     given = {"mesh": arrays}
@@ -248,7 +247,7 @@ def sources(mesh: Result, points: int) -> Result:
 
 
 def sums(data: Path | None, prepare: Prepare) -> Iterator[Group]:
-    """Compares coefficients by sums over given sources with a transform that places its own sources."""
+    """Compares sums over given sources with a transform that places its own sources."""
     del prepare
     shapes: list[tuple[str, int, int, dict[str, Any], tuple[str, ...]]] = [
         ("asteroid-bennu.ply", 180, 6, {}, ("1", "2")),

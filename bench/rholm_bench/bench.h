@@ -70,7 +70,7 @@ FileBench bench_file(const std::filesystem::path& path, const BenchOptions& opti
 struct SumsBench {
   std::size_t directions = 0;
   Timing adjoint;                // add_adjoint() of weights
-  Timing adjoint_with_gradient;  // and of gradients
+  Timing adjoint_with_gradient;  // add_adjoint() of weights and gradients
   Timing forward_with_gradient;  // evaluate_with_gradient()
   // Time of add_adjoint() of weights by the direct engine, for a sample of the directions taken
   // evenly from the mesh, and scaled to all directions.
@@ -83,11 +83,11 @@ SumsBench bench_sums(const Mesh& mesh, const Expansion& expansion, const BenchOp
 // Lower bounds of the stages on one thread: the same amount of work without anything else.
 struct FloorsBench {
   Timing file_read;  // the file's bytes, page cache to a small buffer
-  Timing copy;       // as many bytes from one array to another
+  Timing copy;       // equally many bytes from one array to another
   // Updates of the cells under the window of each vertex with constant taps: spreading without its
   // window. `fast` has the number of grid points and the precision.
   Timing row_updates;
-  Timing legendre;             // the Legendre sums of the transform, on as many rings
+  Timing legendre;             // the Legendre sums of the transform, on equally many rings
   std::size_t grid_bytes = 0;  // bytes of one grid
 };
 FloorsBench bench_floors(const std::filesystem::path& path, const Mesh& mesh,
@@ -96,14 +96,14 @@ FloorsBench bench_floors(const std::filesystem::path& path, const Mesh& mesh,
 
 // Distance between two sets of coefficients of the same degree.
 struct CoefficientsError {
-  double error = 0;      // l2 over 1 <= l <= L, relative to that norm of the reference
-  double top_error = 0;  // of the degrees above 3L/4, relative to that band of the reference
-  double mean = 0;       // of c_00, relative to the reference's
+  double error = 0;      // l2 over 1 <= l <= L, relative to the norm of the reference
+  double top_error = 0;  // degrees above 3L/4, relative to the same band of the reference
+  double mean = 0;       // error of c_00, relative to the reference's
 };
 CoefficientsError compare_coefficients(const Coefficients& found, const Coefficients& reference);
 
-// Coefficients to compare with, about the given centre: by the direct engine if that takes only
-// seconds, otherwise by the fast engine, with a far higher precision than `precision`.
+// Coefficients to compare with, about the given centre. They come from the direct engine if it
+// takes only seconds, otherwise from the fast engine with a far higher precision than `precision`.
 struct Reference {
   Coefficients coefficients;
   Engine engine = Engine::kFast;

@@ -58,7 +58,7 @@ CoefficientsError compare_coefficients(const Coefficients& found, const Coeffici
 Reference bench_reference(const std::filesystem::path& path, const Vec3& center,
                           const BenchOptions& options, const Context& context) {
   check(options);
-  // Mapping counts the triangles of large files. Small files are estimated, and may be read twice.
+  // Mapping counts triangles where it matters, in large files; small files may be read twice.
   const auto mapped = map_mesh(path, context);
   const double triangles =
       mapped ? static_cast<double>(mapped->view().n_triangles)

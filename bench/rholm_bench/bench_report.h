@@ -12,7 +12,7 @@ namespace rholm::cli {
 // Results for one mesh at one degree and precision.
 struct BenchCase {
   std::string mesh;           // name of the file, or of a made mesh
-  bool random_order = false;  // of the triangles
+  bool random_order = false;  // True for triangles in random order
   int degree = 0;
   double precision = 0;
   FileBench file;

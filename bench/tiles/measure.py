@@ -31,7 +31,7 @@ def reconstruct(folder: Path, n: int, *more: str) -> dict:
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     report = json.loads(ran.stdout)
     report["cpu"] = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    report["memory"] = 1024 * after.ru_maxrss  # of the largest child, which is this one
+    report["memory"] = 1024 * after.ru_maxrss  # largest child, which is this one
     return report
 
 

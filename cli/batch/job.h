@@ -51,7 +51,7 @@ struct BatchJob {
 // Makes the job. Throws UsageError for errors that need no shape (also in the command's options, by
 // a run for a file that cannot exist), InvalidInput and Io for the manifest.
 BatchJob make_job(const BatchOptions& options, const BatchCommands& commands);
-// Same for the text of a manifest.
+// Makes the job from the text of a manifest.
 BatchJob make_job(const BatchOptions& options, const BatchCommands& commands,
                   std::vector<char> manifest_text);
 

@@ -38,7 +38,7 @@ CoefficientsFile read_coefficients_input(const std::string& path, Session& sessi
 Input read_input(const std::string& path, Session& session, const InputConvention& convention,
                  const std::string& columns = {});
 
-// Same for a surface: coefficients of anything else are Unsupported.
+// Read an input that must be a surface: coefficients of anything else are Unsupported.
 Expansion read_expansion(const std::string& path, Session& session,
                          const InputConvention& convention);
 Input read_surface_input(const std::string& path, Session& session,

@@ -203,7 +203,7 @@ double corners_of_faces(std::ifstream& file, std::uintmax_t size) {
 ShapeMemory memory_of_counts(const Counts& counts, std::ifstream& file, std::uintmax_t size) {
   const auto bytes = static_cast<double>(size);
   constexpr double kTriangle = 13, kSquare = 17, kOfSquare = 2;  // bytes, and triangles
-  // Limits the counts to those that the file has room for.
+  // The file's size limits the counts.
   const double vertices = std::min(counts.vertices, bytes / (counts.is_text ? 6 : 3));
   double faces = std::min(counts.faces, bytes / (counts.is_text ? 4 : 1));
   double polygons = 0;

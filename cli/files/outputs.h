@@ -1,5 +1,5 @@
-// Output files of the command line. Wrong requests are refused before the work begins. Layer:
-// cli.
+// Output files of the command line. Wrong requests are refused before the work begins.
+// Layer: cli.
 #pragma once
 
 #include <optional>
@@ -47,9 +47,9 @@ struct CoefficientsOutput {
 // Throws UsageError if neither gives one, or for "-" without a format. `json` is true if a report
 // uses standard output as well.
 ShapeFormat shape_output(const std::string& path, const std::string& format, bool json = false);
-// Same for a mesh: a format without faces is refused.
+// Returns the format of a mesh: a format without faces is refused.
 ShapeFormat mesh_output(const std::string& path, const std::string& format, bool json = false);
-// Same for points: a format that holds only faces is refused.
+// Returns the format of points: a format that holds only faces is refused.
 ShapeFormat points_output(const std::string& path, const std::string& format, bool json = false);
 CoefficientsOutput coefficients_output(const std::string& path, const std::string& format,
                                        bool json = false);

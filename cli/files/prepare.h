@@ -31,7 +31,7 @@ Prepared prepare(const Mesh& mesh, double weld_tolerance);
 // Note on a mesh that was inside out.
 inline constexpr const char* kFlipped =
     "the mesh was inside out, it has been turned right side out";
-// Same for points.
+// Note on points whose normals all pointed inwards.
 inline constexpr const char* kTurned =
     "all normals pointed inwards, they have been turned outwards";
 

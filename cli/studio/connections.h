@@ -1,5 +1,5 @@
-// Connections from accept to close: admission of requests, and shutdown. Layer:
-// cli.
+// Connections from accept to close: admission of requests, and shutdown.
+// Layer: cli.
 //
 // A connection waits until its request line and headers have arrived; no worker waits for it. The
 // thread that watches all connections answers requests without the token, so that all workers are

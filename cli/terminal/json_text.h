@@ -15,8 +15,8 @@ namespace rholm::cli {
 
 Json json_of(const Bounds& bounds);
 Json json_of(const std::vector<Attribute>& attributes);
-// Both have "kinds", the quality of each error: "exact" up to rounding, "measured" against the
-// shape, or an "estimate" from a model of the truncation error.
+// Return JSON with "kinds", the quality of each error: "exact" up to rounding, "measured" against
+// the shape, or an "estimate" from a model of the truncation error.
 Json json_of(const TruncationErrors& errors);
 Json json_of(const FastReport& fast);
 template <typename T>

@@ -36,7 +36,7 @@ struct PrincipalAxes {
 PrincipalAxes principal_axes(const Coefficients& coefficients,
                              RadialFunction function = RadialFunction::kRadius);
 
-// Where the search for a rotation starts.
+// Starting points of the search for a rotation.
 enum class AlignStart {
   kCorrelation,   // all rotations, by Fourier transforms over SO(3)
   kPrincipalAxes  // the four ways to map axes to axes: faster, wrong if two are nearly equal
@@ -44,7 +44,7 @@ enum class AlignStart {
 
 EnumNames names_of(AlignStart start);  // "correlation", "principal-axes"
 
-// How align() searches for the rotation, and which correlations count as equal.
+// Options of the search, and limits below which correlations count as equal.
 struct AlignOptions {
   AlignStart start = AlignStart::kCorrelation;  // where the search starts
   int bandwidth = 20;  // degrees used by the search, 1 ... 64; its grid has steps of about 6 deg

@@ -26,8 +26,8 @@ CoefficientsFormat parse_coefficients_format(const std::string& name);  // throw
 // Returns the format by extension: .sh .txt .shtools; .gfc .icgem; .json; .npy. Empty if unknown.
 std::optional<CoefficientsFormat> coefficients_format_of(const std::filesystem::path& path);
 
-// How to interpret a file that does not state its convention (bare text, .npy). A convention stated
-// in the file takes precedence unless `override_file` is set.
+// Convention of a file that does not state it (bare text, .npy). A convention stated in the file
+// takes precedence unless `override_file` is set.
 struct CoefficientsReadOptions {
   Convention convention = {};  // convention of files that state none
   bool override_file = false;  // true: use `convention` for all files
@@ -68,7 +68,7 @@ CoefficientsFile parse_coefficients(std::span<const char> bytes, const std::stri
 // its lines distinguish it from points.
 bool looks_like_coefficients(std::span<const char> bytes);
 
-// How coefficients are written.
+// Options for writing coefficients.
 struct CoefficientsWriteOptions {
   std::optional<CoefficientsFormat> format = {};  // empty: from the extension
   Convention convention = {};                     // convention of the numbers; stored if possible

@@ -79,7 +79,7 @@ void visit_fields(FieldsOf<AtlasSize>, const Visitor& field) {
 // Counts caps, nonzero coefficients and frame numbers of an atlas.
 AtlasSize size_of(const Atlas& atlas);
 
-// How a model was computed, and how well it keeps the shape.
+// Report of compress(): how the model was computed, and how well it keeps the shape.
 struct CompressReport {
   std::size_t samples = 0;      // number of samples that caps were fitted to
   bool turned_normals = false;  // true if the points' normals all pointed inwards and were turned
@@ -141,7 +141,7 @@ Compressed compress(const Mesh& mesh, const CompressOptions& options, const Cont
 Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                     const Context& context = {});
 
-// How a surface is extracted from a model.
+// Options for extracting the surface from a model.
 struct AtlasSynthesisOptions {
   double step = 0;  // edge of the grid's cubes; 0: the model's step (see also `simplify`)
   // Highest degree of the caps. Caps of higher degrees are fitted again, with this degree, to the

@@ -1,4 +1,4 @@
-// How a long computation runs: threads, progress, cancellation. Layer: base.
+// Execution of long computations: threads, progress, cancellation. Layer: base.
 #pragma once
 
 #include <functional>

@@ -15,8 +15,8 @@
 
 namespace rholm {
 
-// How a low-pass filter falls from 1 at degree 0 to 0 above its degree L. A sharper fall keeps more
-// of the shape and rings more at edges. windows() describes each one.
+// Shapes of the fall of a low-pass filter from 1 at degree 0 to 0 above its degree L. A sharper
+// fall keeps more of the shape and rings more at edges. windows() describes each one.
 enum class Window {
   // Each value is described by its row in windows().
   kIdeal,
@@ -119,7 +119,7 @@ void visit_fields(FieldsOf<Overshoot>, const Visitor& field) {
 // Returns the overshoot for a step: 1 within 60 degrees of the pole and 0 beyond. Its coefficients
 // are known in closed form, (P_{l-1}(1/2) - P_{l+1}(1/2)) / 2.
 Overshoot overshoot(std::span<const double> gains);
-// Same for low_pass(degree); a window that is not cut off is used up to 8 times the degree.
+// Returns the overshoot of low_pass(degree); a window without cut-off is used to 8 times `degree`.
 Overshoot overshoot(Window window, int degree);
 
 }  // namespace rholm

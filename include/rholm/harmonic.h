@@ -20,14 +20,14 @@
 
 namespace rholm {
 
-// How sums over directions are computed.
+// Ways to compute sums over directions.
 enum class Engine {
   kFast,   // on a grid, to a wanted precision
   kDirect  // term by term: the reference
 };
 EnumNames names_of(Engine engine);  // "fast", "direct"
 
-// How sums are computed, and how exactly.
+// Engine and precision of sums.
 struct SumOptions {
   Engine engine = Engine::kFast;  // kDirect ignores the precision
   // Precision of the fast engine, 1e-14 ... 1e-1: l2 error of all values (coefficients), relative

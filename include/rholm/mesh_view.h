@@ -1,4 +1,4 @@
-// A face mesh in memory owned by others: arrays of a program, or a mapped file. Layer: shape.
+// A mesh in memory owned by others: arrays of a program, or a mapped file. Layer: shape.
 #pragma once
 
 #include <cstddef>
@@ -53,8 +53,8 @@ Mesh mesh_of(const MeshView& view);
 // row is loaded again when it is used. Without a function rows stay in memory.
 struct MeshInPlace {
   MeshView mesh;                                                                 // not copied
-  std::function<void(std::size_t first, std::size_t n)> release_vertices = {};   // n from the first
-  std::function<void(std::size_t first, std::size_t n)> release_triangles = {};  // likewise
+  std::function<void(std::size_t first, std::size_t n)> release_vertices = {};   // n vertices
+  std::function<void(std::size_t first, std::size_t n)> release_triangles = {};  // n faces
 };
 
 // Throws InvalidInput unless every coordinate is finite and every index is below the number of

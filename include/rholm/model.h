@@ -66,7 +66,7 @@ inline TransformOptions transform_options(const ExpandOptions& options) {
           .precision = options.precision};
 }
 
-// How a tolerance was kept: see ToleranceTransform.
+// Report on how a tolerance was kept: see ToleranceTransform.
 struct ToleranceReport {
   double allowed = 0, reached = 0;  // wanted and final error, in the mesh's unit
   bool met = false;                 // true if reached <= allowed
@@ -120,22 +120,22 @@ void visit_fields(FieldsOf<Expanded>, const Visitor& field) {
 // mesh that needs neither welding nor turning is not copied. Throws InvalidInput for options out of
 // range, and the errors of its stages.
 Expanded expand(const Mesh& mesh, const ExpandOptions& options = {}, const Context& context = {});
-// Same for arrays of another program; they are copied only if they must be changed.
+// Expands arrays of another program; they are copied only if they must be changed.
 Expanded expand(const MeshView& mesh, const ExpandOptions& options = {},
                 const Context& context = {});
-// Same for a mesh in a mapped file, without a copy. Returns nothing if the file must be read.
+// Expands a mesh in a mapped file, without a copy. Returns nothing if the file must be read.
 // Causes: a mesh not closed, not oriented outwards, or not star-shaped (unless allowed with a given
 // centre). Further causes: welding wanted, or not the method edge with the fast engine. Throws
 // errors that do not concern the mesh (options, memory, Cancelled).
 std::optional<Expanded> expand_mapped(const MappedMesh& mesh, const ExpandOptions& options = {},
                                       const Context& context = {});
-// Same for a file. A large binary PLY file is mapped, not read (mapped_mesh.h), if its mesh needs
-// no change: closed, oriented outwards, no welding wanted. If mapping fails, the file is read and
-// not mapped again. Expanded::times also has "read". The reader's warnings are appended to
+// Expands the mesh of a file. A large binary PLY file is mapped, not read (mapped_mesh.h), if its
+// mesh needs no change: closed, oriented outwards, no welding wanted. If mapping fails, the file is
+// read and not mapped again. Expanded::times also has "read". The reader's warnings are appended to
 // `warnings`.
 Expanded expand_file(const std::filesystem::path& path, const ExpandOptions& options = {},
                      const Context& context = {}, std::vector<std::string>* warnings = nullptr);
-// Same, but the function `read` reads the mesh if the file cannot be mapped.
+// Expands a file in the same way; the function `read` reads the mesh if the file is not mapped.
 Expanded expand_file(const std::filesystem::path& path, const ExpandOptions& options,
                      const Context& context, const std::function<Mesh()>& read);
 

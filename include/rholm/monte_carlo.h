@@ -33,7 +33,7 @@
 
 namespace rholm {
 
-// Where the random points are.
+// Places of the random points.
 enum class SamplePlaces {
   kEdges,     // on the flat edges
   kTriangles  // on the spherical triangles
@@ -104,7 +104,7 @@ struct MonteCarlo {
   // For each l, the l2 standard error of its 2l + 1 coefficients together. Over sqrt(4 pi) it is
   // the root mean square error of the function of degree l over the sphere.
   std::vector<double> degree_deviation;
-  // As in Transform; the uncertainty is 3 deviations. Empty unless there are very many samples.
+  // Same meaning as in Transform; the uncertainty is 3 deviations. Empty without very many samples.
   std::optional<double> truncation_rms, truncation_rms_doubt;
   StageTimes times;  // stages "samples", "sums", "norms"
 };

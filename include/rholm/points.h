@@ -222,7 +222,7 @@ void visit_fields(FieldsOf<ScanAlignment>, const Visitor& field) {
 // InvalidInput for an invalid cloud. Same input, same bits for any number of threads.
 ScanAlignment align_scans(PointCloud& cloud, const Context& context = {});
 
-// How normals are computed, and which side is outside.
+// Options for computing normals and their signs.
 struct OrientOptions {
   int neighbors = 0;             // number in a fit, 3 ... 1000; 0: chosen from the data
   bool keep_directions = false;  // keep directions of given nonzero normals, choose only signs
@@ -307,7 +307,7 @@ void visit_fields(FieldsOf<OrientReport>, const Visitor& field) {
 }
 
 // Share of unsure points above which normals, and surfaces made with them, are unreliable.
-inline constexpr double kTooUnsure = 0.2;  // chosen: a fifth of the normals may be reversed
+inline constexpr double kTooUnsure = 0.2;  // chosen: a shape with a fifth inside out is unusable
 
 // Computes unit normals that point out of the solid. Directions come from planes and paraboloids
 // through the nearest points. They are fitted between rows where points lie in rows, and to one

@@ -70,9 +70,9 @@ struct ReconstructOptions {
   CapBlend blend = CapBlend::kSmooth;    // kSpline: the paper's weights, for comparison
   // Parts of the surface with an area below this share of the largest part's area are dropped.
   double min_component = 0.01;
-  // False: isolated points far from all others are removed. If
-  // such points exist, points near the surface with deviating
-  // normals or heights are removed too. True: all points are kept.
+  // False: isolated points far from all others, at any distance, are removed. If such points exist,
+  // points near the surface with deviating normals or heights are removed too. True: all points are
+  // kept.
   bool keep_outliers = false;
   // Point from which all points were measured. If empty, attributes
   // sensor_x, sensor_y, sensor_z of the cloud are used if all three exist
@@ -403,13 +403,13 @@ struct Reconstruction {
 // named as another format.
 Reconstruction reconstruct(const PointCloud& cloud, const ReconstructOptions& options = {},
                            const Context& context = {});
-// Same, without a copy of the points.
+// Reconstructs a surface without a copy of the points.
 Reconstruction reconstruct(PointCloud&& cloud, const ReconstructOptions& options = {},
                            const Context& context = {});
-// Same for the points of a file. Formats of PointStream (PLY, lines of numbers) with more points
-// than a tile are read in portions, other formats and meshes as a whole. A mesh contributes
-// vertices with the mean normals of their faces. `columns` is as in ShapeReadOptions. Throws also
-// as read_shape() and PointStream.
+// Reconstructs a surface from the points of a file. Formats of PointStream (PLY, lines of numbers)
+// with more points than a tile are read in portions, other formats and meshes as a whole. A mesh
+// contributes vertices with the mean normals of their faces. `columns` is as in ShapeReadOptions.
+// Throws also as read_shape() and PointStream.
 Reconstruction reconstruct(const std::filesystem::path& points,
                            const ReconstructOptions& options = {}, const Context& context = {},
                            const std::string& columns = {});

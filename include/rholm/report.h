@@ -96,11 +96,11 @@ void visit_fields(FieldsOf<ReportOptions>, const Visitor& field) {
 std::string report_html(const Expansion& expansion, const Mesh* shape, const ReportOptions& options,
                         const Context& context = {});
 
-// Same for an atlas. The page has surfaces at several limits of the degree, the caps in colours,
-// the difference to `shape`, the effect of each degree, and a table of limits and errors. Surfaces
-// use the model's own step; distances are measured at 100 000 points of each surface. The tolerance
-// of the options is ignored, because the model has its own. Throws InvalidInput as above, and for
-// an atlas without caps.
+// Returns the page of an atlas. It shows surfaces at several limits of the degree, the caps in
+// colours, the difference to `shape`, and the effect of each degree. A table lists limits and
+// errors. Surfaces use the model's own step; distances are measured at 100 000 points of each
+// surface. The tolerance of the options is ignored, because the model has its own. Throws
+// InvalidInput as above, and for an atlas without caps.
 std::string report_html(const AtlasModel& model, const Mesh* shape, const ReportOptions& options,
                         const Context& context = {});
 

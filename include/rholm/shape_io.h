@@ -94,7 +94,7 @@ ShapeFile parse_shape(std::span<const char> bytes, const std::string& name,
 PointCloud points_of_rows(std::span<const double> rows, std::size_t width,
                           const std::string& columns = {}, TableColumns* table = nullptr);
 
-// How a shape is written.
+// Options for writing a shape.
 struct ShapeWriteOptions {
   std::optional<ShapeFormat> format = {};  // empty: from the extension
   bool ascii = false;                      // PLY and STL: text instead of binary little endian

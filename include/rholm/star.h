@@ -13,7 +13,7 @@
 
 namespace rholm {
 
-// How the centre is chosen.
+// Choices of the centre.
 enum class CenterKind {
   kAuto,      // same as kSlope
   kKernel,    // Chebyshev centre of the kernel: maximises the smallest d_T
@@ -76,7 +76,7 @@ struct StarReport {
   double once_share = 0;          // share of the directions that meet the surface exactly once
   double multiple_share = 0;      // share that meet it more than once
   double missed_share = 0;        // share that never meet it
-  bool center_fell_back = false;  // the kernel is empty, but was sought: the centre is the LP's
+  bool center_fell_back = false;  // the kernel is empty but was needed: the centre is the LP's
                                   // point or volume centroid, whichever has the larger once_share
 };
 
@@ -104,7 +104,7 @@ void visit_fields(FieldsOf<StarReport>, const Visitor& field) {
 // Finds the centre and checks visibility. `mesh` is welded, closed, outward; faces thinner than
 // rounding are ignored. Throws InvalidInput for a mesh without a face of positive area.
 StarReport find_center(const Mesh& mesh, const CenterOptions& options, const Context& context = {});
-// Same without a copy of the mesh, except for the test directions if it is not closed.
+// Does the same without a copy of the mesh, except for the test directions if it is not closed.
 StarReport find_center(const MeshView& mesh, const CenterOptions& options,
                        const Context& context = {});
 
@@ -146,7 +146,7 @@ void visit_fields(FieldsOf<ChartOptions>, const Visitor& field) {
 // with the numbers of the report, if it is not star-shaped and not allow_signed.
 StarChart make_star_chart(const Mesh& mesh, const ChartOptions& options = {},
                           const Context& context = {});
-// Same with given edges from pair_edges(mesh).
+// Makes the chart with given edges from pair_edges(mesh).
 StarChart make_star_chart(const Mesh& mesh, std::vector<Edge> edges, const ChartOptions& options,
                           const Context& context = {});
 

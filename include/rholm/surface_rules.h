@@ -31,8 +31,8 @@ struct SeenCubes {
   std::vector<std::uint8_t> bits;
 };
 
-// How reconstruct() extracted its surface from the caps. With these rules synthesize() makes the
-// same surface again: to the bit at the grid's own step, if there was one tile.
+// Rules by which reconstruct() extracted a surface from its caps. With them synthesize() makes the
+// same surface again: to the bit at the grid's own step, if there was a single tile.
 struct SurfaceRules {
   HolePolicy holes = HolePolicy::kFill;          // as ReconstructOptions::holes
   double min_component = 0.01;                   // as ReconstructOptions::min_component

@@ -23,7 +23,7 @@
 
 namespace rholm {
 
-// How detail is added to the target.
+// Ways to add detail to the target.
 enum class TransferMode : std::uint8_t {
   kDisplacement,  // along the normals of the target's base
   kCoefficients   // coefficients above from_degree of one cap replace the other cap's, including

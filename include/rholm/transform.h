@@ -80,8 +80,8 @@ void visit_fields(FieldsOf<FastReport>, const Visitor& field) {
 struct TransformOptions {
   int degree = 64;                // L, 0 ... kMaxDegree
   Method method = Method::kEdge;  // kGauge expands 1/r, the others r
-  // How sums are computed: the fast engine keeps the wanted precision, direct sums are the
-  // reference. The methods curl and area always use direct sums.
+  // Engine for sums: the fast engine keeps the wanted precision, direct sums are the reference. The
+  // methods curl and area always use direct sums.
   Engine engine = Engine::kFast;
   // Wanted error, 1e-14 ... 1e-1. For 1 <= l <= L: l2 norm of the error / norm of the function
   // without its mean. For c_00: relative to c_00. Rounding adds about 1e-15 c_00 times the largest

@@ -51,12 +51,12 @@ TruncationErrors truncation_errors(const MeshView& mesh, const Expansion& expans
                                    const TruncationOptions& options = {},
                                    const Context& context = {});
 
-// How errors over the surface are combined.
+// Ways to combine the errors over the surface.
 enum class ErrorNorm {
   kRms,  // root mean square
   kMax   // largest
 };
-// How the error at a place is measured.
+// Ways to measure the error at a place.
 enum class ErrorMeasure {
   kRadius,   // radial, rms over solid angle: exact, by Parseval
   kDistance  // distance to the closest point, rms over area, the larger of both directions

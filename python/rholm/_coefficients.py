@@ -113,12 +113,12 @@ def power_spectrum(
     coefficients : coefficients-like
         The function.
     kind : {"energy", "power"}
-        "energy": the sum over l is the integral of f^2 over the sphere. "power": the sum is the
-        mean square of f, smaller by 4 pi, the default of pyshtools' ``spectrum()``.
+        For "energy" the sum over l is the integral of f^2 over the sphere. For "power" the sum is
+        the mean square of f, smaller by 4 pi. This is the default of pyshtools' ``spectrum()``.
     unit : {"per_l", "per_lm", "per_dlogl"}
-        The value for each degree; for each of its 2l+1 coefficients, on average; or for a band of
-        degrees. The last one is l ln(base) times the degree's value, a density in log_base(l), as
-        in pyshtools.
+        By degree, by coefficient (the mean over the 2l+1 coefficients of the degree), or for a band
+        of degrees. The last one is l ln(base) times the degree's value, a density in log_base(l),
+        as in pyshtools.
     base : float
         Base of the logarithm in "per_dlogl", above 1.
 

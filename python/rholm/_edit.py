@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from ._keywords import PatchKeywords
     from ._transfer import TransferEditor
 
-#: A region of a mesh. It is text in the program's syntax ("ball:X,Y,Z,R", "vertex:INDEX,RADIUS",
-#: "box:X0,Y0,Z0,X1,Y1,Z1", "property:NAME", "color:RRGGBB") or a list of texts, their union. Or it
-#: is a mask (N,) of bools, weights (N,) in 0 ... 1, or indices of vertices. None is the whole mesh.
+#: A region of a mesh. Texts are "ball:X,Y,Z,R", "vertex:INDEX,RADIUS", "box:X0,Y0,Z0,X1,Y1,Z1",
+#: "property:NAME", "color:RRGGBB", as in the program. A list of texts is their union. Arrays are a
+#: mask (N,) of bools, weights (N,) in 0 ... 1, or indices of vertices. None is the whole mesh.
 RegionLike = Union[str, list[str], tuple[str, ...], npt.ArrayLike, None]
 
 _MASK = "rholm_region"
@@ -227,9 +227,9 @@ def smooth(
     mesh : mesh-like
         Mesh of any genus, closed or open. Its connectivity stays.
     region : region-like
-        "ball:X,Y,Z,R", "vertex:INDEX,RADIUS", "box:X0,Y0,Z0,X1,Y1,Z1", "property:NAME",
-        "color:RRGGBB", or a list of these texts. Or a mask, weights per vertex, or vertex indices.
-        None: the whole mesh.
+        Text "ball:X,Y,Z,R", "vertex:INDEX,RADIUS", "box:X0,Y0,Z0,X1,Y1,Z1", "property:NAME",
+        "color:RRGGBB", or a list of these texts. Arrays are a mask, weights per vertex, or vertex
+        indices. None is the whole mesh.
     wavelength : float
         Finest detail to keep, in the mesh's unit.
     strength : float

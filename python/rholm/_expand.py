@@ -83,11 +83,12 @@ def expand(
         How errors are measured: along rays from the centre, or between the surfaces. By default the
         radius; with ``unit="diagonal"`` the distance.
     center : {"auto", "kernel", "slope", "cosine", "none", "centroid", "volume"} or array_like, (3,)
-        Choice of the centre. "auto", "slope": where the radius has the least slope. This point is
-        on the line through "kernel" and the centroid of the solid, well within the points that see
-        the whole surface. "kernel": in the middle of these points. "cosine": where the surface is
-        seen least obliquely. "none": the origin. "centroid": centroid of the surface. "volume":
-        centroid of the solid, or "slope" if the centroid does not see the whole surface.
+        Choice of the centre. For "auto" and "slope" the radius has the least slope there. This
+        point is on the line through "kernel" and the centroid of the solid, well within the points
+        that see the whole surface. The choice "kernel" is in the middle of these points. From
+        "cosine" the surface is seen least obliquely. The choice "none" is the origin, "centroid" is
+        the centroid of the surface. The choice "volume" is the centroid of the solid, or "slope" if
+        the centroid does not see the whole surface.
     {options}
     length_unit : str
         Unit of the vertices: "km", "mm", ...

@@ -161,8 +161,8 @@ def align(
         Two surfaces, or two functions on the sphere.
     centers : {"auto", "volume", "own"}
         Points of the surfaces that are brought together first: centroids of the solids, or the
-        centres of the expansions. "auto": the centroids if both see their whole surfaces, otherwise
-        the expansions' centres, with a warning.
+        centres of the expansions. The choice "auto" takes the centroids if both see their whole
+        surfaces. Otherwise it takes the expansions' centres, with a warning.
     {options}
     threads, progress
         See `rholm.caller`.

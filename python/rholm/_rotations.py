@@ -57,7 +57,7 @@ def rotation_of(alpha: Any, beta: float | None = None, gamma: float | None = Non
     Parameters
     ----------
     alpha : float, or array_like (3, 3)
-        Angle about z, applied last, in radians. Or a matrix with R R^T within 1e-4 of 1.
+        Angle about z, applied last, in radians. Alternatively a matrix with R R^T within 1e-4 of 1.
     beta, gamma : float, optional
         Angle about y, and angle about z, applied first. All axes are fixed.
     """

@@ -313,13 +313,14 @@ class PointCloud:
         return notebook_png(self)
 
 
-#: A mesh: a `Mesh`, a result that contains one, such as the result of `repair`, (vertices,
-#: triangles), a path, or a mesh of trimesh, PyVista or meshio.
+#: A mesh is a `Mesh`, (vertices, triangles), a path, or a mesh of trimesh, PyVista or meshio. A
+#: result that contains a mesh is accepted too, for example from `repair`.
 MeshLike = Union[Mesh, tuple[Any, Any], str, os.PathLike[str], Any]
 
-#: Points: a `PointCloud`, a result that contains one, such as the result of `orient`, an array (N,
-#: 3) or (N, k), (points, normals), a path, or points of trimesh, PyVista or meshio. A mesh stands
-#: for its vertices with their normals. A second array of whole numbers holds triangles.
+#: Points are a `PointCloud`, an array (N, 3) or (N, k), (points, normals), a path, or points of
+#: trimesh, PyVista or meshio. A result that contains points is accepted too, for example from
+#: `orient`. A mesh stands for its vertices with their normals. A second array of whole numbers
+#: holds triangles.
 PointsLike = Union[PointCloud, npt.ArrayLike, tuple[Any, Any], str, os.PathLike[str], Any]
 
 

@@ -37,8 +37,8 @@ def evaluate(
     directions : array_like, (..., 3)
         Directions, vectors of any length.
     engine : {"fast", "direct"}
-        "fast": on a grid, O(N + L^3), to a precision. "direct": term by term, O(N L^2), exact to
-        rounding.
+        Kind of sums. The choice "fast" uses a grid, O(N + L^3), to a precision. The choice "direct"
+        sums term by term, O(N L^2), exact to rounding.
     precision : float
         1e-14 ... 1e-1: l2 norm of all errors, relative to the l2 norm of sums with random signs.
     threads, progress

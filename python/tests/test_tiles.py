@@ -140,7 +140,8 @@ def test_what_is_said_is_what_is_there(cloud, tmp_path):
     (forecast,) = seen
     assert (forecast.points, forecast.tiles) == (len(cloud), report.tiles)
     assert forecast.memory == rholm.foresee_tiles(len(cloud), TILE).memory == report.memory
-    # The same in memory: the mesh with the attributes of the points, the caps and the report.
+    # Run in memory, with the same results: the mesh with the points' attributes, the caps, the
+    # report.
     kept = rholm.reconstruct(cloud, **options)
     kept.save(tmp_path / "kept.ply")
     assert (tmp_path / "kept.ply").read_bytes() == (tmp_path / "s.ply").read_bytes()

@@ -13,8 +13,8 @@ BYTES = 4 << 30
 
 
 class Run:
-    """A finished run. code: exit code, or the negative number of the signal; out and err: bytes; seconds;
-    memory in bytes; exceeded: name of the exceeded limit, if any."""
+    """A finished run. `code` is the exit code, or the negative number of the signal. `out` and `err` are
+    bytes, `memory` is in bytes. `exceeded` is the name of the exceeded limit, if any."""
 
     def __init__(self, words, folder):
         with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:

@@ -1,5 +1,5 @@
-"""The tests of the program in locales where numbers have commas (German) and where I is not the capital of
-i (Turkish): texts, numbers and files must be the same."""
+"""Runs the tests of the program in locales where numbers have commas (German), and where I is not the
+capital of i (Turkish). Texts, numbers and files must be the same."""
 
 import locale
 import os

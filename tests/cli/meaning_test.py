@@ -147,8 +147,7 @@ class NoShape(Meaning):
             lines = (self.folder / name).read_text().split("end_of_head")[0].splitlines()
             return dict(line.split(None, 1) for line in lines if len(line.split()) > 1)
         self.write("g.gfc", GRAVITY)
-        # Goes through every command that keeps the meaning of the numbers, and every format that can store
-        # it.
+        # Uses every command that keeps the meaning of the numbers, and every format that can store it.
         for step, source in enumerate(("g.gfc", "0.h5", "1.json", "2.sh")):
             ending = ("h5", "json", "sh", "gfc")[step]
             words = (["convert"], ["filter", "--low-pass", "2"],
@@ -164,7 +163,7 @@ class NoShape(Meaning):
                    .replace("gravity_constant", "a").replace("reference_radius", "b"))
         self.write("bare.sh", BARE)
         given = ("--gravity-constant", "4.9e12", "--reference-radius", "1738000")
-        for source in ("1.json", "plain.json", "bare.sh"):  # one says that it is no surface, two say nothing
+        for source in ("1.json", "plain.json", "bare.sh"):  # these say that they are no surface, or nothing
             self.rholm("convert", source, "p.gfc", *given)
             self.assertEqual(header("p.gfc")["product_type"], "gravity_field")
             self.assertEqual(float(header("p.gfc")["earth_gravity_constant"]), 4.9e12)
@@ -214,7 +213,7 @@ class Precision(Meaning):
         report = self.rholm("info", "old.json", "--json").json()
         self.assertIsNone(report["precision"])
         self.assertRegex(self.rholm("info", "old.json").out, r"(?m)^  precision +not said")
-        # The rest beyond the coefficients is made smaller than their precision can tell.
+        # The norm beyond the coefficients is made smaller than their precision can determine.
         norm = sum(self.rholm("spectrum", "old.json", "--json").json()["energy"])
         self.write("old.json", re.sub(r'"norm_squared":[^,]+', f'"norm_squared":{norm * (1 + 1e-9)!r}',
                                       (self.folder / "old.json").read_text()))

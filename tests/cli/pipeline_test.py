@@ -403,14 +403,14 @@ class Spectrum(CliTest):
         self.assertIn("rms beyond", self.rholm("spectrum", "a.h5").out)
 
     def test_a_tolerance_is_answered_with_its_degree(self):
-        # Only degrees 0 and 2 exist: the rest beyond degree l is known.
+        # Only degrees 0 and 2 exist: the error beyond degree l is known.
         self.write("a.sh", "0 0 1 0\n2 1 0.3 0.4\n")
         for tolerance, degree in ((1, 0), (0.05, 2)):
             self.assertIn(f"from degree {degree} on",
                           self.rholm("spectrum", "a.sh", "--tolerance", tolerance).out)
             report = self.rholm("spectrum", "a.sh", "--tolerance", tolerance, "--json").json()
             self.assertEqual(report["tolerance_degree"], degree)
-        # The rest beyond the file's coefficients is known, so that the answer may be: at no degree.
+        # The error beyond the file's coefficients is known, so that the answer may be: at no degree.
         self.write("a.off", off(*OCTAHEDRON))
         self.rholm("expand", "a.off", "--degree", "4", "-o", "a.h5")
         self.assertIn("never within", self.rholm("spectrum", "a.h5", "--tolerance", "1e-9").out)

@@ -98,7 +98,7 @@ class Signals(CliTest):
         process.kill()
         self.ended(process, writer)
         self.assertEqual(len(list(temporary.glob("rholm-batch-*"))), 1)
-        # A folder of another program with such a name is kept.
+        # A folder of another program whose name begins alike is kept.
         (temporary / "rholm-batch-shapes").mkdir()
         self.write("box.csv", "path\nbox.ply\n")
         self.rholm("batch", "box.csv", "--command", "info", "-o", "done.csv", environment=place)

@@ -80,7 +80,7 @@ class RanksRun:
             time.sleep(0.005)
 
     def have_mapped(self, name):
-        """Tells if all ranks have mapped this file into memory."""
+        """Returns true if all ranks have mapped this file into memory."""
         pids = self.pids()
         try:
             return len(pids) == self.ranks and all(
@@ -89,7 +89,7 @@ class RanksRun:
             return False
 
     def seconds_worked(self, rank):
-        """Returns the processor time of a rank, or 0 if there is no such process."""
+        """Returns the processor time of a rank, or 0 if the rank does not exist."""
         try:
             return seconds_worked(self.pids()[rank])
         except (KeyError, OSError):

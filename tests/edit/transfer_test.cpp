@@ -366,7 +366,7 @@ TEST(Transfer, what_cannot_be_done_is_refused) {
   EXPECT_THROW(transfer({}, disc, mesh, disc), Error);
   EXPECT_THROW(transfer(mesh, disc, {}, disc), Error);
   EXPECT_THROW(transfer(mesh, {}, mesh, disc), Error);
-  const Mesh ball = icosphere(4);  // no region on one side contains all of it
+  const Mesh ball = icosphere(4);  // no view shows all of it
   EXPECT_THROW(transfer(ball, Regions{BallRegion{{0, 0, 0}, 2}}, mesh, disc), Error);
 }
 

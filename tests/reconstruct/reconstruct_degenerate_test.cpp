@@ -146,7 +146,8 @@ TEST(ReconstructDegenerate, the_same_places_again) {
   EXPECT_EQ(made.report.dropped_points, 99 * 300U);
   const Mesh once = reconstruct(sphere).mesh;
   ASSERT_EQ(made.mesh.vertices.size(), once.vertices.size());
-  for (std::size_t i = 0; i < once.vertices.size(); ++i) {  // mean of hundred normals, rounded
+  // Means of a hundred normals have rounding errors.
+  for (std::size_t i = 0; i < once.vertices.size(); ++i) {
     EXPECT_LT(norm(made.mesh.vertices[i] - once.vertices[i]), 1e-6);
   }
   PointCloud opposite = sphere;

@@ -99,7 +99,7 @@ TEST(tile_normals, of_one_tile_are_those_of_all_points) {
     mean += norm(whole.normals[i] - found.normal());
     EXPECT_NEAR(whole.attributes[0].values[i], static_cast<double>(found.confidence), 0.05);
   });
-  // single precision and other frames
+  // The difference comes from single precision and from other frames.
   EXPECT_LT(mean / static_cast<double>(given.points.size()), 1e-6);
 }
 
@@ -236,7 +236,8 @@ TEST(tile_normals, face_one_sensor_for_all) {
   std::size_t away = 0;
   for_each_normal(made, given, [&](std::size_t i, const TileNormal& found) {
     const Vec3 to = normalized(above - given.points[i]);
-    away += dot(found.normal(), to) < -0.1 ? 1 : 0;  // glancing views may be wrong
+    // Points seen at a glancing angle may face away.
+    away += dot(found.normal(), to) < -0.1 ? 1 : 0;
   });
   EXPECT_EQ(away, 0u);
 }

@@ -206,7 +206,7 @@ TEST_F(TileReconstructOptions, brings_scans_together_as_one_piece_does) {
   EXPECT_GT(report.tiles, 2U);
   EXPECT_EQ(report.scans.scans, 8U);
   EXPECT_GT(report.scans.pairs, 1000U);
-  // A third of the points determine the motions; errors of a tenth of a motion are far larger.
+  // A third of the points determine the motions. Their error is far below a tenth of the motions.
   EXPECT_NEAR(report.scans.moved, one.report.scans.moved, 0.1 * one.report.scans.moved);
   EXPECT_LT(report.scans.distance, 0.2 * report.scans.distance_before);
   EXPECT_EQ(report.noise, 0);

@@ -250,7 +250,7 @@ TEST_F(TileReconstruct, closes_gaps_around_islands_whatever_the_portions_nightly
 }
 
 // A ring with a neck thinner than the points resolve, between tiles, within one tile, or in the
-// only tile. As in one piece the neck is cut and a ball is left, also where the surface may be
+// only tile. The neck is cut and a ball is left, as in one piece, also where the surface may be
 // open.
 TEST_F(TileReconstruct, cuts_handles_as_one_piece_does_nightly) {
   const PointCloud cloud = sample_surface(test::ring_with_neck(0.15), {.points = 4000, .seed = 5});

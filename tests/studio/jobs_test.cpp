@@ -163,7 +163,7 @@ TEST(Jobs, EveryPageBeginsWithWhatWasOpenedForTheFirst) {
   client.id = offered;
   ASSERT_EQ(client.open("tip.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").status, 200);
   EXPECT_EQ(Json::parse(client.ask("POST", "api/session").body).at("session"), offered);
-  // The first page keeps its own session.
+  // Changes by the first page do not affect later pages.
   client.step({{"op", "rename"}, {"item", 1}, {"name", "other"}});
   client.step({{"op", "make"}, {"shape", "box"}});
   client.ask("DELETE", "api/session");
@@ -173,7 +173,7 @@ TEST(Jobs, EveryPageBeginsWithWhatWasOpenedForTheFirst) {
   ASSERT_EQ(state.at("items").size(), 1U);
   EXPECT_EQ(state.at("items")[0].at("name"), "tip.off");
   EXPECT_TRUE(state.at("undo").is_null());
-  state = client.step({{"op", "make"}, {"shape", "box"}});  // it has its own number
+  state = client.step({{"op", "make"}, {"shape", "box"}});  // the new item has its own number
   EXPECT_NE(state.at("items")[0].at("id"), state.at("items")[1].at("id"));
   EXPECT_NE(state.at("items")[0].at("revision"), state.at("items")[1].at("revision"));
 }

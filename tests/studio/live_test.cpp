@@ -143,7 +143,7 @@ TEST(Live, SmoothingIsThatOfTheLibrary) {
     expect_near(arrays.at("positions"),
                 update(patch, {.wavelength = wavelength, .strength = strength}), 1e-6);
   }
-  EXPECT_EQ(client.state().at("undo"), "Make bumpy");  // not a step
+  EXPECT_EQ(client.state().at("undo"), "Make bumpy");  // adds no step
 }
 
 TEST(Live, AnAnalysisIsNotUsedForAnotherSurface) {

@@ -347,9 +347,9 @@ TEST(SessionFile, NoTextOfItsStepsBecomesACommand) {
         expect_harmless(lines_of(steps));
         ++accepted;
       } catch (const Refusal&) {
-        ++refused;  // not a valid name
+        ++refused;  // invalid name
       } catch (const Error&) {
-        ++refused;  // not readable by the library
+        ++refused;  // unreadable by the library
       }
     }
     *text = kept;

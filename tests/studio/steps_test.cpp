@@ -423,7 +423,7 @@ TEST(Steps, TheDegreeOfAToleranceIsTheSmallest) {
   const Json none =
       Json::parse(client.post({{"op", "degree_for"}, {"item", 1}, {"tolerance", 1e-9}}).body);
   EXPECT_FALSE(none.at("met").get<bool>());
-  EXPECT_EQ(client.state().at("undo"), state.at("undo"));  // not a step
+  EXPECT_EQ(client.state().at("undo"), state.at("undo"));  // adds no step
 }
 
 // A shown state may be saved: the recipe has its line until the whole model is shown again.

@@ -114,7 +114,7 @@ enum class CadRarity {
 
 // Puts vertices on some edges, in both faces of an edge, or in one face for T-junctions. Unless
 // slivers may meet, the fan of a face begins at a vertex on whose edges no other face has slivers.
-// If there is no such vertex, the fan begins at a new vertex in the middle of the face.
+// If every vertex has slivers, the fan begins at a new vertex in the middle of the face.
 inline FacedSolid with_split_edges(const FacedSolid& given, double share, bool junctions,
                                    bool slivers_meet, std::uint64_t seed) {
   std::uint64_t counter = 0;

@@ -1,5 +1,5 @@
-// A slow search for the largest radial error of an expansion: dense points on each face and its
-// edges, then random steps uphill from the worst points.
+// A slow search for the largest radial error of an expansion. Errors are computed at dense points
+// on each face and its edges, then at random steps uphill from the worst points.
 #pragma once
 
 #include <algorithm>

@@ -50,9 +50,9 @@ inline std::vector<Triangle> hull(const std::vector<Vec3>& p) {
   return faces;
 }
 
-// Returns a polyhedron with n + 4 vertices and 2n + 4 faces: a convex hull whose vertices are moved
-// along their rays by up to the factor 1 -+ `roughness`, then stretched. It is shifted at random by
-// the part `offset` (below 1) of the way to where it is no longer star-shaped.
+// Returns a polyhedron with n + 4 vertices and 2n + 4 faces. Vertices of a convex hull are moved
+// along their rays by up to the factor 1 -+ `roughness`, then stretched. The body is shifted at
+// random by the part `offset` (below 1) of the way to where it is no longer star-shaped.
 inline Mesh star_polyhedron(std::size_t n, double roughness, double offset, std::uint64_t seed) {
   std::vector<Vec3> p = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   for (Vec3& v : p) v = v / std::sqrt(3.0);

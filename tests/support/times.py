@@ -16,8 +16,8 @@ STARTED = time.monotonic()
 
 
 def spent():
-    """Returns two times in seconds: the processor time of this process, its threads and the processes that
-    it has waited for; and the time since this file was read."""
+    """Returns two times in seconds. The first is the processor time of this process, its threads and the
+    processes that it has waited for. The second is the time since this file was read."""
     used = sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
     return used, time.monotonic() - STARTED
 

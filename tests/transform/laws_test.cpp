@@ -244,7 +244,7 @@ TEST(norm_squared, closed_forms_agree_with_cubature) {
   }
 }
 
-// Parseval: the rest of (M7) after L degrees is the tail, about S/(3 pi (L+1/2)^3).
+// Parseval: the remainder of (M7) after L degrees is the tail, about S/(3 pi (L+1/2)^3).
 TEST(expand_chart, truncation_error_is_the_predicted_tail_on_a_coarse_mesh) {
   const StarChart chart = chart_about(test::rotated(bumpy_sphere(0, 0.3)), {0.1, 0.05, -0.2});
   for (const Method method : {Method::kEdge, Method::kGauge}) {

@@ -186,8 +186,8 @@ TEST(NormalEquations, nested_blocks_are_solved_side_by_side) {
   });
 }
 
-// A X = 1. One half of X mirrors the other half, so that the bound of each column has the condition
-// of the matrix as a factor, which is at most 100.
+// A X = 1. One half of X mirrors the other half. The bound of each column therefore has the
+// condition of the matrix as a factor, which is at most 100.
 TEST(NormalEquations, inverse_times_matrix_is_one) {
   test::for_each_target([](const char* target) {
     NormalFactor factor;

@@ -87,7 +87,7 @@ TEST(at_degree, leaves_caps_of_lower_degrees_alone) {
   EXPECT_EQ(level.band, atlas.band);
 }
 
-// The band grows by three standard deviations of the difference between such caps.
+// The band grows by three standard deviations of the difference between truncated caps.
 TEST(at_degree, widens_the_band_by_what_caps_lose) {
   const Atlas atlas = wavy_cap();
   for (const int degree : {0, 2, 4}) {

@@ -117,7 +117,8 @@ TEST(CapCover, both_sides_of_a_plate_have_caps_of_their_own) {
   EXPECT_LE(made.rejected.size(), 8U);  // at the border of both planes
   for (const Cap& cap : made.caps) {
     EXPECT_GT(cap.frame.seed().z * cap.frame.z.z, 0.009);
-    EXPECT_LT(cap.error, 1e-4);  // the thickness, for points of the other side
+    // Points of the other side would give errors of the plate's thickness.
+    EXPECT_LT(cap.error, 1e-4);
   }
 }
 

@@ -112,8 +112,8 @@ TEST(RepeatedMap, nearly_everywhere_there_is_one_copy_and_no_double) {
 }
 
 // Isolated bumps (1 - r^2 / w^2)^3 are steepest at r^2 = w^2 / 5, with the slope 1.717 / w. A seam
-// through a bump would be a step of 1 over a tenth: a slope of 20 at the steepest part of the fade,
-// in addition to the bump's slope. The gaps between bumps of a copy are 0.15 wide.
+// through a bump would be a step of 1 over a tenth. This is a slope of 20 at the steepest part of
+// the fade, in addition to the bump's slope. The gaps between bumps of a copy are 0.15 wide.
 TEST(RepeatedMap, seams_go_around_what_stands_alone) {
   constexpr double kWidth = 0.1;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {

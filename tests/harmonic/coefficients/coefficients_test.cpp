@@ -127,9 +127,9 @@ TEST(conventions, phase_turns_the_sign_of_odd_orders_only) {
   }
 }
 
-// x / k * k with both results rounded: the quotient has the relative error 2^-53, and its product
-// with k differs from x by less than one unit in the last place. The rounded product is therefore x
-// or one of its neighbours.
+// x / k * k, with both results rounded: the quotient has the relative error 2^-53. Its product with
+// k differs from x by less than one unit in the last place. The rounded product is therefore x or
+// one of its neighbours.
 TEST(conventions, there_and_back_is_within_one_unit_in_the_last_place) {
   const Coefficients f = random_coefficients(40);
   for (const Convention& convention : kAllConventions) {

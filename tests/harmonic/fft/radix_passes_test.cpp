@@ -63,8 +63,8 @@ std::vector<Long> direct_sums(const std::vector<std::complex<T>>& row) {
 }
 
 // Compares whole rows in the l2 norm. Each of some log2 n passes of radix 2 makes at most about 7
-// roundings of eps / 2 each (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed.,
-// theorem 24.2), which partly cancel. Rows here use up to 0.29 of the bound with every instruction
+// roundings of eps / 2 each, which partly cancel (Higham, Accuracy and Stability of Numerical
+// Algorithms, 2nd ed., theorem 24.2). Rows here use up to 0.29 of the bound with every instruction
 // set, and 0.86 where three transforms of twice the length make one.
 template <typename T, typename Other>
 void expect_equal(const std::vector<std::complex<T>>& found, const std::vector<Other>& right) {

@@ -497,8 +497,8 @@ TEST(nonuniform, refuses_single_precision_where_it_is_forbidden) {
           .single);
 }
 
-// The factor was counted before the grid was known. It is exact for 1.86-fold oversampling, and too
-// small for finer grids.
+// Gradients are counted before the grid is known: exactly for 1.86-fold oversampling, too little
+// for finer grids.
 TEST(counted_gradient_factor, makes_up_for_what_finer_grids_do_to_gradients) {
   EXPECT_EQ(counted_gradient_factor(1.5), 1);
   for (const double sigma : {2.0, 3.0, 4.0}) {

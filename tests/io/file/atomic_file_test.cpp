@@ -145,7 +145,6 @@ TEST(atomic_file, symbolic_links_stay_links) {
   EXPECT_EQ(read_all(folder / "sub/fresh"), "first");
 }
 
-// The child does not free the names passed to the handler, because the process is about to end.
 TEST(atomic_file, names_that_cannot_be_are_refused_before_anything_is_written) {
   const TemporaryFolder folder;
   std::filesystem::create_symlink(folder / "b", folder / "a");
@@ -166,7 +165,8 @@ TEST(atomic_file, signal_handler_may_discard_unfinished_files) {
       discard_unfinished_files();  // nothing is left to do
       _exit(0);
     });
-    // Unfinished files that have names.
+    // Both unfinished files have names. The names that the handler takes over are not freed,
+    // because the child is about to end.
     AtomicFile one(folder / "a", {}, AtomicFile::Writers::kSeveral);
     AtomicFile two(folder / "b", {}, AtomicFile::Writers::kSeveral);
     two.write(std::string_view("half"));

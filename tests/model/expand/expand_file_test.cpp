@@ -149,8 +149,8 @@ TEST(expand_mapped, finds_a_second_sheet_of_few_triangles) {
   expect_refused(test::joined(around, fine), ErrorCode::kNotStarShaped);
 }
 
-// A file with as many bytes as its triangles need, but with a quad and a pair in place of two of
-// them: only the counts show it.
+// The file has the size that its triangles need, but a quad and a pair replace two of them: only
+// the counts show it.
 TEST(expand_mapped, leaves_other_polygons_to_the_reader) {
   with_file(bumpy_sphere(3), [&](const auto& path) {
     std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);

@@ -125,7 +125,7 @@ TEST(atlas_file, the_blend_is_kept) {
   EXPECT_EQ(parse_atlas(bytes_of(model), "test").atlas.blend, CapBlend::kSpline);
 }
 
-// Caps that are spheres store no coefficients, and such a file is read back.
+// Caps that are spheres store no coefficients, and their file is read back.
 TEST(atlas_file, caps_whose_coefficients_are_all_zero_are_read_back) {
   AtlasModel model = random_model(4, CapBasis::kEven);
   std::fill(model.atlas.coefficients.begin(), model.atlas.coefficients.end(), 0.0);

@@ -146,7 +146,7 @@ TEST(monte_carlo, the_mean_over_seeds_is_the_coefficient) {
           square[i] += error * error;
         }
       }
-      // 25 coefficients, six shapes and two kinds of places: one of 500 such tests exceeds 4.5
+      // 25 coefficients, six shapes and two kinds of places: by chance one of 500 tests exceeds 4.5
       // sigma.
       for_each_coefficient(expected, [&](std::size_t i) {
         EXPECT_LT(std::abs(sum[i]), 4.5 * std::sqrt(square[i]) + 1e-12)

@@ -79,7 +79,7 @@ TEST(degree_ladder, doubles_up_to_the_degree) {
   EXPECT_EQ(report::degree_ladder(9), (std::vector<int>{1, 2, 4, 8, 9}));
 }
 
-// There is one coefficient per degree: C_l0 = 3. The norm has 5 more: with degrees up to l the rest
+// There is one coefficient per degree: C_l0 = 3. The norm has 5 more. The remainder after degree l
 // is 9 (L - l) + 5.
 TEST(report_data, rms_of_every_degree_is_that_of_parseval) {
   const int degree = 6;
@@ -98,8 +98,8 @@ TEST(report_data, rms_of_every_degree_is_that_of_parseval) {
   }
 }
 
-// A norm that exceeds the coefficients by less than their precision bounds the rest, but does not
-// determine it. A measured error does.
+// A norm that exceeds the coefficients by less than their precision bounds the remainder, but does
+// not determine it. A measured error does.
 TEST(report_data, a_difference_within_the_precision_of_coefficients_is_not_called_exact) {
   Expansion expansion;
   expansion.coefficients.c(0, 0) = 1;
@@ -114,8 +114,8 @@ TEST(report_data, a_difference_within_the_precision_of_coefficients_is_not_calle
   EXPECT_EQ(*data.rows.back().rms, 1e-5);
 }
 
-// The rest varies from a part of its uncertainty to a hundred times it. The page must state the
-// same as rms_beyond().
+// The remainder varies from a part of its uncertainty to a hundred times it. The page must state
+// the same as rms_beyond().
 TEST(report_data, knows_of_every_degree_what_rms_beyond_knows) {
   Expansion expansion;
   expansion.coefficients = Coefficients(2);

@@ -69,7 +69,8 @@ struct Scene {
   std::vector<double> charges, widths, areas;
 };
 
-// The bound, relative to the largest sum, is the error of single precision and of far sets.
+// Returns the largest absolute value. Errors of single precision and of far sets are relative to
+// it.
 template <typename Value>
 double largest(const std::vector<Value>& values) {
   double most = 0;

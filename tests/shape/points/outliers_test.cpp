@@ -54,7 +54,8 @@ TEST(Outliers, stray_points_are_found_and_the_surface_is_not_lost) {
     ++off_surface;
     found += flags[i];
   }
-  // In the first of the three looks; random normals agree with five of sixteen once in twenty.
+  // In the first of three passes, random normals agree with five of sixteen neighbours once in
+  // twenty.
   EXPECT_GT(static_cast<double>(found), 0.9 * static_cast<double>(off_surface));
 }
 
@@ -92,7 +93,7 @@ TEST(Outliers, wrong_normals_are_told_from_those_of_edges_and_thin_parts) {
     const test::OrderedCloud ordered(cloud);
     return share_of_wrong_normals(ordered.tree, ordered.normals);
   };
-  // 15 % of random directions, those within 45 degrees, do not contradict.
+  // Random directions within 45 degrees (15 %) do not contradict their neighbours.
   PointCloud sphere = test::sphere_points(10000);
   for (std::size_t i = 0; i < 10000; i += 10) sphere.normals[i] = random_direction(9, i);
   EXPECT_NEAR(share(sphere), 0.085, 0.02);

@@ -31,8 +31,8 @@ Mesh moved(Mesh mesh, double scale, const Vec3& offset) {
   return mesh;
 }
 
-// Returns the minimum of |x - p| over the triangle, independently of the library: by its
-// barycentric quadratic form, region by region (inside, three edges), in long double.
+// Returns the minimum of |x - p| over the triangle, independently of the library. Its barycentric
+// quadratic form is minimised region by region (inside, three edges), in long double.
 double oracle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   using Real = long double;
   const auto dot3 = [](const Vec3& u, const Vec3& v) {

@@ -26,8 +26,9 @@ Vec3 area_vector(const std::vector<Vec3>& p, const Triangle& t) {
   return 0.5 * cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
 }
 
-// A triangulation of a flat simple polygon is correct if every triangle faces like the polygon and
-// the areas add up to the polygon's (shoelace formula): then triangles cannot overlap.
+// A triangulation of a flat simple polygon is correct under two conditions. Every triangle faces
+// like the polygon, and the areas add up to the polygon's (shoelace formula): then no triangles
+// overlap.
 void expect_tiles(const std::vector<Vec3>& p) {
   const std::vector<Triangle> triangles = triangulate(p);
   EXPECT_EQ(triangles.size(), p.size() - 2);

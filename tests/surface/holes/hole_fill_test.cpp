@@ -324,7 +324,7 @@ TEST(HoleFill, the_grid_itself_says_where_the_fill_begins) {
   const NodeSupport all = [](std::span<const Vec3> x, std::span<double> support) {
     std::fill_n(support.begin(), x.size(), 1.0);
   };
-  // There is no foot point of a cap.
+  // The cloud has no foot points of caps.
   const HoleFilling filling =
       fill_holes(sphere.grid, all_of({}), tree.numbers(), {.max_blocks = 100000, .support = all});
   EXPECT_EQ(filling.smooth, 1U);

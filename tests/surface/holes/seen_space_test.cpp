@@ -11,8 +11,8 @@
 namespace rholm {
 namespace {
 
-// A square of points in the plane z = 0, |x|, |y| <= 1, and one point at (0, 0, -2), which makes
-// the box deep.
+// A square of points in the plane z = 0, |x|, |y| <= 1, and two points at z = -2 and z = 2, which
+// make the box deep.
 SeenSpace over_square(const Vec3& sensor, double margin, const Context& context = {}) {
   std::vector<Vec3> points;
   for (int i = -50; i <= 50; ++i) {
@@ -22,7 +22,7 @@ SeenSpace over_square(const Vec3& sensor, double margin, const Context& context 
   points.push_back({0, 0, -2});
   points.push_back({0, 0, 2});
   std::vector<Vec3> sensors(points.size(), sensor);
-  sensors[n] = points[n], sensors[n + 1] = points[n + 1];  // has no line of sight
+  sensors[n] = points[n], sensors[n + 1] = points[n + 1];  // two points without lines of sight
   return SeenSpace(points, sensors, 0.04, margin, context);
 }
 

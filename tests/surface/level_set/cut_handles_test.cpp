@@ -32,7 +32,8 @@ Mesh ring(const Tube& tube_radius, int around = 48) {
   return mesh;
 }
 
-// The ring is 1.2 wide, except for a neck of width 2 * narrow with slopes of 45 degrees.
+// The ring is 1.2 wide, except for a neck: at arc length s from it the radius is hypot(narrow, 4
+// s).
 Mesh with_neck(double narrow) {
   return ring([=](double phi) {
     return std::min(0.6, std::sqrt(narrow * narrow + std::pow(4 * kRadius * phi, 2)));

@@ -120,8 +120,9 @@ TEST(compare, concentric_spheres_differ_by_their_radii) {
       EXPECT_LE(value, 1.1 - inner);
     }
   }
-  // A facet's normal is within acos(inner) of the radius at each of its points. Three such angles
-  // lie between two normals: at the sample, at the closest point, and between their radii.
+  // A facet's normal is within acos(inner) of the radius at each of its points. Three angles of
+  // this size lie between two normals: at the sample, at the closest point, and between their
+  // radii.
   const double facet = std::acos(inner) * 180 / std::numbers::pi;
   EXPECT_LE(result.normal_mean_degrees, 3 * facet);
 }

@@ -50,7 +50,8 @@ TEST(error_of_degree, is_that_of_the_model_of_this_degree) {
   const Transform coarse = expand(chart, {.degree = 40, .precision = 1e-4});
   for (const ErrorNorm norm : {ErrorNorm::kRms, ErrorNorm::kMax}) {
     for (const ErrorMeasure measure : {ErrorMeasure::kRadius, ErrorMeasure::kDistance}) {
-      if (norm == ErrorNorm::kRms && measure == ErrorMeasure::kRadius) continue;  // energies tell
+      // The error of this case is computed from energies.
+      if (norm == ErrorNorm::kRms && measure == ErrorMeasure::kRadius) continue;
       const Tolerance tolerance{.error = 1e-3, .norm = norm, .measure = measure};
       const Context context;
       ErrorSites sites(view_of(mesh), {});

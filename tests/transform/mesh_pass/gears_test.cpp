@@ -53,7 +53,7 @@ TEST(mesh_pass, keeps_the_precision_of_a_thin_box_off_centre) {
   check_error_of_pass(thin, {32, 64, 128}, 1e-6);
 }
 
-// Turned by a generic rotation, the body has the same rest; neither is zero to rounding.
+// Turned by a generic rotation, the body has the same error; neither error is zero to rounding.
 TEST(mesh_pass, leaves_orders_zero_that_a_body_of_revolution_does_not_have) {
   std::vector<std::vector<Vec3>> rings;
   for (int k = 0; k <= 20; ++k) {

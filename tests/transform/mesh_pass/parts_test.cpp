@@ -282,7 +282,7 @@ TEST(border_sums, are_exact_and_in_the_order_of_vertices) {
   }
 }
 
-// Processes in one part, in many parts, and with indices so scattered that each part is copied.
+// Processes a mesh in one part, in many parts, and with indices so scattered that parts are copied.
 TEST(mesh_parts, their_sum_is_the_whole_whatever_their_number) {
   const Mesh fine = test::rotated(bumpy_sphere(6)), rough = rough_sphere(5);
   for (const Mesh* mesh : {&fine, &rough}) {

@@ -189,7 +189,7 @@ TEST(mesh_pass, lone_spikes_on_a_smooth_mesh_keep_the_precision) {
   }
 }
 
-// A ball has little besides its mean: the sample overestimates the rest.
+// A ball has little besides its mean: the sample overestimates the other coefficients.
 TEST(mesh_pass, reaches_what_rounding_allows_on_a_ball) {
   for (const int subdivisions : {3, 5}) {
     for (const int degree : {1, 2, 5}) {

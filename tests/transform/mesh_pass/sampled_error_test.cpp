@@ -108,7 +108,8 @@ TEST(sampled_error, of_all_triangles_are_what_the_pass_leaves) {
     EXPECT_NEAR(rules.rules, sampled.truth, 0.5 * sampled.beside + 0.05 * sampled.truth);
     EXPECT_LT(rules.windows, 0.3 * sampled.truth);
     EXPECT_EQ(rules.share, 1);
-    // Windows leave as much error as rules, or most of it. Undivided sums have their own windows.
+    // Windows leave as much error as rules, or most of the error. Undivided sums have their own
+    // windows.
     for (const double windows : {1.0, 30.0}) {
       SCOPED_TRACE(windows);
       const Sampled both = sample(mesh, degree, precision, {1.0}, windows);

@@ -26,7 +26,7 @@ namespace {
 
 using test::rough_sphere;
 
-// A process other than the one that runs the pass.
+// A process that helps the process that runs the pass.
 struct Other {
   explicit Other(const Mesh& m) : mesh(m), view(view_of(mesh)), helper(view, hooks) {}
   Mesh mesh;

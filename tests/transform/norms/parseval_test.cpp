@@ -35,7 +35,8 @@ TEST(parseval_rest, is_what_the_coefficients_leave_of_the_norm) {
 }
 
 // The worst errors are parallel to the coefficients: then the uncertainty equals the error of the
-// rest. It may differ by twice the squared error, because it is computed from the inexact norm.
+// remainder. It may differ by twice the squared error, because it is computed from the inexact
+// norm.
 TEST(parseval_rest, is_off_by_its_doubt_where_errors_are_worst) {
   for (const double relative : {-1e-2, -1e-6, 1e-6, 1e-2}) {
     Coefficients c = known();
@@ -63,8 +64,8 @@ TEST(rms_of, is_none_where_the_doubt_is_above_a_quarter) {
   EXPECT_NEAR(rms_doubt(rest), (1 - std::sqrt(0.75)) / std::sqrt(kSphere), 1e-15);
 }
 
-// Degree 1 has 4, degree 2 has 12, and 0.5 lie beyond. The rest is uncertain by `doubt`, through an
-// exact error or through a measured error that differs by this amount.
+// Degree 1 has 4, degree 2 has 12, and 0.5 lie beyond. The remainder is uncertain by `doubt`,
+// through an exact error or through a measured error that differs by this amount.
 Expansion known_expansion() {
   Expansion e;
   e.coefficients = known();

@@ -104,7 +104,8 @@ TEST(plane_wave_rules, rules_on_faces_are_exact_to_their_degree_and_no_further) 
 // A face or edge in the plane with longest edge 1, as nodes of its rule and of a practically exact
 // rule.
 struct Element {
-  std::vector<double> x, y, weight;  // nodes of the rule and, negative, of the exact mean
+  // Nodes of the rule and, with negative weights, of the exact mean.
+  std::vector<double> x, y, weight;
   void add(double px, double py, double w) {
     x.push_back(px);
     y.push_back(py);
