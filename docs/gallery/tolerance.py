@@ -30,7 +30,7 @@ for norm in ("rms", "max"):
     found = [
         rholm.expand(body, tolerance=t, unit="diagonal", norm=norm, rays=0) for t in wanted
     ]
-    reached = [s.encoded.tolerance.reached / s.encoded.diagonal for s in found]
+    reached = [s.expanded.tolerance.reached / s.expanded.diagonal for s in found]
     left.loglog(wanted, reached, "o-", label=norm)
     right.semilogx(wanted, [s.degree for s in found], "o-", label=norm)
 left.loglog(wanted, wanted, ":", color="0.5", label="allowed")
