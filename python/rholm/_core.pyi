@@ -240,7 +240,7 @@ class Inspection:
         """Of the solid, if it is closed and its volume is not zero."""
 
 class RepairReport:
-    """What was done to a mesh, and what could not be."""
+    """Report of a repair: changes, and defects that remain."""
 
     def __repr__(self) -> str: ...
 
@@ -358,7 +358,7 @@ def surface_area(arg: Mesh, /) -> float: ...
 def enclosed_volume(arg: Mesh, /) -> float: ...
 
 class RepairOptions:
-    """What may be done to a mesh."""
+    """Steps of the repair of a mesh."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -422,7 +422,7 @@ def torus(arg0: float, arg1: float, arg2: int, arg3: int, /) -> Mesh: ...
 def bumpy_sphere(arg0: int, arg1: float, arg2: int, /) -> Mesh: ...
 
 class SampleOptions:
-    """What is measured of a surface."""
+    """Errors, outliers and places of the samples of a surface."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -529,7 +529,7 @@ class SampleOptions:
 def sample_surface(arg0: Mesh, arg1: SampleOptions, arg2: Caller, /) -> PointCloud: ...
 
 class CleanReport:
-    """What clean() found."""
+    """Report of clean()."""
 
     def __repr__(self) -> str: ...
 
@@ -567,7 +567,7 @@ class CleanReport:
 def clean(arg0: PointCloud, arg1: Caller, /) -> tuple: ...
 
 class ScanAlignment:
-    """What align_scans() did; lengths are in the unit of the points."""
+    """Report of align_scans(); lengths are in the unit of the points."""
 
     def __repr__(self) -> str: ...
 
@@ -652,7 +652,7 @@ class OrientOptions:
     FIELDS: tuple = ...
 
 class OrientReport:
-    """What orient() did, and how sure it is."""
+    """Report of orient(), with its certainty."""
 
     def __repr__(self) -> str: ...
 
@@ -803,7 +803,7 @@ class TruncationErrors:
         """Of the shape's bounding box; 0 if not known."""
 
 class GravityField:
-    """What the coefficients of a gravity field are relative to."""
+    """References of the coefficients of a gravity field."""
 
     def __repr__(self) -> str: ...
 
@@ -1253,7 +1253,7 @@ def seen_center(arg0: Expansion, arg1: Sequence[float] | numpy.typing.NDArray[nu
 def recentered(arg0: Expansion, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64], arg2: Caller, /) -> Expansion: ...
 
 class AnalyzeOptions:
-    """Which function is expanded, and how."""
+    """Function to expand, and method."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1354,7 +1354,7 @@ class CenterOptions:
 def parse_center(arg: str, /) -> CenterOptions: ...
 
 class ChartOptions:
-    """Which centre, and which surfaces."""
+    """Rules for the centre, and for surfaces that are not star-shaped."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1375,7 +1375,7 @@ class ChartOptions:
     FIELDS: tuple = ...
 
 class EncodeOptions:
-    """What is wanted of a model."""
+    """Degree, precision and error figures of an expansion."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2304,7 +2304,7 @@ def read_atlas(arg0: str, arg1: Caller, /) -> AtlasModel: ...
 def is_atlas_file(arg: str, /) -> bool: ...
 
 class CompressOptions:
-    """What a model is to keep."""
+    """Limits of the size and the error of an atlas."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2483,7 +2483,7 @@ def patch_atlas(arg0: Mesh | PointCloud, arg1: PatchAtlasOptions, arg2: Caller, 
 def patch_picture(arg0: Mesh | PointCloud, arg1: str, arg2: PatchAtlasOptions, arg3: Caller, /) -> tuple: ...
 
 class ReconstructOptions:
-    """What is wanted of the surface."""
+    """Resolution, cleaning and holes of the surface."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2852,7 +2852,7 @@ def foresee_tiles(arg0: int, arg1: int, /) -> TileForecast: ...
 def region_weights(arg0: Mesh, arg1: Sequence[str], arg2: float, /) -> NDArray[numpy.float64]: ...
 
 class PatchOptions:
-    """What is to go from a region."""
+    """Detail to remove from a region."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2925,7 +2925,7 @@ def apply_in_place(arg0: Patch, arg1: float, arg2: float, arg3: Mesh, /) -> None
 def copy_mesh(arg: Mesh, /) -> Mesh: ...
 
 class TransferOptions:
-    """What counts as detail, and how large it is laid."""
+    """Detail to take, and its size on the target."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2964,7 +2964,7 @@ class TransferOptions:
     FIELDS: tuple = ...
 
 class TransferUpdate:
-    """What a slider moves."""
+    """Values that sliders change."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -3213,7 +3213,7 @@ def write_png(arg0: str, arg1: Annotated[NDArray[numpy.uint8], dict(shape=(None,
 def write_file(arg0: str, arg1: bytes, /) -> None: ...
 
 class ReportOptions:
-    """What a page says beside its figures."""
+    """Texts of a page beside its figures."""
 
     def __init__(self, **fields: Any) -> None: ...
 

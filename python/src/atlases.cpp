@@ -340,7 +340,8 @@ void bind_models(nb::module_& m) {
 }
 
 void bind_compress(nb::module_& m) {
-  Options<CompressOptions>(m, "CompressOptions", "What a model is to keep.").fields();
+  Options<CompressOptions>(m, "CompressOptions", "Limits of the size and the error of an atlas.")
+      .fields();
   Record<CompressReport>(m, "CompressReport", "How a model came about, and what it keeps.")
       .fields();
   m.def("compress", [](const Shape& shape, const CompressOptions& options, const Caller& caller) {

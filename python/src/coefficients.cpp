@@ -121,8 +121,7 @@ void bind_expansion(nb::module_& m) {
                            "How far a surface is from the shape it was made of, in the unit of "
                            "lengths; None where it is not known.")
       .fields();
-  Record<GravityField>(m, "GravityField",
-                       "What the coefficients of a gravity field are relative to.")
+  Record<GravityField>(m, "GravityField", "References of the coefficients of a gravity field.")
       .fields();
   nb::class_<Expansion> type(m, "Expansion", "A surface as coefficients.");
   bind_state(

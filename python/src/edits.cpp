@@ -33,7 +33,7 @@ void bind_smooth(nb::module_& m) {
           return array_of(
               unlocked([&] { return region_weights(mesh, regions_of(regions), transition); }));
         });
-  Options<PatchOptions>(m, "PatchOptions", "What is to go from a region.").fields();
+  Options<PatchOptions>(m, "PatchOptions", "Detail to remove from a region.").fields();
   nb::class_<Patch> patch_type(m, "Patch", "The vertices that may move, and where fits want them.");
   bind_state(
       patch_type,
@@ -102,9 +102,9 @@ void bind_smooth(nb::module_& m) {
 }
 
 void bind_transfer(nb::module_& m) {
-  Options<TransferOptions>(m, "TransferOptions", "What counts as detail, and how large it is laid.")
+  Options<TransferOptions>(m, "TransferOptions", "Detail to take, and its size on the target.")
       .fields();
-  Options<TransferUpdate>(m, "TransferUpdate", "What a slider moves.").fields();
+  Options<TransferUpdate>(m, "TransferUpdate", "Values that sliders change.").fields();
   Record<TransferReport>(m, "TransferReport",
                          "What the transform found; lengths are in the units of the two meshes.")
       .fields();

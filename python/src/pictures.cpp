@@ -95,7 +95,7 @@ void bind_render(nb::module_& m) {
 }
 
 void bind_pages(nb::module_& m) {
-  Options<ReportOptions>(m, "ReportOptions", "What a page says beside its figures.")
+  Options<ReportOptions>(m, "ReportOptions", "Texts of a page beside its figures.")
       .fields()
       .type()
       .def("set_commands", [](ReportOptions& options,

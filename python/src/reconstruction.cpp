@@ -54,7 +54,9 @@ void bind_tiles(nb::module_& m) {
 }  // namespace
 
 void bind_reconstruction(nb::module_& m) {
-  Options<ReconstructOptions>(m, "ReconstructOptions", "What is wanted of the surface.").fields();
+  Options<ReconstructOptions>(m, "ReconstructOptions",
+                              "Resolution, cleaning and holes of the surface.")
+      .fields();
   Record<ReconstructReport>(m, "ReconstructReport",
                             "What was found in the points, and what became of them; lengths are in "
                             "their unit.")

@@ -32,7 +32,7 @@ void bind_records(nb::module_& m) {
       m, "Inspection",
       "What a mesh is. Counts are those of the mesh given: weld first to close seams.")
       .fields();
-  Record<RepairReport>(m, "RepairReport", "What was done to a mesh, and what could not be.")
+  Record<RepairReport>(m, "RepairReport", "Report of a repair: changes, and defects that remain.")
       .fields();
 }
 
@@ -76,7 +76,7 @@ void bind_edges(nb::module_& m) {
 }
 
 void bind_repair(nb::module_& m) {
-  Options<RepairOptions>(m, "RepairOptions", "What may be done to a mesh.").fields();
+  Options<RepairOptions>(m, "RepairOptions", "Steps of the repair of a mesh.").fields();
   m.def("repair", [](const Mesh& mesh, const RepairOptions& options, const Caller& caller) {
     Repaired repaired =
         caller.run([&](const Context& context) { return repair(mesh, options, context); });

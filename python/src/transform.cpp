@@ -79,12 +79,15 @@ void bind_star(nb::module_& m) {
 }
 
 void bind_options(nb::module_& m) {
-  Options<TransformOptions>(m, "TransformOptions", "Which function is expanded, and how.").fields();
+  Options<TransformOptions>(m, "TransformOptions", "Function to expand, and method.").fields();
   Options<Tolerance>(m, "Tolerance", "The largest error that is allowed.").fields();
   Options<CenterOptions>(m, "CenterOptions", "Where the centre is sought.").fields();
   m.def("parse_center", &parse_center);
-  Options<ChartOptions>(m, "ChartOptions", "Which centre, and which surfaces.").fields();
-  Options<ExpandOptions>(m, "ExpandOptions", "What is wanted of a model.").fields();
+  Options<ChartOptions>(m, "ChartOptions",
+                        "Rules for the centre, and for surfaces that are not star-shaped.")
+      .fields();
+  Options<ExpandOptions>(m, "ExpandOptions", "Degree, precision and error figures of an expansion.")
+      .fields();
 }
 
 void bind_results(nb::module_& m) {
