@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 from . import _core
 from ._atlas import Atlas, as_atlas
 from ._coefficients import Normalization
-from ._expand import as_expansion
 from ._errors import InvalidInputError, UnsupportedError
+from ._expand import as_expansion
 from ._expansion import Expansion
 from ._run import caller
 from ._shapes import name_of
