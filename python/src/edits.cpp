@@ -106,7 +106,7 @@ void bind_transfer(nb::module_& m) {
       .fields();
   Options<TransferUpdate>(m, "TransferUpdate", "Values that sliders change.").fields();
   Record<TransferReport>(m, "TransferReport",
-                         "What the transform found; lengths are in the units of the two meshes.")
+                         "Findings of the analysis; lengths are in the units of the two meshes.")
       .fields();
   nb::class_<TransferSource>(m, "TransferSource", "A texture taken from its source.")
       .def_ro("from_degree", &TransferSource::from_degree)
@@ -114,7 +114,7 @@ void bind_transfer(nb::module_& m) {
       .def_ro("wavelength", &TransferSource::wavelength)
       .def_ro("edge", &TransferSource::edge)
       .def_ro("rms", &TransferSource::rms);
-  nb::class_<TransferAnalysis>(m, "TransferAnalysis", "What an transform knows.")
+  nb::class_<TransferAnalysis>(m, "TransferAnalysis", "Result of an analysis of two regions.")
       .def_prop_ro("mesh", [](const TransferAnalysis& a) { return a.mesh; })
       .def_prop_ro("patch", [](const TransferAnalysis& a) { return a.patch; })
       .def_ro("report", &TransferAnalysis::report);
@@ -134,14 +134,14 @@ void bind_transfer(nb::module_& m) {
           });
         });
   m.def("update_transfer",
-        [](const TransferAnalysis& transform, const TransferUpdate& wanted, const Caller& caller) {
-          return array_of(caller.run([&](const Context&) { return update(transform, wanted); }));
+        [](const TransferAnalysis& analysis, const TransferUpdate& wanted, const Caller& caller) {
+          return array_of(caller.run([&](const Context&) { return update(analysis, wanted); }));
         });
-  m.def("apply_transfer_in_place", [](const TransferAnalysis& transform,
-                                      const TransferUpdate& wanted, Mesh& mesh,
-                                      const Caller& caller) {
-    caller.run([&](const Context&) { apply(transform.patch, update(transform, wanted), mesh); });
-  });
+  m.def(
+      "apply_transfer_in_place", [](const TransferAnalysis& analysis, const TransferUpdate& wanted,
+                                    Mesh& mesh, const Caller& caller) {
+        caller.run([&](const Context&) { apply(analysis.patch, update(analysis, wanted), mesh); });
+      });
 }
 
 }  // namespace
