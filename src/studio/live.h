@@ -29,12 +29,12 @@ class Live {
     std::mutex working;
     std::atomic<std::uint64_t> newest{0};
   };
-  // The last transform, with its key and meshes.
+  // The last analysis, with its key and meshes.
   template <typename T>
   struct Kept {
     std::string key;
     std::shared_ptr<const void> of[2];  // the meshes, kept alive so their addresses stay unique
-    std::shared_ptr<const T> transform;
+    std::shared_ptr<const T> analysis;
   };
 
   Response degree(const Json& request, const Document& document) const;
@@ -50,7 +50,7 @@ class Live {
   Kept<Patch> patch_;
   Kept<TransferSource> source_;  // the texture, while its target moves
   Kept<TransferAnalysis> transfer_;
-  bool transfer_angle_ = false;  // true if the transform includes the angle
+  bool transfer_angle_ = false;  // true if the analysis includes the angle
 };
 
 }  // namespace rholm::studio
