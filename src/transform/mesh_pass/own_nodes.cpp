@@ -71,9 +71,11 @@ Crowd crowd_of(const std::array<Vec3, 3>& p, double d2, double distance, int deg
     chord2 = std::max(chord2, (e2[i] - (r[i] - r[j]) * (r[i] - r[j])) / (r[i] * r[j]));
   }
   const double length = degree * std::sqrt(chord2);
-  // A face's height is twice its area over its length.
+  // A face's height is twice its solid angle over its length.
+  const bool is_far = std::max({r[0], r[1], r[2]}) > 2 * distance;
   const double twice_area =
-      static_cast<double>(degree) * degree * std::abs(d2) / (distance * distance * distance);
+      static_cast<double>(degree) * degree *
+      (is_far ? 2 * std::abs(solid_angle(p)) : std::abs(d2) / (distance * distance * distance));
   return {.per_wave = twice_area > 0 ? static_cast<float>(length / twice_area) : 0.0F,
           .needle = length > 2 * std::numbers::pi};
 }
@@ -95,7 +97,7 @@ NodeAllowance part_of(NodeAllowance allowance, double share) {
 // Returns the sum of the squares of the errors.
 template <typename Visit>
 double visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllowance& allowance,
-                    double relative, int depth, const Visit& visit) {
+                    const Crowd& crowd, double relative, int depth, const Visit& visit) {
   const double distance = distance_of(p);
   if (depth == 0 && distance == 0) throw_on_surface();
   if (factor == 0) return 0;
@@ -104,6 +106,7 @@ double visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllow
     // 1/|x|^2 counts as two degrees more.
     Extent z = extent(p, distance, allowance.degree);
     z.wave2 = std::pow(std::sqrt(z.wave2) + 2 * std::sqrt(z.bend2), 2);
+    z.crowd = crowd;
     const double weight = factor / (distance * distance);
     NodeAllowance piece = allowance;
     // A piece that is not long reaches to 3/2 of its distance.
@@ -114,8 +117,8 @@ double visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllow
     if (depth == kMaxDepth) throw_on_surface();
     double error2 = 0;
     cut_triangle(p, kLongest, [&](const std::array<Vec3, 3>& piece, double share) {
-      error2 += visit_radius(piece, factor * share, part_of(allowance, share), relative, depth + 1,
-                             visit);
+      error2 += visit_radius(piece, factor * share, part_of(allowance, share), crowd, relative,
+                             depth + 1, visit);
     });
     return error2;
   }
@@ -148,9 +151,9 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
   const double d2 = dot(n, nearest);
   const double slope = std::abs(d2) / (norm(n) * norm(nearest));
   // Bounded terms need all edges of a face. They are for grazing faces, and for weights whose
-  // rounding is more than the allowed error of a face.
+  // rounding is more than a face may have.
   const bool whole = face && edges[0] && edges[1] && edges[2];
-  const bool cancels = kWeightRounding * dot(n, n) > options_.divided.allowed * std::abs(d2);
+  const bool cancels = kWeightRounding * dot(n, n) > options_.rounding * std::abs(d2);
   const bool grazing = slope < grazing_ || (whole && cancels);
   const double distance = distance_of(p);
   const Crowd crowd = crowd_of(p, d2, distance, options_.divided.degree);
@@ -163,7 +166,7 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
   }
   if (!face) return;
   if (grazing) {
-    error2_ += visit_radius(p, d2 / 2, options_.undivided, 0, 0,
+    error2_ += visit_radius(p, d2 / 2, options_.undivided, crowd, 0, 0,
                             [&](const Vec3& x, double weight) { sink_.add_undivided(x, weight); });
   } else {
     write_face(p, -dot(n, n) / d2, crowd, distance, 1, 0);
@@ -259,7 +262,7 @@ double radius_integral(const std::array<Vec3, 3>& corners, double allowed) {
   const double least = std::abs(solid_angle(corners)) * distance;
   const NodeAllowance allowance{.degree = 0, .allowed = allowed * least, .divided = false};
   double sum = 0;
-  visit_radius(corners, factor, allowance, allowed, 0,
+  visit_radius(corners, factor, allowance, {}, allowed, 0,
                [&](const Vec3&, double weight) { sum += weight; });
   return sum;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "rholm/vec3.h"
 #include "transform/mesh_pass/node_sink.h"
@@ -14,6 +15,7 @@ namespace rholm {
 struct NodeOptions {
   NodeAllowance divided;
   NodeAllowance undivided;
+  double rounding = std::numeric_limits<double>::infinity();  // of the weights of a face
 };
 
 // Sums half-edges that have met their twins: an edge of two faces gets its nodes once.

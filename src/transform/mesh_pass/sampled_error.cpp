@@ -258,6 +258,7 @@ class Sampler {
         .degree = options.degree, .allowed = left_ / std::sqrt(elements), .divided = true};
     finer_.undivided = finer_.divided;
     finer_.undivided.divided = false;
+    finer_.rounding = plan_.face_rounding;
   }
 
   // Returns the number of groups of runs that windows are measured by; 0: windows are not measured.
@@ -304,7 +305,7 @@ class Sampler {
   void add_rules(const SampledRun& run, double chance, Sources& to) const {
     to.scale = 1 / std::sqrt(chance);
     std::map<std::uint32_t, Lump> lumps;
-    NodeWriter nodes({plan_.divided, plan_.undivided}, vertices_, to);
+    NodeWriter nodes({plan_.divided, plan_.undivided, plan_.face_rounding}, vertices_, to);
     for (const SampledTriangle& t : run.triangles) {
       const auto belongs = [&](std::size_t element) {
         return element == 3 ? t.face : t.edges[element];
@@ -329,7 +330,7 @@ class Sampler {
     to.scale = 1 / std::sqrt(run.chance);
     std::map<std::uint32_t, Lump> lumps;
     Divided divided(to);
-    NodeWriter nodes({plan_.divided, plan_.undivided}, vertices_, divided);
+    NodeWriter nodes({plan_.divided, plan_.undivided, plan_.face_rounding}, vertices_, divided);
     for (const SampledTriangle& t : run.triangles) {
       add_sources(
           t, nodes, to,

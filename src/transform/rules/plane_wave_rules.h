@@ -22,7 +22,7 @@ struct SixNodes {
   double weight, at;
 };
 inline constexpr std::array<SixNodes, 2> kSixNodes = {
-    {{0.223381589678011, 0.445948490915965}, {0.109951743655322, 0.091576213509771}}};
+    {{0.22338158967801147, 0.44594849091596489}, {0.10995174365532187, 0.091576213509770743}}};
 inline constexpr double kSixNodesConstant = 7.4e-7;
 
 struct FaceRule {

@@ -70,6 +70,18 @@ double allowed_of_element(const MeshPlan& plan, const MeshSample& sample, std::s
          kTypicalShare;
 }
 
+// Returns the largest rounding error that the weights of a face may have. Long faces that meet near
+// the centre are alike: the rounding of sums over them adds up linearly in the waves around them.
+// So the faces together may have a tenth of the wanted error (chosen). Where that is less than all
+// rounding of a ball, 8 pi r for 2 |T| / d_T, only faces of thirty times their part are refused
+// (chosen): bounded terms for every face would cost more than they save.
+double allowed_face_rounding(const MeshPlan& plan, const MeshSample& sample,
+                             std::size_t n_triangles) {
+  const double wanted = 0.1 * plan.allowed.rules * plan.allowed.caution / kRuleShare;
+  const double ball = 30 * kWeightRounding * 8 * kPi * sample.mean;
+  return std::min(plan.divided.allowed, std::max(wanted, ball) / static_cast<double>(n_triangles));
+}
+
 // Derivative p of 1/|x|^2 along a line is below p! / |x|^(p + 2). So the error is the error of
 // plane waves times p!. Such errors are means over directions; the largest is at most 3 times the
 // mean. The face is nearer to the centre than its corners, by a seventh where edges are a quarter:
@@ -190,6 +202,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
     plan.block.edge_reach2 = hermite->edge_reach2;
     plan.block.face_reach2 = hermite->face_reach2;
   }
+  plan.face_rounding = allowed_face_rounding(plan, sample, mesh.n_triangles);
   plan.aligned = sample.aligned;
   plan.round_modulus = roundness(sample) * sample.modulus;
   plan.node_modulus = std::min(1.0, plan.node_share + plan.between) * sample.modulus;

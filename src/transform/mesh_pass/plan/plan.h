@@ -73,6 +73,7 @@ Quantum choose_quantum(const AllowedErrors& allowed, std::size_t n_vertices, boo
 struct MeshPlan {
   BlockParameters block;
   NodeAllowance divided, undivided;
+  double face_rounding = 0;  // largest rounding error of the weights of a face
   AllowedErrors allowed;
   double neighbours = 1;     // see LumpChoice
   double quanta_error = 0;   // error of rounding lumps to quanta
