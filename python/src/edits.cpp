@@ -33,8 +33,9 @@ void bind_smooth(nb::module_& m) {
           return array_of(
               unlocked([&] { return region_weights(mesh, regions_of(regions), transition); }));
         });
-  Options<PatchOptions>(m, "PatchOptions", "What is to go from a region.").fields();
-  nb::class_<Patch> patch_type(m, "Patch", "The vertices that may move, and where fits want them.");
+  Options<PatchOptions>(m, "PatchOptions", "Options of `smooth`.").fields();
+  nb::class_<Patch> patch_type(
+      m, "Patch", "Vertices of a region that may move, and their positions on the fits.");
   bind_state(
       patch_type,
       [](const Patch& p) {
@@ -102,19 +103,22 @@ void bind_smooth(nb::module_& m) {
 }
 
 void bind_transfer(nb::module_& m) {
-  Options<TransferOptions>(m, "TransferOptions", "What counts as detail, and how large it is laid.")
+  Options<TransferOptions>(m, "TransferOptions",
+                           "Options of `transfer`: the detail, and its size on the target.")
       .fields();
-  Options<TransferUpdate>(m, "TransferUpdate", "What a slider moves.").fields();
+  Options<TransferUpdate>(m, "TransferUpdate", "Options of `transfer` that can be updated quickly.")
+      .fields();
   Record<TransferReport>(m, "TransferReport",
-                         "What the transform found; lengths are in the units of the two meshes.")
+                         "Report of `transfer`; lengths are in the units of the two meshes.")
       .fields();
-  nb::class_<TransferSource>(m, "TransferSource", "A texture taken from its source.")
+  nb::class_<TransferSource>(m, "TransferSource", "A texture extracted from its source.")
       .def_ro("from_degree", &TransferSource::from_degree)
       .def_ro("radius", &TransferSource::radius)
       .def_ro("wavelength", &TransferSource::wavelength)
       .def_ro("edge", &TransferSource::edge)
       .def_ro("rms", &TransferSource::rms);
-  nb::class_<TransferAnalysis>(m, "TransferAnalysis", "What an transform knows.")
+  nb::class_<TransferAnalysis>(m, "TransferAnalysis",
+                               "A texture placed on its target, ready for quick updates.")
       .def_prop_ro("mesh", [](const TransferAnalysis& a) { return a.mesh; })
       .def_prop_ro("patch", [](const TransferAnalysis& a) { return a.patch; })
       .def_ro("report", &TransferAnalysis::report);

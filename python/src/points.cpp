@@ -11,13 +11,13 @@
 namespace rholm::python {
 
 void bind_points(nb::module_& m) {
-  Options<SampleOptions>(m, "SampleOptions", "What is measured of a surface.").fields();
+  Options<SampleOptions>(m, "SampleOptions", "Options of `sample_surface`.").fields();
   m.def("sample_surface", [](const Mesh& mesh, const SampleOptions& options, const Caller& caller) {
     return caller.run(
         [&](const Context& context) { return sample_surface(mesh, options, context); });
   });
 
-  Record<CleanReport>(m, "CleanReport", "What clean() found.").fields();
+  Record<CleanReport>(m, "CleanReport", "Report of `clean`.").fields();
   m.def("clean", [](PointCloud cloud, const Caller& caller) {
     const CleanReport report =
         caller.run([&](const Context& context) { return clean(cloud, context); });
@@ -25,7 +25,7 @@ void bind_points(nb::module_& m) {
   });
 
   Record<ScanAlignment>(m, "ScanAlignment",
-                        "What align_scans() did; lengths are in the unit of the points.")
+                        "Report of `align_scans`; lengths are in the unit of the points.")
       .fields();
   m.def("align_scans", [](PointCloud cloud, const Caller& caller) {
     const ScanAlignment report =
@@ -33,9 +33,8 @@ void bind_points(nb::module_& m) {
     return nb::make_tuple(std::move(cloud), report);
   });
 
-  Options<OrientOptions>(m, "OrientOptions", "How normals are found and which side is outside.")
-      .fields();
-  Record<OrientReport>(m, "OrientReport", "What orient() did, and how sure it is.").fields();
+  Options<OrientOptions>(m, "OrientOptions", "Options of `orient`.").fields();
+  Record<OrientReport>(m, "OrientReport", "Report of `orient`.").fields();
   m.def("orient", [](PointCloud cloud, const OrientOptions& options, const Caller& caller) {
     const OrientReport report =
         caller.run([&](const Context& context) { return orient(cloud, options, context); });
