@@ -134,7 +134,7 @@ void visit_fields(FieldsOf<SampleOptions>, const Visitor& field) {
                     .least = 0,
                     .most = kMaxScans});
   field(&O::misalignment, {.name = "misalignment",
-                           .help = "root mean square distance by which scans are moved as rigid "
+                           .help = "root mean square displacement of the scans, moved as rigid "
                                    "bodies, as a fraction of the bounding box's diagonal",
                            .value = "F",
                            .least = 0,

@@ -151,11 +151,12 @@ void visit_fields(FieldsOf<ReconstructOptions>, const Visitor& field) {
   field(&O::keep_outliers, {.name = "keep_outliers",
                             .help = "keep all points; by default isolated points and outliers near "
                                     "the surface are removed"});
-  field(&O::sensor, {.name = "sensor",
-                     .help = "point from which all points were measured; computed normals point to "
-                             "it, and no hole is closed across a line of sight; by default the "
-                             "attributes sensor_x, sensor_y, sensor_z give a sensor per point",
-                     .value = "X,Y,Z"});
+  field(&O::sensor,
+        {.name = "sensor",
+         .help =
+             "point from which all points were measured, by default attributes sensor_x, sensor_y, "
+             "sensor_z; computed normals point to it, and no hole is closed across a line of sight",
+         .value = "X,Y,Z"});
   field(
       &O::keep_scans,
       {.name = "keep_scans",

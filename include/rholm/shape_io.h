@@ -67,12 +67,13 @@ void visit_fields(FieldsOf<ShapeReadOptions>, const Visitor& field) {
   field(&O::attributes, {.name = "attributes",
                          .help = "read the attributes of vertices or points",
                          .in_program = false});
-  field(&O::columns,
-        {.name = "columns",
-         .help = "meaning of the columns of a text table of points, such as "
-                 "x,y,z,r,g,b,nx,ny,nz,-; also a (alpha), or lat,lon,radius (degrees north and "
-                 "east); - skips a column; any other word names an attribute",
-         .value = "LIST"});
+  field(
+      &O::columns,
+      {.name = "columns",
+       .help =
+           "columns of a text table of points, such as x,y,z,r,g,b,nx,ny,nz,-; also a (alpha) and "
+           "lat,lon,radius (degrees north and east); - skips a column; other words name attributes",
+       .value = "LIST"});
 }
 // Throws InvalidInput unless `columns` is valid for ShapeReadOptions.
 void check_columns(const std::string& columns);

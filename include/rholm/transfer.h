@@ -80,14 +80,12 @@ void visit_fields(FieldsOf<TransferOptions>, const Visitor& field) {
                                  "target's own, half of the computation",
                          .in_program = false,
                          .in_python = false});
-  field(
-      &O::transition,
-      {.name = "transition",
-       .help =
-           "width over which the detail fades outside the region, in the unit of the target; by "
-           "default the wavelength of the target's base, at most a quarter of the region's radius",
-       .value = "T",
-       .least = 0});
+  field(&O::transition,
+        {.name = "transition",
+         .help = "width over which the detail fades outside the region, in the unit of the target; "
+                 "by default the base's wavelength, at most a quarter of the region's radius",
+         .value = "T",
+         .least = 0});
 }
 
 // Settings that update() applies quickly, for example while a slider moves.

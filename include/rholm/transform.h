@@ -69,8 +69,8 @@ void visit_fields(FieldsOf<FastReport>, const Visitor& field) {
         {.name = "measured_share",
          .help = "share of the faces on which errors were measured; 1: a second, finer pass; less: "
                  "a sample; 0: errors are estimated"});
-  field(&F::error_doubt, {.name = "error_doubt",
-                          .help = "amount by which the true error may exceed a measured error"});
+  field(&F::error_doubt,
+        {.name = "error_doubt", .help = "possible excess of the true error over a measured error"});
   field(&F::passes, {.name = "passes", .help = "number of passes over the faces"});
   field(&F::reached, {.name = "reached",
                       .help = "true if the error is within the precision, or within the least "

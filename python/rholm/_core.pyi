@@ -1608,7 +1608,7 @@ class FastReport:
 
     @property
     def error_doubt(self) -> float:
-        """Amount by which the true error may exceed a measured error."""
+        """Possible excess of the true error over a measured error."""
 
     @property
     def passes(self) -> int:
