@@ -155,7 +155,7 @@ class Repaired(NamedTuple):
     mesh: Mesh
     """Closed parts face outwards, cavities inwards."""
     report: _core.RepairReport
-    """What was wrong, and what still is."""
+    """Report of the repair."""
 
 
 @takes(_core.RepairOptions)
