@@ -1,4 +1,4 @@
-// Edits on one thread: transform and update of patches of 10 000 movable vertices, as a function of
+// Edits on one thread: analysis and update of patches of 10 000 movable vertices, as a function of
 // the wavelength in edges. Prints CPU time, and the counters `vertices` and `caps`.
 #include <benchmark/benchmark.h>
 
@@ -28,7 +28,7 @@ const Mesh& sphere() {
 
 std::vector<Region> region(double transition) { return {BallRegion{kTop, kRadius - transition}}; }
 
-void transform(benchmark::State& state, PatchFitting fitting) {
+void analysis(benchmark::State& state, PatchFitting fitting) {
   const double wavelength = kEdge * static_cast<double>(state.range(0));
   Patch patch;
   for (auto _ : state) {
@@ -39,8 +39,8 @@ void transform(benchmark::State& state, PatchFitting fitting) {
   state.counters["caps"] = static_cast<double>(patch.caps);
 }
 
-void mean_analysis(benchmark::State& state) { transform(state, PatchFitting::kMean); }
-void robust_analysis(benchmark::State& state) { transform(state, PatchFitting::kRobust); }
+void mean_analysis(benchmark::State& state) { analysis(state, PatchFitting::kMean); }
+void robust_analysis(benchmark::State& state) { analysis(state, PatchFitting::kRobust); }
 BENCHMARK(mean_analysis)->Arg(5)->Arg(10)->Arg(20)->Unit(benchmark::kMillisecond);
 BENCHMARK(robust_analysis)->Arg(5)->Arg(10)->Arg(20)->Unit(benchmark::kMillisecond);
 
@@ -68,13 +68,13 @@ void transfer_analysis(benchmark::State& state) {
 BENCHMARK(transfer_analysis)->Unit(benchmark::kMillisecond);
 
 void transfer_update(benchmark::State& state) {
-  const TransferAnalysis transform = prepared();
+  const TransferAnalysis analysis = prepared();
   double angle = 0;
   for (auto _ : state) {
     angle += 1e-2;
-    benchmark::DoNotOptimize(update(transform, {.angle = angle, .repeat = state.range(0) != 0}));
+    benchmark::DoNotOptimize(update(analysis, {.angle = angle, .repeat = state.range(0) != 0}));
   }
-  state.counters["vertices"] = static_cast<double>(transform.patch.vertices.size());
+  state.counters["vertices"] = static_cast<double>(analysis.patch.vertices.size());
 }
 BENCHMARK(transfer_update)->ArgName("repeat")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 

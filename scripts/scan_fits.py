@@ -92,9 +92,10 @@ def fitted(ways, lengths, degree, weighted):
 def fits(points, normals, seeds, planes, scale, ratio):
     """Yields normals of all fits at the seeds: fit, k, metric, (S, 3).
 
-    The metric "space" has k points. For rows with a ratio between steps there are three more metrics. "rows"
-    has k points by steps along rows and between them. "disc" has ratio k points in space, which reach
-    equally many rows. "oval" has sqrt(ratio) k points, between the two."""
+    The metric "space" has k points. For rows with a ratio between steps there are three more metrics:
+    - "rows" has k points by steps along rows and between them.
+    - "disc" has ratio k points in space, which reach equally many rows.
+    - "oval" has sqrt(ratio) k points, between the two."""
     tree, most, middle = cKDTree(points), max(SIZES), math.sqrt(ratio)
     ways = {"space": (1, None)}
     if ratio > 1:

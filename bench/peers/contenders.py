@@ -28,9 +28,9 @@ class Job:
     """A piece of work that can be repeated."""
 
     work: Callable[[Any], Any]
-    """What is measured; it is given what `fresh` made."""
+    """The work to measure; its argument is the result of `fresh`."""
     result: Callable[[Any], dict[str, npt.NDArray[Any]]]
-    """What it made as arrays; not measured."""
+    """Converts the result of `work` to arrays; not measured."""
     fresh: Callable[[], Any] = lambda: None
     """Input for one time, in the package's own types; not measured."""
 

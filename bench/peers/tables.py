@@ -26,9 +26,9 @@ class Entry:
     contender: str
     options: dict[str, Any] = field(default_factory=dict)
     data: str = ""
-    """Which of the group's data it is given."""
+    """Name of the group's data that the contender gets."""
     choices: list[dict[str, Any]] = field(default_factory=list)
-    """Options of which those with the least error are measured."""
+    """Sets of options; the set with the least error is measured."""
 
     @property
     def ours(self) -> bool:

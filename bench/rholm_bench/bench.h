@@ -41,10 +41,10 @@ void check(const BenchOptions& options);
 // Times of runs from the bytes of a file to coefficients, with a given centre.
 struct BenchRuns {
   int threads = 0;
-  // Times of stages. "coefficients" is everything except the norms, which are "norms". Its known
-  // parts are "read" (mapping or reading the file), "topology", "center" (of meshes that cannot be
-  // used in place), "order" (of triangles in random order), "triangles", "spread", "fourier" and
-  // "verify". "write" is the time of writing a model file.
+  // Times of stages. "norms" are the norms, "coefficients" everything else. "write" is the time of
+  // writing a model file. Parts of "coefficients" are "read" (mapping or reading the file), "order"
+  // (of triangles in random order), "topology" and "center". Meshes used in place have no "center".
+  // Other parts are "triangles", "spread", "fourier" and "verify".
   Timings stages;
   // Wall time at the first number of threads over wall time at this one: median over pairs of runs.
   double speedup = 1;

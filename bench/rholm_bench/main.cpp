@@ -1,5 +1,5 @@
-// rholm_bench measures the speed of rholm on this machine, with the best instruction set or the one
-// that RHOLM_TEST_TARGET names.
+// rholm_bench measures the speed of rholm on this machine. It uses the best instruction set, or the
+// set that RHOLM_TEST_TARGET names.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

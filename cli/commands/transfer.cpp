@@ -98,13 +98,13 @@ int run(const Options& options, Session& session) {
   const Mesh source = read_surface(options.from, session, options.convention);
   const Mesh target =
       options.to == options.from ? source : read_surface(options.to, session, options.convention);
-  TransferAnalysis transform =
+  TransferAnalysis analysis =
       analyze_transfer(source, from, target, to, options.transfer, session.context());
-  const TransferReport& report = transform.report;
-  const std::vector<Vec3> positions = update(transform, wanted);
-  apply(transform.patch, positions, transform.mesh);
+  const TransferReport& report = analysis.report;
+  const std::vector<Vec3> positions = update(analysis, wanted);
+  apply(analysis.patch, positions, analysis.mesh);
   stop_if_interrupted();
-  write_shape_output(transform.mesh, options.output, {format, options.ascii}, session);
+  write_shape_output(analysis.mesh, options.output, {format, options.ascii}, session);
   const double coarse = report.target_edge / (report.source_edge * report.scale);
   if (!options.transfer.refine && coarse > kCoarse) {
     session.note(fmt::format(
@@ -113,7 +113,7 @@ int run(const Options& options, Session& session) {
         coarse));
   }
   print_report(options, report, wanted.angle.value_or(report.angle),
-               moved_vertices(transform.patch, positions), session);
+               moved_vertices(analysis.patch, positions), session);
   return 0;
 }
 

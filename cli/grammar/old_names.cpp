@@ -25,20 +25,20 @@ std::string note_of(std::string_view old_name, std::string_view name) {
   return fmt::format("{} is {} now; the next version refuses the old name", old_name, name);
 }
 
-// Replaces "expand", which became two commands: --atlas among its options chose the second one.
+// Replaces "analyze", which became two commands: --atlas among its options chose the second one.
 // Returns a note if the word was replaced.
 std::vector<std::string> replace_analyze(std::string& word, std::vector<std::string>& options,
                                          std::size_t first) {
-  if (word != "expand") return {};
+  if (word != "analyze") return {};
   const auto begin = options.begin() + static_cast<std::ptrdiff_t>(first);
   const auto atlas = std::find(begin, options.end(), "--atlas");
   if (atlas == options.end()) {
     word = "expand";
-    return {note_of("expand", word)};
+    return {note_of("analyze", word)};
   }
   word = "compress";
   options.erase(atlas);
-  return {note_of("compress", "compress")};
+  return {note_of("analyze --atlas", "compress")};
 }
 
 // Replaces the old name in --command of a batch, whose options of the command follow "--".

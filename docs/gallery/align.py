@@ -55,7 +55,7 @@ for which in [best, *found.alignment.ambiguities]:
     )
 
 # %%
-# And its mirror image, which no rotation lays on a body without symmetry.
+# No rotation lays the mirror image on a body without symmetry.
 
 image = a.mirror("x")
 for mirror in (False, True):

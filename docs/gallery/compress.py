@@ -2,8 +2,8 @@
 A knot as few caps
 ==================
 
-What no centre sees wholly is covered by large caps, each a function on a sphere of its own. An error is
-named; how many caps, where, and of which degree, is found.
+Large caps, each a function on its own sphere, cover a shape that is visible from no single centre. You name
+an error; number, places and degrees of the caps are found.
 """
 
 import numpy as np
@@ -55,8 +55,8 @@ print(
 )
 
 # %%
-# The mesh, the surface of the caps, and the caps in colours: each vertex has that of the cap of the
-# largest weight there.
+# The mesh, the surface of the caps, and the caps in colours: each vertex has the colour of the
+# cap with the largest weight there.
 
 surface = a.mesh()
 view = {"view": (0, 0.45, -1), "up": (0, 1, 0)}

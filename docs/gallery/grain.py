@@ -58,7 +58,7 @@ panels = [rholm.Panel(alike(s, 2, k).mesh(6), f"heights times {k}") for k in (0,
 rholm.render(panels, (1500, 420))
 
 # %%
-# Sphericity falls as roughness grows: the surface of a ball of the same volume over that of the grain.
+# Sphericity falls as roughness grows: the surface of a ball of the same volume over the grain's surface.
 
 
 def sphericity(s):

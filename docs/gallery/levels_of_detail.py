@@ -45,8 +45,8 @@ panels = [
 rholm.render([*panels, rholm.Panel(body, "mesh")], (1600, 380))
 
 # %%
-# What a degree leaves out is known from the spectrum before anything is made: the rms of all that is
-# beyond it, by Parseval's identity, from the norm of the mesh in closed form.
+# The spectrum tells the truncation error of a degree before a mesh is made. It is the rms of all higher
+# degrees, by Parseval's identity, from the norm of the mesh in closed form.
 
 for degree in degrees:
     beyond = s.norm_squared - s.spectrum("energy")[: degree + 1].sum()

@@ -85,5 +85,5 @@ ax.legend()
 plt.show()
 
 # %%
-# What the descriptor cannot see: a body and its mirror image have the same energies, and so, nearly,
-# have a long body and a flat one. Aligned coefficients tell them apart: `rholm.align`.
+# The descriptor has limits: a body and its mirror image have the same energies, and a long body and a flat
+# one have nearly the same. Aligned coefficients tell them apart: `rholm.align`.

@@ -2,8 +2,8 @@
 Centre of mass and gravity
 ==========================
 
-The same surface as seen from its centroid, and the gravity of a homogeneous body of that shape: its
-potential follows from powers of the radius, on a grid.
+A surface is expanded again about its centroid. The potential of a homogeneous body of this shape then
+follows from powers of the radius, on a grid.
 """
 
 # sphinx_gallery_thumbnail_number = 2
@@ -30,7 +30,7 @@ print(f"largest distance of the two surfaces {rholm.compare(s, com).hausdorff:.2
 
 
 def stokes(s, degree, reference):
-    """Of the body at constant density."""
+    """Returns the coefficients of the potential of the body at constant density."""
     n = 4 * s.degree
     r = rholm.synthesize_grid(s, "gauss-legendre", n, 2 * n)
     result = np.zeros((2, degree + 1, degree + 1))

@@ -50,7 +50,7 @@ rholm.render(
 )
 
 # %%
-# What was found, beside what was put in.
+# The table compares the values that were found with the true ones.
 
 diagonal = beads.bounds.diagonal
 report = r.report

@@ -2,10 +2,10 @@
 The spectrum and its tail
 =========================
 
-The energy per degree says at which wavelengths a shape has its detail. A mesh has flat faces, and
-these have a spectrum of their own: beyond the mesh's resolution the energy falls as S / (pi l^4), and S
-is known in closed form from the angles at its edges. The tail tells where the shape ends and the mesh
-begins.
+The energy per degree says at which wavelengths a shape has its detail. A mesh has flat faces,
+which add a tail to the spectrum: beyond the mesh's resolution the energy falls as S / (pi l^4). S is
+known in closed form from the angles at the edges. The tail shows from which degree on the spectrum
+describes the mesh and no longer the shape.
 """
 
 import rholm
@@ -34,5 +34,5 @@ ax.legend(handles[0::2] + handles[-1:], labels[0::2] + labels[-1:])
 plt.show()
 
 # %%
-# What follows for a choice of degree: where the spectrum has reached its tail, more degrees describe the
+# This limits the degree to choose: where the spectrum has reached its tail, more degrees describe the
 # faces, not the body.

@@ -2,8 +2,8 @@
 Detail of one surface on another
 ================================
 
-The texture of a patch, heights over its smooth base, is laid on a patch of another mesh: turned to
-fit, scaled, or side by side until the region is full.
+The texture of a patch consists of heights over its smooth base. It is laid on a patch of another mesh:
+turned to fit, scaled, or repeated side by side until the region is full.
 """
 
 import numpy as np
@@ -41,7 +41,7 @@ panels = [
 rholm.render(panels, (1300, 360), view=(-0.4, 0.55, -0.7), fit_each=True)
 
 # %%
-# The same as sliders: the analysis is done once, then height and angle move the vertices where they lie.
+# Sliders need the analysis only once: after it, height and angle move the vertices in place.
 
 editor = rholm.analyze_transfer(source, from_, target, to)
 report = editor.report

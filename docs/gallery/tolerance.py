@@ -2,9 +2,9 @@
 An error instead of a degree
 ============================
 
-``tolerance`` finds the smallest degree that keeps an error: along rays or between the surfaces, rms or
-largest, in the unit of the mesh or as a part of its size. What was asked for and what was reached
-stand side by side, and the error can be seen where it is.
+``tolerance`` finds the smallest degree that keeps an error. The error is measured along rays or between
+the surfaces, as rms or largest value, in the unit of the mesh or as a part of its size. The plots
+show the wanted and the reached error, and the picture shows where the error is.
 """
 
 # sphinx_gallery_thumbnail_number = 2

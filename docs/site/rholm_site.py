@@ -1,4 +1,4 @@
-"""What the site needs beside Sphinx's extensions: lists of the API, pictures in the gallery."""
+"""Extends Sphinx for the site: lists of the API, pictures in the gallery."""
 
 import inspect
 import re
@@ -77,7 +77,7 @@ class Api(Directive):
     has_content = True
 
     def run(self):
-        """What docutils puts in the directive's place."""
+        """Returns the nodes that docutils puts in the directive's place."""
         names = " ".join(self.content).split()
         lines = [".. autosummary::", "   :nosignatures:", ""]
         lines += [f"   {name}" for name in names] + [""]
@@ -116,7 +116,7 @@ def mark_parameters(app, what, name, thing, options, lines):
 
 
 def no_signature(app, what, name, thing, options, signature, answer):
-    """What the library makes is shown without a signature: how to call it says nothing."""
+    """Hides the signatures of classes that only the library makes, as users do not call them."""
     made = (
         "Atlas",
         "Picture",

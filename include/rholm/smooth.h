@@ -65,9 +65,9 @@ void visit_fields(FieldsOf<PatchOptions>, const Visitor& field) {
                      .help = "move only outliers such as scratches and spikes; the texture stays"});
 }
 
-// Result of an transform: the vertices that may move, and their moves for fits of each degree.
+// Result of an analysis: the vertices that may move, and their moves for fits of each degree.
 struct Patch {
-  double wavelength = 0;                // wavelength of the transform, in the unit of the vertices
+  double wavelength = 0;                // wavelength of the analysis, in the unit of the vertices
   int degree = 0;                       // degree of the fits for that wavelength
   std::vector<std::uint32_t> vertices;  // indices of the vertices that may move
   std::vector<Vec3> positions;          // their given positions
@@ -86,7 +86,7 @@ Patch analyze_patch(const Mesh& mesh, std::span<const Region> regions, const Pat
 
 // Settings that update() applies quickly, for example while a slider moves.
 struct PatchUpdate {
-  double wavelength = 0;  // 0: of the transform; up to longest_wavelength()
+  double wavelength = 0;  // 0: of the analysis; up to longest_wavelength()
   double strength = 1;    // 0 changes nothing, 1 removes the detail, -1 doubles it
 };
 
@@ -113,7 +113,7 @@ void visit_fields(FieldsOf<PatchUpdate>, const Visitor& field) {
 double longest_wavelength(const Patch& patch);
 
 // Returns new positions of patch.vertices. Throws InvalidInput for a wavelength outside of the
-// transform, or a strength that is not finite.
+// analysis, or a strength that is not finite.
 std::vector<Vec3> update(const Patch& patch, const PatchUpdate& wanted = {});
 
 // Moves the patch's vertices to `positions`, and updates normals nx, ny, nz of the mesh.

@@ -5,7 +5,7 @@
 // the patch's axis and azimuth, seen from the centre of its sphere). They are turned to the azimuth
 // at which they resemble the target's detail most, scaled, and faded in the target's transition.
 // Heights of closed meshes point outwards, even if the mesh is inside out, which is not changed. As
-// in smoothing, the transform is separate from the update of the vertices.
+// in smoothing, the analysis is separate from the update of the vertices.
 #pragma once
 
 #include <cstddef>
@@ -46,7 +46,7 @@ struct TransferOptions {
   // Coinciding vertices are merged, and new vertices come after the old ones.
   bool refine = false;
   // True: the angle at which the detail resembles the target's own most is searched for, which is
-  // half of the transform. False: angle and correlation of the report are 0.
+  // half of the analysis. False: angle and correlation of the report are 0.
   bool find_angle = true;
   // Width at the target region; by default its base's wavelength, at most 1/4 of its radius.
   std::optional<double> transition = {};
@@ -92,7 +92,7 @@ void visit_fields(FieldsOf<TransferOptions>, const Visitor& field) {
 struct TransferUpdate {
   double height = 1;  // factor of the heights, in addition to `scale`
   // Radians, counter-clockwise seen from outside. At 0 the texture is turned by the shortest
-  // rotation between the patches' axes. By default the angle of the transform, where the texture
+  // rotation between the patches' axes. By default the angle of the analysis, where the texture
   // resembles the target's detail most; 0 if not searched for.
   std::optional<double> angle = {};
   // True: a texture smaller than the target region is repeated side by side, all copies with the
@@ -125,7 +125,7 @@ void visit_fields(FieldsOf<TransferUpdate>, const Visitor& field) {
                  "coefficients above from_degree replace the target's, for comparison"});
 }
 
-// Findings of the transform. Lengths are in the units of the two meshes.
+// Findings of the analysis. Lengths are in the units of the two meshes.
 struct TransferReport {
   double source_radius = 0, target_radius = 0;  // radii of discs with the bases' areas
   double scale = 1;                             // length on the target per length on the source
@@ -186,7 +186,7 @@ struct TransferSource {
   std::shared_ptr<const TransferSourceState> state;  // the texture; shared by copies
 };
 
-// Result of an transform, for update().
+// Result of an analysis, for update().
 struct TransferAnalysis {
   Mesh mesh;              // the target, refined if wanted
   Patch patch;            // the vertices that may move, and the base under them
@@ -201,7 +201,7 @@ TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> fr
                                   const Mesh& target, std::span<const Region> to,
                                   const TransferOptions& options = {}, const Context& context = {});
 
-// Splits analyze_transfer() into two steps: the source's transform is reused for several targets,
+// Splits analyze_transfer() into two steps: the source's analysis is reused for several targets,
 // for example while the user drags the target region. Options must have the source's from_degree,
 // otherwise InvalidInput is thrown, also for a source without a texture.
 TransferSource analyze_source(const Mesh& source, std::span<const Region> from,
@@ -211,9 +211,9 @@ TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& targ
                                   std::span<const Region> to, const TransferOptions& options = {},
                                   const Context& context = {});
 
-// Returns new positions of transform.patch.vertices, for apply(). Throws InvalidInput for numbers
+// Returns new positions of analysis.patch.vertices, for apply(). Throws InvalidInput for numbers
 // that are not finite, and with kCoefficients for from_degree >= kMaxSwapDegree.
-std::vector<Vec3> update(const TransferAnalysis& transform, const TransferUpdate& wanted = {});
+std::vector<Vec3> update(const TransferAnalysis& analysis, const TransferUpdate& wanted = {});
 
 // Does analyze_transfer(), update() and apply(): returns the target with the texture.
 Mesh transfer(const Mesh& source, std::span<const Region> from, const Mesh& target,

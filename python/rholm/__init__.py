@@ -110,7 +110,6 @@ from ._edit import (
     smooth,
     update,
 )
-from ._expand import as_expansion, expand, from_array, from_pyshtools
 from ._errors import (
     CancelledError,
     Error,
@@ -121,6 +120,7 @@ from ._errors import (
     OutOfMemoryError,
     UnsupportedError,
 )
+from ._expand import as_expansion, expand, from_array, from_pyshtools
 from ._expansion import CoefficientsLike, Expansion
 from ._filters import (
     band_pass,
@@ -378,7 +378,6 @@ __all__ = [
     "dominant_caps",
     "ellipsoid",
     "enclosed_volume",
-    "expand_mesh",
     "encode_png",
     "euler_angles_of",
     "evaluate",

@@ -110,7 +110,7 @@ class Atlas:
 
     @property
     def rules(self) -> SurfaceRules | None:
-        """Rules by which `reconstruct` extracted the surface; None if another function made the atlas."""
+        """Rules of `reconstruct` for the surface; None if another function made the atlas."""
         return self._core.rules
 
     def cap(self, i: int) -> Cap:
@@ -436,7 +436,7 @@ class PatchAtlas(NamedTuple):
     mesh: Mesh
     """The surface they make."""
     rms_along_rays: float
-    """Of all points of the cells to the series of their caps."""
+    """Rms distance along rays from all points of the cells to the series of their caps."""
 
 
 @takes(_core.PatchAtlasOptions)

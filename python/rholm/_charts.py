@@ -251,10 +251,10 @@ class MonteCarlo(NamedTuple):
     expansion: Expansion
     """The mean."""
     deviation: FloatArray
-    """Of each coefficient, (2, L+1, L+1) in pyshtools' default convention: 3 of it hold the error
-    in about 99.7 % of all seeds."""
+    """Standard deviation of each coefficient, (2, L+1, L+1) in pyshtools' default convention.
+    The error is below three of it for about 99.7 % of all seeds."""
     report: _core.MonteCarlo
-    """How many samples, and how exact."""
+    """Number of samples, and errors."""
 
 
 @takes(_core.MonteCarloOptions)

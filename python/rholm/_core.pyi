@@ -246,7 +246,7 @@ class Inspection:
         """
 
 class RepairReport:
-    """Report of `repair`."""
+    """Report of `repair`: changes, and defects that remain."""
 
     def __repr__(self) -> str: ...
 
@@ -434,7 +434,9 @@ def torus(arg0: float, arg1: float, arg2: int, arg3: int, /) -> Mesh: ...
 def bumpy_sphere(arg0: int, arg1: float, arg2: int, /) -> Mesh: ...
 
 class SampleOptions:
-    """Options of `sample_surface`."""
+    """
+    Options of `sample_surface`: errors, outliers and places of the samples.
+    """
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1406,7 +1408,7 @@ class CenterOptions:
 def parse_center(arg: str, /) -> CenterOptions: ...
 
 class ChartOptions:
-    """Options of a chart."""
+    """Options of a chart: the centre, and surfaces that are not star-shaped."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1427,7 +1429,7 @@ class ChartOptions:
     FIELDS: tuple = ...
 
 class EncodeOptions:
-    """Options of `expand`."""
+    """Options of `expand`: degree, precision and errors."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2396,7 +2398,7 @@ def read_atlas(arg0: str, arg1: Caller, /) -> AtlasModel: ...
 def is_atlas_file(arg: str, /) -> bool: ...
 
 class CompressOptions:
-    """Options of `compress`."""
+    """Options of `compress`: limits of the size and the error of an atlas."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2583,7 +2585,9 @@ def patch_atlas(arg0: Mesh | PointCloud, arg1: PatchAtlasOptions, arg2: Caller, 
 def patch_picture(arg0: Mesh | PointCloud, arg1: str, arg2: PatchAtlasOptions, arg3: Caller, /) -> tuple: ...
 
 class ReconstructOptions:
-    """Options of `reconstruct`."""
+    """
+    Options of `reconstruct`: resolution, cleaning and holes of the surface.
+    """
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2964,7 +2968,7 @@ def foresee_tiles(arg0: int, arg1: int, /) -> TileForecast: ...
 def region_weights(arg0: Mesh, arg1: Sequence[str], arg2: float, /) -> NDArray[numpy.float64]: ...
 
 class PatchOptions:
-    """Options of `smooth`."""
+    """Options of `smooth`: the detail to remove from a region."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -3037,7 +3041,7 @@ def apply_in_place(arg0: Patch, arg1: float, arg2: float, arg3: Mesh, /) -> None
 def copy_mesh(arg: Mesh, /) -> Mesh: ...
 
 class TransferOptions:
-    """Options of `transfer`: the detail, and its size on the target."""
+    """Options of `transfer`: the detail to take, and its size on the target."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -3195,7 +3199,7 @@ class TransferSource:
     def rms(self) -> float: ...
 
 class TransferAnalysis:
-    """A texture placed on its target, ready for quick updates."""
+    """Result of an analysis of two regions."""
 
     @property
     def mesh(self) -> Mesh: ...
@@ -3327,7 +3331,7 @@ def write_png(arg0: str, arg1: Annotated[NDArray[numpy.uint8], dict(shape=(None,
 def write_file(arg0: str, arg1: bytes, /) -> None: ...
 
 class ReportOptions:
-    """Options of `report_html`."""
+    """Options of `report_html`: texts of the page, and size of its pictures."""
 
     def __init__(self, **fields: Any) -> None: ...
 

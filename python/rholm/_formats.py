@@ -17,17 +17,17 @@ class FileFormat(NamedTuple):
     extensions: tuple[str, ...]
     """Extensions of its files, without dot; a new file gets the first."""
     text: bool
-    """Whether files of text are read or written."""
+    """True if text files are read or written."""
     binary: bool
-    """Whether binary files are."""
+    """True if binary files are read or written."""
     read: bool
-    """Whether files of it can be read."""
+    """True if files of the format can be read."""
     written: bool
-    """Whether files of it can be written."""
+    """True if files of the format can be written."""
     holds: tuple[str, ...]
-    """What its files hold, as words: "faces", "points", "normals", "meaning", ..."""
+    """Contents of its files, as words: "faces", "points", "normals", "meaning", ..."""
     help: str
-    """What it is, in one sentence."""
+    """Description of the format, in one sentence."""
 
 
 def shape_formats() -> tuple[FileFormat, ...]:

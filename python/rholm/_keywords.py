@@ -25,7 +25,7 @@ class SimplifyKeywords(TypedDict, total=False):
 
 
 class SampleKeywords(TypedDict, total=False):
-    """Options of `sample_surface`."""
+    """Options of `sample_surface`: errors, outliers and places of the samples."""
 
     noise: float
     normal_noise: float
@@ -90,13 +90,13 @@ class CenterKeywords(TypedDict, total=False):
 
 
 class ChartKeywords(TypedDict, total=False):
-    """Options of a chart."""
+    """Options of a chart: the centre, and surfaces that are not star-shaped."""
 
     signed: bool
 
 
 class EncodeKeywords(TypedDict, total=False):
-    """Options of `expand`."""
+    """Options of `expand`: degree, precision and errors."""
 
     errors: bool
     weld: float
@@ -121,7 +121,7 @@ class CompareKeywords(TypedDict, total=False):
 
 
 class CompressKeywords(TypedDict, total=False):
-    """Options of `compress`."""
+    """Options of `compress`: limits of the size and the error of an atlas."""
 
     samples: int
     max_degree: int
@@ -147,7 +147,7 @@ class PatchAtlasKeywords(TypedDict, total=False):
 
 
 class ReconstructKeywords(TypedDict, total=False):
-    """Options of `reconstruct`."""
+    """Options of `reconstruct`: resolution, cleaning and holes of the surface."""
 
     step: float
     tolerance: float
@@ -169,7 +169,7 @@ class ReconstructKeywords(TypedDict, total=False):
 
 
 class PatchKeywords(TypedDict, total=False):
-    """Options of `smooth`."""
+    """Options of `smooth`: the detail to remove from a region."""
 
     transition: float | None
     fitting: Literal["mean", "robust", "around"]
@@ -177,7 +177,7 @@ class PatchKeywords(TypedDict, total=False):
 
 
 class TransferKeywords(TypedDict, total=False):
-    """Options of `transfer`: the detail, and its size on the target."""
+    """Options of `transfer`: the detail to take, and its size on the target."""
 
     from_degree: int
     scale: float
@@ -210,7 +210,7 @@ class RenderKeywords(TypedDict, total=False):
 
 
 class ReportKeywords(TypedDict, total=False):
-    """Options of `report_html`."""
+    """Options of `report_html`: texts of the page, and size of its pictures."""
 
     title: str
     shape_name: str

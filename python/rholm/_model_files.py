@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 from . import _core
 from ._atlas import Atlas, as_atlas
 from ._coefficients import Normalization
-from ._expand import as_expansion
 from ._errors import InvalidInputError, UnsupportedError
+from ._expand import as_expansion
 from ._expansion import Expansion
 from ._run import caller
 from ._shapes import name_of
@@ -24,15 +24,15 @@ class CoefficientsFile(NamedTuple):
     format: str
     """A name of `rholm.coefficients_formats`; "shtools" for a model file."""
     normalization: str
-    """In which the numbers stood."""
+    """Normalisation of the numbers in the file."""
     csphase: int
-    """In which the numbers stood."""
+    """Sign convention (1 or -1) of the numbers in the file."""
     assumed: list[str]
-    """What the file did not say."""
+    """Conventions that the file does not state and that were assumed."""
     product: str
-    """What the file says it is of, if that is no shape."""
+    """Content of the file by its own words, if this is no shape."""
     passed_over: list[str]
-    """What it says and what the expansion does not use."""
+    """Entries of the file that the expansion does not use."""
 
 
 def _file_of(read: tuple[Any, ...]) -> CoefficientsFile:

@@ -10,8 +10,8 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import FloatArray, float_row, numeric
 from ._coefficients import array_of, core_of
-from ._expand import as_expansion
 from ._errors import InvalidInputError
+from ._expand import as_expansion
 from ._expansion import CoefficientsLike, Expansion
 from ._options import options_of, takes
 from ._rotations import RotationLike, as_rotation

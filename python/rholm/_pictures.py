@@ -13,8 +13,8 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import float_rows, floats, plain_array
-from ._expand import as_expansion
 from ._errors import Error, InvalidInputError
+from ._expand import as_expansion
 from ._expansion import Expansion
 from ._interop import required
 from ._options import options_of, takes

@@ -62,7 +62,7 @@ class Cleaned(NamedTuple):
     cloud: PointCloud
     """The points that stay."""
     report: _core.CleanReport
-    """What was dropped."""
+    """Number and kinds of dropped points."""
 
 
 def clean(points: PointsLike) -> Cleaned:
@@ -125,7 +125,7 @@ class Oriented(NamedTuple):
     cloud: PointCloud
     """The points with unit normals that point out of the solid."""
     report: _core.OrientReport
-    """What was done, and how sure it is."""
+    """Report: the steps that were done, and how sure the result is."""
 
 
 @takes(_core.OrientOptions)

@@ -37,7 +37,7 @@ class Reconstruction(_Parts):
     """
 
     report: _core.ReconstructReport
-    """What was found in the points, and what became of them."""
+    """Report about the points and the surface."""
     _files: tuple[Path, Path | None] | None = None
 
     @property

@@ -25,13 +25,13 @@ class ShapeFile(NamedTuple):
     encoding: str
     """"ascii", "binary little endian" or "binary big endian"."""
     warnings: list[str]
-    """What was passed over, with counts."""
+    """Content that the reader passed over, with counts."""
     columns: tuple[str, ...]
-    """What the columns of a text table were taken for, as the argument has it; () for other files."""
+    """Meanings of the columns of a text table, as in the argument; () for other files."""
     note: str
-    """The same as a line for people, and how it was decided."""
+    """Meanings of the columns as a line for people, with the reason."""
     unsure: bool
-    """Whether the columns may mean something else, which `note` says."""
+    """True if the columns may mean something else; `note` tells what."""
     dropped: int
     """Points left out, as a coordinate is not finite."""
 

@@ -155,7 +155,7 @@ class Repaired(NamedTuple):
     mesh: Mesh
     """Closed parts face outwards, cavities inwards."""
     report: _core.RepairReport
-    """Report of the repair."""
+    """Report: defects that were found, and defects that remain."""
 
 
 @takes(_core.RepairOptions)

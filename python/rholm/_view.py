@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from . import _core
-from ._expand import as_expansion, expand
 from ._errors import InvalidInputError, UnsupportedError
+from ._expand import as_expansion, expand
 from ._expansion import Expansion
 from ._interop import required
 from ._run import Progress, caller

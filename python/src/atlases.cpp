@@ -343,7 +343,9 @@ void bind_models(nb::module_& m) {
 }
 
 void bind_compress(nb::module_& m) {
-  Options<CompressOptions>(m, "CompressOptions", "Options of `compress`.").fields();
+  Options<CompressOptions>(m, "CompressOptions",
+                           "Options of `compress`: limits of the size and the error of an atlas.")
+      .fields();
   Record<CompressReport>(m, "CompressReport", "Report of `compress`.").fields();
   m.def("compress", [](const Shape& shape, const CompressOptions& options, const Caller& caller) {
     Compressed result = caller.run([&](const Context& context) {

@@ -33,7 +33,9 @@ void bind_smooth(nb::module_& m) {
           return array_of(
               unlocked([&] { return region_weights(mesh, regions_of(regions), transition); }));
         });
-  Options<PatchOptions>(m, "PatchOptions", "Options of `smooth`.").fields();
+  Options<PatchOptions>(m, "PatchOptions",
+                        "Options of `smooth`: the detail to remove from a region.")
+      .fields();
   nb::class_<Patch> patch_type(
       m, "Patch", "Vertices of a region that may move, and their positions on the fits.");
   bind_state(
@@ -104,7 +106,7 @@ void bind_smooth(nb::module_& m) {
 
 void bind_transfer(nb::module_& m) {
   Options<TransferOptions>(m, "TransferOptions",
-                           "Options of `transfer`: the detail, and its size on the target.")
+                           "Options of `transfer`: the detail to take, and its size on the target.")
       .fields();
   Options<TransferUpdate>(m, "TransferUpdate", "Options of `transfer` that can be updated quickly.")
       .fields();
@@ -117,8 +119,7 @@ void bind_transfer(nb::module_& m) {
       .def_ro("wavelength", &TransferSource::wavelength)
       .def_ro("edge", &TransferSource::edge)
       .def_ro("rms", &TransferSource::rms);
-  nb::class_<TransferAnalysis>(m, "TransferAnalysis",
-                               "A texture placed on its target, ready for quick updates.")
+  nb::class_<TransferAnalysis>(m, "TransferAnalysis", "Result of an analysis of two regions.")
       .def_prop_ro("mesh", [](const TransferAnalysis& a) { return a.mesh; })
       .def_prop_ro("patch", [](const TransferAnalysis& a) { return a.patch; })
       .def_ro("report", &TransferAnalysis::report);
@@ -138,14 +139,14 @@ void bind_transfer(nb::module_& m) {
           });
         });
   m.def("update_transfer",
-        [](const TransferAnalysis& transform, const TransferUpdate& wanted, const Caller& caller) {
-          return array_of(caller.run([&](const Context&) { return update(transform, wanted); }));
+        [](const TransferAnalysis& analysis, const TransferUpdate& wanted, const Caller& caller) {
+          return array_of(caller.run([&](const Context&) { return update(analysis, wanted); }));
         });
-  m.def("apply_transfer_in_place", [](const TransferAnalysis& transform,
-                                      const TransferUpdate& wanted, Mesh& mesh,
-                                      const Caller& caller) {
-    caller.run([&](const Context&) { apply(transform.patch, update(transform, wanted), mesh); });
-  });
+  m.def(
+      "apply_transfer_in_place", [](const TransferAnalysis& analysis, const TransferUpdate& wanted,
+                                    Mesh& mesh, const Caller& caller) {
+        caller.run([&](const Context&) { apply(analysis.patch, update(analysis, wanted), mesh); });
+      });
 }
 
 }  // namespace

@@ -97,7 +97,8 @@ void bind_render(nb::module_& m) {
 }
 
 void bind_pages(nb::module_& m) {
-  Options<ReportOptions>(m, "ReportOptions", "Options of `report_html`.")
+  Options<ReportOptions>(m, "ReportOptions",
+                         "Options of `report_html`: texts of the page, and size of its pictures.")
       .fields()
       .type()
       .def("set_commands", [](ReportOptions& options,

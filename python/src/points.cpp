@@ -11,7 +11,9 @@
 namespace rholm::python {
 
 void bind_points(nb::module_& m) {
-  Options<SampleOptions>(m, "SampleOptions", "Options of `sample_surface`.").fields();
+  Options<SampleOptions>(m, "SampleOptions",
+                         "Options of `sample_surface`: errors, outliers and places of the samples.")
+      .fields();
   m.def("sample_surface", [](const Mesh& mesh, const SampleOptions& options, const Caller& caller) {
     return caller.run(
         [&](const Context& context) { return sample_surface(mesh, options, context); });

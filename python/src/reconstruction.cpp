@@ -54,7 +54,10 @@ void bind_tiles(nb::module_& m) {
 }  // namespace
 
 void bind_reconstruction(nb::module_& m) {
-  Options<ReconstructOptions>(m, "ReconstructOptions", "Options of `reconstruct`.").fields();
+  Options<ReconstructOptions>(
+      m, "ReconstructOptions",
+      "Options of `reconstruct`: resolution, cleaning and holes of the surface.")
+      .fields();
   Record<ReconstructReport>(m, "ReconstructReport",
                             "Report of `reconstruct`; lengths are in the unit of the points.")
       .fields();

@@ -32,7 +32,8 @@ void bind_records(nb::module_& m) {
       m, "Inspection",
       "Properties of a mesh. Counts are of the given mesh: weld it first to close seams.")
       .fields();
-  Record<RepairReport>(m, "RepairReport", "Report of `repair`.").fields();
+  Record<RepairReport>(m, "RepairReport", "Report of `repair`: changes, and defects that remain.")
+      .fields();
 }
 
 void bind_edges(nb::module_& m) {

@@ -85,8 +85,11 @@ void bind_options(nb::module_& m) {
   Options<Tolerance>(m, "Tolerance", "Largest allowed error of a model.").fields();
   Options<CenterOptions>(m, "CenterOptions", "Options of the centre.").fields();
   m.def("parse_center", &parse_center);
-  Options<ChartOptions>(m, "ChartOptions", "Options of a chart.").fields();
-  Options<ExpandOptions>(m, "ExpandOptions", "Options of `expand`.").fields();
+  Options<ChartOptions>(m, "ChartOptions",
+                        "Options of a chart: the centre, and surfaces that are not star-shaped.")
+      .fields();
+  Options<ExpandOptions>(m, "ExpandOptions", "Options of `expand`: degree, precision and errors.")
+      .fields();
 }
 
 void bind_results(nb::module_& m) {

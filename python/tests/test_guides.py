@@ -1,4 +1,4 @@
-"""Every example of the pages for readers runs as it stands, in order, in one folder per page.
+"""Every example of the pages for readers runs unchanged, in order, in one folder per page.
 
 Blocks of Python share their names, blocks of sh are for bash. A block of text right behind one is
 what it prints. Blocks that install or build are for a clone of the project, and are recognised by

@@ -164,19 +164,19 @@ TransferSource analyze_source(const Mesh& source, std::span<const Region> from, 
   if (const auto turned = turned_outwards(source)) {
     return analyze_source(*turned, from, from_degree, context);
   }
-  TransferSource transform;
-  transform.from_degree = from_degree;
-  transform.radius = region_radius(source, from);
-  transform.wavelength = 4 * transform.radius / from_degree;
-  const double fading = std::min(transform.wavelength, kTransition * transform.radius);
-  check_degree(source, region_weights(source, from, fading), transform.radius, from_degree);
+  TransferSource analysis;
+  analysis.from_degree = from_degree;
+  analysis.radius = region_radius(source, from);
+  analysis.wavelength = 4 * analysis.radius / from_degree;
+  const double fading = std::min(analysis.wavelength, kTransition * analysis.radius);
+  check_degree(source, region_weights(source, from, fading), analysis.radius, from_degree);
   auto state = std::make_shared<TransferSourceState>();
-  state->patch = texture_of(source, from, transform.wavelength, fading, context);
+  state->patch = texture_of(source, from, analysis.wavelength, fading, context);
   state->texture = detail_of(state->patch);
-  transform.edge = median_edge(state->patch);
-  transform.rms = rms_in_disc(state->texture);
-  transform.state = std::move(state);
-  return transform;
+  analysis.edge = median_edge(state->patch);
+  analysis.rms = rms_in_disc(state->texture);
+  analysis.state = std::move(state);
+  return analysis;
 }
 
 TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& target,
@@ -191,14 +191,14 @@ TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& targ
   }
   if (to.empty()) refuse("a target region is needed");
   if (const auto turned = turned_outwards(target)) {
-    TransferAnalysis transform = analyze_transfer(source, *turned, to, options, context);
-    flip(transform.mesh);
-    return transform;
+    TransferAnalysis analysis = analyze_transfer(source, *turned, to, options, context);
+    flip(analysis.mesh);
+    return analysis;
   }
   const TexturedPatch& patch = source.state->patch;
-  TransferAnalysis transform;
-  transform.mesh = target;
-  TransferReport& report = transform.report;
+  TransferAnalysis analysis;
+  analysis.mesh = target;
+  TransferReport& report = analysis.report;
   report.source_wavelength = source.wavelength;
   report.source_edge = source.edge;
   report.source_rms = source.rms;
@@ -208,7 +208,7 @@ TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& targ
   std::vector<Region> regions(to.begin(), to.end());
   const double transition =
       options.transition.value_or(std::min(wanted, kTransition * target_radius));
-  Mesh& mesh = transform.mesh;
+  Mesh& mesh = analysis.mesh;
   if (options.refine) {
     report.new_vertices =
         refine_target(transition, kRefined * report.source_edge * about, regions, mesh);
@@ -233,9 +233,9 @@ TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& targ
     report.correlation = best.correlation;
   }
   std::erase_if(mesh.attributes, [](const Attribute& a) { return a.name == kCarriedName; });
-  transform.patch = state->target.patch;
-  transform.state = std::move(state);
-  return transform;
+  analysis.patch = state->target.patch;
+  analysis.state = std::move(state);
+  return analysis;
 }
 
 TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> from,
@@ -246,11 +246,11 @@ TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> fr
                           options, context);
 }
 
-std::vector<Vec3> update(const TransferAnalysis& transform, const TransferUpdate& wanted) {
-  const TransferState& state = *transform.state;
+std::vector<Vec3> update(const TransferAnalysis& analysis, const TransferUpdate& wanted) {
+  const TransferState& state = *analysis.state;
   const TransferSourceState& source = *state.source;
   check_update(wanted, state.options.from_degree);
-  const double angle = wanted.angle.value_or(transform.report.angle);
+  const double angle = wanted.angle.value_or(analysis.report.angle);
   if (wanted.mode == TransferMode::kCoefficients) {
     return swap_coefficients(source.patch, state.target, state.options.from_degree, angle,
                              wanted.height);
@@ -259,8 +259,7 @@ std::vector<Vec3> update(const TransferAnalysis& transform, const TransferUpdate
     std::call_once(source.repeating, [&] { source.repeated = repeat(source.texture); });
   }
   const Texture texture{source.texture, source.repeated, state.options.scale, angle, wanted.repeat};
-  return displaced(state.target, texture, wanted.height * transform.report.scale,
-                   wanted.remove_own);
+  return displaced(state.target, texture, wanted.height * analysis.report.scale, wanted.remove_own);
 }
 
 Mesh transfer(const Mesh& source, std::span<const Region> from, const Mesh& target,
@@ -269,9 +268,9 @@ Mesh transfer(const Mesh& source, std::span<const Region> from, const Mesh& targ
   check_update(wanted, options.from_degree);
   TransferOptions needed = options;
   if (wanted.angle) needed.find_angle = false;
-  TransferAnalysis transform = analyze_transfer(source, from, target, to, needed, context);
-  apply(transform.patch, update(transform, wanted), transform.mesh);
-  return std::move(transform.mesh);
+  TransferAnalysis analysis = analyze_transfer(source, from, target, to, needed, context);
+  apply(analysis.patch, update(analysis, wanted), analysis.mesh);
+  return std::move(analysis.mesh);
 }
 
 }  // namespace rholm

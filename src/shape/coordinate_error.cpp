@@ -1,11 +1,11 @@
 // Derivation of the bounds: a triangle has its longest edge of length L along the unit vector
-// l, its height h over this edge along m, and its normal n. Corners that move by at most
-// `error` along each axis move by at most a = sum_k error_k |m_k| along m, and by at most b =
-// sum_k error_k |n_k| along n.
+// l, its height h over this edge along m, and its normal n. If corners move by at most
+// `error` along each axis, they move along m by at most a = sum_k error_k |m_k|. They move along n
+// by at most b = sum_k error_k |n_k|.
 // - The apex and the line of the edge approach each other by at most 2 a. For h <= 2 a some
 //   triangle within the errors has no area.
-// - Otherwise the plane turns about the edge by at most 2 b over the remaining height h - 2 a, and
-//   along the edge by at most 2 b over L.
+// - Otherwise the plane turns about the edge by at most 2 b over the remaining height h - 2 a.
+//   It turns along the edge by at most 2 b over L.
 #include "shape/coordinate_error.h"
 
 #include <algorithm>

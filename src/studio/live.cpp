@@ -116,17 +116,17 @@ Response Live::smooth(const Json& request, const Document& document) {
   others.wavelength = 0;
   const std::string key =
       fmt::format("{} / {}", fmt::join(wish.regions, " "), text_of_fields(others));
-  const bool usable = patch_.transform && patch_.key == key && patch_.of[0] == item->shown &&
-                      wavelength >= patch_.transform->wavelength &&
-                      wavelength <= longest_wavelength(*patch_.transform);
+  const bool usable = patch_.analysis && patch_.key == key && patch_.of[0] == item->shown &&
+                      wavelength >= patch_.analysis->wavelength &&
+                      wavelength <= longest_wavelength(*patch_.analysis);
   if (!usable) {
     patch_ = {};
-    patch_.transform = std::make_shared<const Patch>(
+    patch_.analysis = std::make_shared<const Patch>(
         analyze_patch(*item->shown, parsed(wish.regions), wish.options, context()));
     patch_.key = key;
     patch_.of[0] = item->shown;
   }
-  const Patch& patch = *patch_.transform;
+  const Patch& patch = *patch_.analysis;
   return moved_answer(*item, patch,
                       update(patch, {.wavelength = wavelength, .strength = wish.strength}));
 }
@@ -139,9 +139,9 @@ Response Live::transfer(const Json& request, const Document& document) {
   wish.options.find_angle = !wish.update.angle;
   const std::string of_source =
       fmt::format("{} / {}", fmt::join(wish.from, " "), wish.options.from_degree);
-  if (!source_.transform || source_.key != of_source || source_.of[0] != source->shown) {
+  if (!source_.analysis || source_.key != of_source || source_.of[0] != source->shown) {
     source_ = {};
-    source_.transform = std::make_shared<const TransferSource>(
+    source_.analysis = std::make_shared<const TransferSource>(
         analyze_source(*source->shown, parsed(wish.from), wish.options.from_degree, context()));
     source_.key = of_source;
     source_.of[0] = source->shown;
@@ -151,22 +151,22 @@ Response Live::transfer(const Json& request, const Document& document) {
   const std::string key =
       fmt::format("{} / {} / {}", of_source, fmt::join(wish.to, " "), text_of_fields(others));
   const bool knows = !wish.options.find_angle || transfer_angle_;
-  const bool usable = knows && transfer_.transform && transfer_.key == key &&
+  const bool usable = knows && transfer_.analysis && transfer_.key == key &&
                       transfer_.of[0] == source->shown && transfer_.of[1] == target->shown;
   if (!usable) {
     transfer_ = {};
-    transfer_.transform = std::make_shared<const TransferAnalysis>(analyze_transfer(
-        *source_.transform, *target->shown, parsed(wish.to), wish.options, context()));
+    transfer_.analysis = std::make_shared<const TransferAnalysis>(analyze_transfer(
+        *source_.analysis, *target->shown, parsed(wish.to), wish.options, context()));
     transfer_.key = key;
     transfer_angle_ = wish.options.find_angle;
     transfer_.of[0] = source->shown;
     transfer_.of[1] = target->shown;
   }
-  const TransferAnalysis& transform = *transfer_.transform;
-  const std::vector<Vec3> positions = update(transform, wish.update);
-  if (!wish.options.refine) return moved_answer(*target, transform.patch, positions);
-  Mesh mesh = transform.mesh;
-  apply(transform.patch, positions, mesh);
+  const TransferAnalysis& analysis = *transfer_.analysis;
+  const std::vector<Vec3> positions = update(analysis, wish.update);
+  if (!wish.options.refine) return moved_answer(*target, analysis.patch, positions);
+  Mesh mesh = analysis.mesh;
+  apply(analysis.patch, positions, mesh);
   return mesh_answer(*target, mesh);
 }
 

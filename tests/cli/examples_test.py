@@ -1,4 +1,4 @@
-"""Commands in documents and help texts work as they stand.
+"""Commands in documents and help texts work unchanged.
 
 Runs every ```sh block of README.md and docs/*.md; all blocks of a document run in one folder. Blocks of
 docs/start.md are run by python/tests/test_guides.py, together with the code between them. Also runs the

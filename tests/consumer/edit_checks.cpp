@@ -47,13 +47,13 @@ void transfer() {
   const double amplitude = 0.01;
   for (rholm::Vec3& x : waves.vertices) x *= 1 + amplitude * std::cos(30 * x.y);
   const std::vector<rholm::Region> regions = {rholm::BallRegion{{0, 0, 1}, 0.6}};
-  const rholm::TransferAnalysis transform =
+  const rholm::TransferAnalysis analysis =
       rholm::analyze_transfer(waves, regions, smooth, regions, {.from_degree = 6});
   // The mean square of a cosine is 1/2.
-  expect_near(transform.report.source_rms, amplitude / std::sqrt(2.0), 0.2 * amplitude,
+  expect_near(analysis.report.source_rms, amplitude / std::sqrt(2.0), 0.2 * amplitude,
               "the height of waves");
-  rholm::Mesh laid = transform.mesh;
-  rholm::apply(transform.patch, rholm::update(transform, {.angle = 0.0}), laid);
+  rholm::Mesh laid = analysis.mesh;
+  rholm::apply(analysis.patch, rholm::update(analysis, {.angle = 0.0}), laid);
   const std::size_t top = tip(smooth, {0, 0, 1});
   expect_near(rholm::norm(laid.vertices[top]), 1 + amplitude, 0.2 * amplitude,
               "the crest of a wave, laid at the pole");

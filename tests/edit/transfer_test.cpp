@@ -50,9 +50,9 @@ struct Result {
 };
 Result moved_by(const Mesh& source, const Regions& from, const Mesh& target, const Regions& to,
                 const TransferOptions& options, const TransferUpdate& wanted) {
-  TransferAnalysis transform = analyze_transfer(source, from, target, to, options);
-  apply(transform.patch, update(transform, wanted), transform.mesh);
-  return {std::move(transform.mesh), transform.report};
+  TransferAnalysis analysis = analyze_transfer(source, from, target, to, options);
+  apply(analysis.patch, update(analysis, wanted), analysis.mesh);
+  return {std::move(analysis.mesh), analysis.report};
 }
 
 struct Error2 {
@@ -167,18 +167,18 @@ TEST(Transfer, a_source_serves_several_targets_alike) {
     for (const Vec3 at : {Vec3{0, 0, 1}, Vec3{0, 1, 0}}) {
       const Regions to{BallRegion{norm(target->vertices[0]) * at, 0.5}};
       const Result at_once = moved_by(source, from, *target, to, options, wanted);
-      TransferAnalysis transform = analyze_transfer(texture, *target, to, options);
-      apply(transform.patch, update(transform, wanted), transform.mesh);
-      ASSERT_EQ(transform.mesh.vertices.size(), at_once.mesh.vertices.size());
+      TransferAnalysis analysis = analyze_transfer(texture, *target, to, options);
+      apply(analysis.patch, update(analysis, wanted), analysis.mesh);
+      ASSERT_EQ(analysis.mesh.vertices.size(), at_once.mesh.vertices.size());
       std::size_t moved = 0;
-      for (std::size_t i = 0; i < transform.mesh.vertices.size(); ++i) {
-        EXPECT_EQ(test::bits_of(transform.mesh.vertices[i]),
+      for (std::size_t i = 0; i < analysis.mesh.vertices.size(); ++i) {
+        EXPECT_EQ(test::bits_of(analysis.mesh.vertices[i]),
                   test::bits_of(at_once.mesh.vertices[i]));
-        moved += test::bits_of(transform.mesh.vertices[i]) != test::bits_of(target->vertices[i]);
+        moved += test::bits_of(analysis.mesh.vertices[i]) != test::bits_of(target->vertices[i]);
       }
       EXPECT_GT(moved, 100u);
-      EXPECT_EQ(transform.report.source_rms, at_once.report.source_rms);
-      EXPECT_EQ(transform.report.angle, at_once.report.angle);
+      EXPECT_EQ(analysis.report.source_rms, at_once.report.source_rms);
+      EXPECT_EQ(analysis.report.angle, at_once.report.angle);
     }
   }
 }
@@ -239,11 +239,11 @@ TEST(Transfer, repeated_texture_covers_a_larger_region_as_strongly) {
       test::sheet(90, 0.02, [](double x, double y) { return 0.004 * pattern(x, y); });
   const Mesh target = test::sheet(160, 0.01);
   const Regions from = {BallRegion{{0, 0, 0}, 0.5}}, to = {BallRegion{{0, 0, 0}, 0.5}};
-  const TransferAnalysis transform =
+  const TransferAnalysis analysis =
       analyze_transfer(source, from, target, to, {.from_degree = 8, .scale = 0.4});
   const auto rms_beyond = [&](bool repeat) {
     double sum = 0, count = 0;
-    for (const Vec3& v : update(transform, {.angle = 0.3, .repeat = repeat})) {
+    for (const Vec3& v : update(analysis, {.angle = 0.3, .repeat = repeat})) {
       const double rho = std::hypot(v.x, v.y);
       if (rho < 0.4 || rho > 0.5) continue;
       sum += v.z * v.z;
@@ -251,7 +251,7 @@ TEST(Transfer, repeated_texture_covers_a_larger_region_as_strongly) {
     }
     return std::sqrt(sum / count);
   };
-  const double rms = transform.report.source_rms;
+  const double rms = analysis.report.source_rms;
   EXPECT_NEAR(rms_beyond(true), 0.4 * rms, 0.06 * rms);
   EXPECT_EQ(rms_beyond(false), 0);
 }

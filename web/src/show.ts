@@ -30,7 +30,7 @@ export async function surfaceFor(one: Item, original = false): Promise<Surface> 
   const path = `item/${one.id}/surface?revision=${one.revision}${original ? "&original=1" : ""}`;
   const surface = surfaceOf(await getBinary(transport, path));
   cache.set(key, surface);
-  // Keeps four surfaces: of two items, the current one and the one that was read.
+  // Keeps four surfaces: the current and the original surface of two items.
   for (const old of cache.keys()) if (cache.size > 4) cache.delete(old);
   return surface;
 }

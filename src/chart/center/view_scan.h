@@ -1,7 +1,7 @@
 // Selects the triangles of a view that matter for a search. Layer: chart.
 //
 // Vectors of triangles are tested in double precision without square root or division. Triangles
-// that may matter go in order to a visitor, which does the exact work. Nothing is kept per
+// that may matter go to a visitor in their order, which does the exact work. Nothing is kept per
 // triangle. Vectors differ between machines, but results of the visitors do not.
 #pragma once
 

@@ -29,7 +29,7 @@ constexpr double kSameCorrelation = 1e-12;
 constexpr double kSameAxis = 0.995;
 
 // Smallest significant coefficients relative to the mean. Smaller ones are due to rounding and to
-// the limited precision of an transform.
+// the limited precision of an expansion.
 constexpr double kNothing = 1e-10;
 
 // Largest degree for which surfaces are expanded about their centroids: takes about a second.

@@ -122,7 +122,7 @@ void put_header(const Counts& counts, const std::vector<OutputColumn>& columns, 
 
 // Writes one value of each row of a block, at intervals of `row_size` bytes.
 template <class T>
-void expand(const double* values, std::size_t stride, std::size_t n, char* to,
+void encode(const double* values, std::size_t stride, std::size_t n, char* to,
             std::size_t row_size) {
   for (std::size_t i = 0; i < n; ++i) {
     store_little_endian(to + i * row_size, static_cast<T>(values[i * stride]));

@@ -33,7 +33,7 @@ class RowRange {
       : mesh_(&mesh),
         release_(std::move(release)),
         size_(kPoints ? mesh.n_vertices : mesh.n_triangles) {}
-  // n rows that `walk` passes in order to its callback, each time they are visited.
+  // n rows that `walk` passes to its callback in order, each time they are visited.
   using Walk = std::function<void(const std::function<void(const T&)>& visit)>;
   RowRange(std::size_t n, Walk walk) : walk_(std::move(walk)), size_(n) {}
   std::size_t size() const { return size_; }

@@ -122,7 +122,7 @@ Range range_of(const Columns& columns, std::initializer_list<std::size_t> places
 }
 
 // Returns true for whole numbers that grow from row to row: by one from 0 or 1, or by any steps
-// over 16 rows. No surface has points with such first coordinates.
+// over 16 rows. No surface has such first coordinates.
 bool numbers_rows(const std::vector<double>& values) {
   constexpr std::size_t kFewRows = 4, kManyRows = 16;  // chosen
   if (values.size() < kFewRows) return false;

@@ -48,8 +48,8 @@ constexpr double kLeastSamples = 20000, kMostSamples = 200000;
 constexpr double kMostThinSamples = 100000;
 
 // Facing sheets of a surface need room for the errors of both caps, and for the band in which the
-// grid blends caps. Each may take this part of the gap. The gap is the one that a share kThin of
-// the area falls below, because at sharp edges all gaps fall to 0.
+// grid blends caps. Each may take this part of the gap. The gap is a quantile: a share kThin of the
+// area has smaller gaps, because at sharp edges all gaps fall to 0.
 constexpr double kThin = 0.05;
 constexpr double kToleranceOfGap = 1.0 / 6, kBandOfGap = 1.0 / 3;
 constexpr double kStepOfGap = kBandOfGap / kBandSteps;

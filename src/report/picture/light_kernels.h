@@ -77,8 +77,8 @@ struct WindowSums {
 // Sums the windows of n scouts of a row, the first at its first cell.
 WindowSums sum_windows(const CellRow& row, std::size_t n, float per_half_depth);
 
-// Marks the cells of a row that are edges: a crease lies before one of four cells
-// beside, or one of eight around sees another object or differs in a root by > `step`.
+// Marks the cells of a row that are edges. A crease lies before one of four cells
+// beside, or one of eight cells around sees another object or differs by > `step`.
 std::vector<std::uint8_t> find_edges(const CellRow& row, std::size_t n, float per_half_depth,
                                      float step);
 

@@ -36,7 +36,7 @@ struct CrossingSearch {
 struct Crossings {
   double length = 0;        // estimated length of the lines along which sheets cross
   std::uint64_t found = 0;  // number of tested points that are near such a line
-  // Some of these points, with their random numbers `rank`: those with the least ranks, in order.
+  // The points among them that have the least random numbers, in order, with these `rank`s.
   std::array<Vec3, kNamedCrossings> at = {};
   std::array<std::uint64_t, kNamedCrossings> rank = {};
 

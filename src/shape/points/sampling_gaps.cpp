@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kFirst =
     24;  // neighbours among which gaps are sought at first, then twice as many
 constexpr std::size_t kMost = 384;
-// Number of points over which gaps are averaged, and number of those with smaller gaps that count.
+// Number of points over which gaps are averaged; the points with the smaller gaps count.
 constexpr std::size_t kAround = 24, kCounted = 12;
 constexpr std::size_t kSeeds = 64;
 constexpr std::size_t kGrain = 512;

@@ -34,12 +34,12 @@ constexpr std::size_t kLeastGroup = 16;  // a smaller group has no surface of it
 // volume: a limit of 0.25 misses a fifth of the groups that 0.2 finds.
 constexpr std::size_t kAround = 16;
 constexpr double kVolume = 0.2;
-// Limits for single points. kFar limits the distance to other points, over the distance to their
-// eighth neighbours. kOff limits the distance from the plane of the neighbours, relative to their
-// radius. kThick limits the neighbours' squared thickness over their squared length. A sparse point
-// in the plane of its neighbours is no outlier.
+// Limits for single points. A sparse point in the plane of its neighbours is no outlier.
+// Distance to other points, over the distance to their eighth neighbours.
 constexpr double kFar = 10;
+// Distance from the plane of the neighbours, relative to their radius.
 constexpr double kOff = 0.25;
+// Squared thickness of the neighbours, over their squared length.
 constexpr double kThick = 0.05;
 constexpr double kThinner = 1.5;  // distance to the eighth neighbour over that of the largest group
 constexpr std::size_t kAsked = 200;

@@ -52,7 +52,7 @@ CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs,
 
 // Sets values to G = sum w g / sum w with w = (1 - d^2/R^2)^3 (1 - g^2/T^2)^2, or with
 // the paper's weight as first factor (CapBlend). Returns one bit per node, 8 words per
-// block. A bit is 1 where the value is doubtful: near the surface, but at the very end
+// block. A bit is 1 where the value is uncertain: near the surface, but at the very end
 // of all caps. One thread first calls `beside`, if given, while the others start.
 std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapBands& bands,
                                      const CapLists& lists, BlockGrid& grid, const Context& context,

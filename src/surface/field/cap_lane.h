@@ -41,7 +41,7 @@ struct NodeSlices {
 NodeSlices slices_near(const CapLane& cap, const Vec3& first_node);
 
 inline constexpr auto kNoWeight = static_cast<float>(kLeastWeight);
-// A node is doubtful if its sum of weights is less and the surface is within kDoubtfulSteps: the
+// A node is uncertain if its sum of weights is less and the surface is within kDoubtfulSteps: the
 // caps end there. Measured: three times the weight finds hardly more, for far more winding numbers.
 inline constexpr float kDoubtfulWeight = 0.1f;
 inline constexpr double kDoubtfulSteps = 1;

@@ -12,8 +12,8 @@ namespace {
 // s^2 of CapSupport at the rim of the data. At the edge of a hole the points fill half
 // a disc: their mean is 0.42 R from the edge, and the ellipse's half axis is 0.53 R.
 constexpr double kRim = 0.63;
-// s^2 up to which caps fade to the fill of a hole beyond the rim (chosen: with a tenth
-// more, caps bend on their own, and flares and steps appear around the fill).
+// s^2 up to which caps fade to the fill of a hole beyond the rim. Chosen: with a tenth
+// more, caps bend on their own, and flares and steps appear around the fill.
 constexpr double kEnd = 0.7;
 // Value of s^2 where no cap is near; above kRim and kEnd.
 constexpr double kNone = 2;

@@ -45,7 +45,7 @@ Closing close_grid(BlockGrid& grid, const NodeValues& values, std::size_t max_bl
 std::vector<std::uint32_t> open_blocks(const BlockGrid& grid, std::size_t n_blocks,
                                        const Context& context = {});
 
-// Clears doubtful values (one bit per node, 8 words per block) whose sign the
+// Clears uncertain values (one bit per node, 8 words per block) whose sign the
 // winding number refutes. A cap that ends beyond a sharp edge or a thin tip has
 // wrong values there, which make horns. Returns the number of cleared values.
 std::size_t clear_refuted(BlockGrid& grid, std::span<const std::uint64_t> doubtful,

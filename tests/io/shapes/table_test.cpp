@@ -44,9 +44,9 @@ Point point(int i) {
           .f = to_digits(10 + 3 * u.x)};
 }
 
-// Makes a row from a pattern. Letters stand for values; all other characters are copied: x y z, u v
-// w (normal), r g b (0 ... 255), R G B (0 ... 1), f (scalar), i (row from 0), j (row from 1), A O D
-// (latitude, longitude, radius), U V W (normal of length 0.9 ... 1).
+// Makes a row from a pattern. Letters stand for values; all other characters are copied:
+// - "xyz", "uvw" (normal), "UVW" (normal of length 0.9 ... 1), "AOD" (latitude, longitude, radius),
+// - "rgb" (0 ... 255), "RGB" (0 ... 1), "f" (scalar), "i" (row from 0), "j" (row from 1).
 std::string row_of(const std::string& pattern, int i, bool comma) {
   const Point a = point(i);
   const double radius = norm(a.p), degree = 180 / std::numbers::pi;

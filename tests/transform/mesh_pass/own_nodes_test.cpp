@@ -15,9 +15,9 @@ namespace rholm {
 namespace {
 
 // Returns int r dOmega of an equilateral triangle at the height d above its middle. In polar
-// coordinates of its plane, d int dS / (rho^2 + d^2) is six times d/2 int_0^(pi/3) ln(1 + h^2 / (d
-// cos phi)^2) dphi. h is the radius of the inscribed circle. The function is smooth: Simpson's rule
-// is used.
+// coordinates of its plane, d int dS / (rho^2 + d^2) is six times
+// `d/2 int_0^(pi/3) ln(1 + h^2 / (d cos phi)^2) dphi`. h is the radius of the inscribed circle. The
+// function is smooth: Simpson's rule is used.
 double radius_integral_above_the_middle(double d, double h) {
   constexpr int kSteps = 1000;
   double sum = 0;
