@@ -65,10 +65,11 @@ std::string window_section() {
   }
   return fmt::format(
       "## Filter windows\n\n"
-      "A window is how a low-pass filter falls: `--window` of `rholm filter`, `window=` in Python, "
-      "and under Degrees in the studio. The default is `{}`. Above the degree L the gain is 0, "
-      "unless the table says otherwise. The overshoot is that of a filtered step of the radius (a "
-      "cap of 60 degrees) at L = 64, in parts of the step.\n\n{}",
+      "A window gives the gain of each degree in a low-pass filter of degree L. Choose it with "
+      "`--window` of `rholm filter`, with `window=` in Python, or under Degrees in the studio. The "
+      "default is `{}`. Degrees above L have the gain 0, unless the table says otherwise. The "
+      "overshoot is measured on a filtered step of the radius, a cap of 60 degrees, at L = 64. It "
+      "is relative to the height of the step.\n\n{}",
       to_string(WindowOptions{}.window),
       markdown_table({"window", "gain of degree l", "overshoot", "parameter", "use"}, rows));
 }
@@ -85,12 +86,13 @@ std::string descriptor_section() {
   }
   return fmt::format(
       "## Descriptors\n\n"
-      "A descriptor is a figure of the surface of an expansion that stays when the shape is moved "
-      "or "
-      "turned. `rholm info --json` has each as a key, a table of `rholm batch` as a column, and "
-      "`Expansion` and `SurfaceMeasures` in Python as a property of that name. Lengths are in the "
-      "unit of the expansion. A descriptor is null for what is no surface and for a signed sum. "
-      "`rholm info` and `rholm batch` also leave it null above degree 512.\n\n{}",
+      "A descriptor is a number that describes the surface of an expansion and does not change "
+      "when "
+      "the shape is moved or rotated. Each descriptor is a key of `rholm info --json` and a column "
+      "of the tables of `rholm batch`. In Python it is a property of `Expansion` and "
+      "`SurfaceMeasures`. Lengths are in the unit of the expansion. A descriptor is null for "
+      "coefficients that are no surface and for signed sums. `rholm info` and `rholm batch` also "
+      "leave it null above degree 512.\n\n{}",
       markdown_table({"descriptor", "unit", "definition", "source"}, rows));
 }
 
@@ -121,12 +123,16 @@ std::string format_table(const std::vector<Info>& formats) {
 
 std::string shape_format_section() {
   return "## Formats of shapes\n\n`--format` of the program and `format=` in Python take these "
-         "names; without, the extension of a file decides, and of what is read its content.\n\n" +
+         "names. Without a name, the extension decides the format of a written file. The format of "
+         "a file that is read is found from its content.\n\n" +
          format_table(shape_formats());
 }
 
 std::string coefficients_format_section() {
-  return "## Formats of coefficients\n\nThe same of expansions.\n\n" +
+  return "## Formats of coefficients\n\n`--format` of the program and `format=` in Python take "
+         "these "
+         "names for files of coefficients. Without a name, the extension or the content "
+         "decides.\n\n" +
          format_table(coefficients_formats());
 }
 
@@ -136,9 +142,10 @@ std::string error_section() {
     rows.push_back({code(one.name), std::to_string(one.exit_code), code(one.python_class),
                     one.python_base[0] == '\0' ? "" : code(one.python_base), one.meaning});
   }
-  return "## Errors\n\nWhat an error is called in C++ (`ErrorCode`) and in JSON, what the program "
-         "ends with, and what Python raises. The program ends with 2 for a command line that "
-         "means nothing.\n\n" +
+  return "## Errors\n\nThe table lists the name of each error in C++ (`ErrorCode`) and in JSON, "
+         "the "
+         "exit code of the program, and the exception in Python. The exit code of a wrong command "
+         "line is 2.\n\n" +
          markdown_table({"error", "exit code", "in Python", "is a", "meaning"}, rows);
 }
 
@@ -197,37 +204,37 @@ std::string reconstruct_section() {
   return field_section<ReconstructOptions>(
       "Options of reconstruct",
       "`ReconstructOptions` in C++ and arguments of `rholm.reconstruct` in Python. Lengths are in "
-      "the unit of the points there; the program takes parts of the diagonal of their bounding "
-      "box.");
+      "the unit of the points. The program takes lengths as fractions of the diagonal of the "
+      "points' bounding box.");
 }
 
 std::string simplify_section() {
   return field_section<SimplifyOptions>(
       "Options of simplify",
       "`SimplifyOptions` in C++ and arguments of `rholm.simplify` in Python; `rholm simplify` has "
-      "`--faces` for the first two, and `--max-error`.",
+      "`--faces` for `triangles` and `share`, and `--max-error`.",
       false);
 }
 
 std::string compress_section() {
   return field_section<CompressOptions>(
       "Options of compress",
-      "`CompressOptions` in C++ and arguments of `rholm.compress` in Python; the program has them "
-      "in `rholm compress`, with `--tolerance`.");
+      "`CompressOptions` in C++ and arguments of `rholm.compress` in Python; they "
+      "are options of `rholm compress`, together with `--tolerance`.");
 }
 
 std::string patch_atlas_section() {
   return field_section<PatchAtlasOptions>(
       "Options of patch_atlas",
-      "`PatchAtlasOptions` in C++ and arguments of `rholm.patch_atlas` in Python; the program has "
-      "them in `rholm compress --fit integral` and `rholm partition`.");
+      "`PatchAtlasOptions` in C++ and arguments of `rholm.patch_atlas` in Python; they are "
+      "options of `rholm compress --fit integral` and `rholm partition`.");
 }
 
 std::string atlas_mesh_section() {
   return field_section<AtlasSynthesisOptions>(
       "Options of the surface of an atlas",
-      "`AtlasSynthesisOptions` in C++ and arguments of `rholm.Atlas.mesh` in Python; the program's "
-      "are `--resolution`, `--degree-limit` and `--simplify` of `rholm synthesize`.");
+      "`AtlasSynthesisOptions` in C++ and arguments of `rholm.Atlas.mesh` in Python; the "
+      "options of `rholm synthesize` are `--resolution`, `--degree-limit` and `--simplify`.");
 }
 
 std::string patch_section() {
@@ -238,9 +245,9 @@ std::string patch_section() {
 }
 
 std::string patch_update_section() {
-  return field_section<PatchUpdate>(
-      "How far smoothing goes",
-      "`PatchUpdate` in C++, an argument of `rholm.smooth` in Python; `rholm smooth --strength`.");
+  return field_section<PatchUpdate>("Strength of smoothing",
+                                    "`PatchUpdate` in C++; `strength` of `rholm.smooth` in Python; "
+                                    "`--strength` of `rholm smooth`.");
 }
 
 std::string truncation_section() {
@@ -251,24 +258,24 @@ std::string truncation_section() {
 
 std::string transfer_update_section() {
   return field_section<TransferUpdate>(
-      "How detail is laid",
+      "Placement of transferred detail",
       "`TransferUpdate` in C++ and arguments of `rholm.transfer` in Python; options of `rholm "
-      "transfer`, with `--rotate DEG` for the angle.");
+      "transfer`, where `--rotate DEG` gives the angle in degrees.");
 }
 
 std::string monte_carlo_section() {
   return field_section<MonteCarloOptions>(
       "Options of monte_carlo",
-      "`MonteCarloOptions` in C++ and arguments of `rholm.monte_carlo` in Python; the program has "
-      "them in `rholm expand`, with the places in `--method monte-carlo-edge` and "
-      "`monte-carlo-triangle`.");
+      "`MonteCarloOptions` in C++ and arguments of `rholm.monte_carlo` in Python; they are "
+      "options of `rholm expand`, where `--method monte-carlo-edge` and `monte-carlo-triangle` "
+      "choose the places.");
 }
 
 std::string report_section() {
   return field_section<ReportOptions>(
       "Options of report_html",
       "`ReportOptions` in C++ and arguments of `rholm.report_html` in Python; `rholm report` has "
-      "`--size` and what it knows of its input.",
+      "`--size` for `picture_size` and derives the other fields from its input.",
       false);
 }
 
@@ -292,29 +299,31 @@ constexpr char kCompareName[] = "compare", kOrientName[] = "orient", kAlignName[
 std::string sample_section() {
   return field_section<SampleOptions>(
       "Options of samples",
-      "`SampleOptions` in C++ and arguments of `rholm.sample_surface` in Python; the program has "
-      "them in `rholm make sample`. Lengths are parts of the diagonal of the bounding box.");
+      "`SampleOptions` in C++ and arguments of `rholm.sample_surface` in Python; they are "
+      "options of `rholm make sample`. Lengths are fractions of the bounding box's diagonal.");
 }
 
 std::string transform_section() {
   return field_section<TransformOptions>(
       "Options of a transform",
       "`TransformOptions` in C++ and arguments of `rholm.expand` in Python; options of `rholm "
-      "expand`, whose `--method` has the Monte Carlo methods, too.");
+      "expand`, where `--method` also has the Monte Carlo methods.");
 }
 
 std::string tolerance_section() {
   return field_section<Tolerance>(
       "Tolerances",
-      "`Tolerance` in C++ and arguments of `rholm.expand` in Python, where `error` is `tolerance`; "
-      "the program has `--tolerance` in `rholm expand` and `rholm report`.");
+      "`Tolerance` in C++ and arguments of `rholm.expand` in Python, where `error` is "
+      "called `tolerance`; options of `rholm expand` and `rholm report`, where `error` is "
+      "`--tolerance`.");
 }
 
 std::string encode_section() {
   return field_section<ExpandOptions>(
-      "Options of the way from a mesh to coefficients",
-      "`ExpandOptions` in C++, with the lists of its parts here; arguments of `rholm.expand` in "
-      "Python and options of `rholm expand`, which has `--no-errors`.");
+      "Options of the expansion of a mesh",
+      "`ExpandOptions` in C++; arguments of `rholm.expand` in Python; options of `rholm expand`, "
+      "where `--no-errors` switches `errors` off. The parts `tolerance` and `chart` have tables of "
+      "their own.");
 }
 
 std::string center_section() {
@@ -339,8 +348,8 @@ std::string file_section() {
          "\n" +
          field_section<Convention>(
              "Conventions of coefficients",
-             "`Convention` in C++, arguments of what reads and writes coefficients in Python. The "
-             "program has `--input-normalization` and `--input-csphase`, too.") +
+             "`Convention` in C++; arguments of the functions that read and write coefficients in "
+             "Python. The program also has `--input-normalization` and `--input-csphase`.") +
          "\n" +
          field_section<CoefficientsReadOptions>("Options of reading coefficients",
                                                 "`CoefficientsReadOptions` in C++.") +
@@ -383,8 +392,9 @@ std::string result_section() {
   add_result<MonteCarlo>("MonteCarlo", rows);
   add_result<Overshoot>("Overshoot", rows);
   add_result<GravityField>("GravityField", rows);
-  return "## Results\n\nStructs in C++, classes of the same names in Python. Lengths are in the "
-         "unit of the shape.\n\n" +
+  return "## Results\n\nResults are structs in C++ and classes of the same names in Python. "
+         "Lengths "
+         "are in the unit of the shape.\n\n" +
          markdown_table({"result", "field", "what it is"}, rows);
 }
 
@@ -444,15 +454,17 @@ std::string markdown_table(const std::vector<std::string>& headings,
 Command reference_command() {
   return {.name = "reference",
           .summary = "Write the reference page",
-          .description = "Writes docs/reference.md to standard output: the tables of the library.",
+          .description = "Writes docs/reference.md, the tables of the library, to standard output.",
           .options = {},
           .examples = {"rholm reference"},
           .run =
               [](Session&) {
                 std::string text =
                     "# Reference\n\n"
-                    "`scripts/reference` makes this page from the tables that the program, the "
-                    "library, Python and the studio use. Change the tables, and run it again.\n";
+                    "This page lists all filters, descriptors, file formats, errors, options and "
+                    "results. `scripts/reference` writes it from the tables of the library, which "
+                    "the program, Python and the studio use too. To change the page, change the "
+                    "tables and run the script again.\n";
                 for (const ReferenceSection section : reference_sections())
                   text += "\n" + section();
                 print_exactly(text);

@@ -68,7 +68,7 @@ Option output_option(std::string& path, const std::string& help, bool required) 
 
 Option format_option(std::string& format, std::vector<std::string> choices) {
   return {.name = "format",
-          .help = "format of the output, instead of the one its extension names",
+          .help = "format of the output; by default the extension of the file decides",
           .target = &format,
           .choices = std::move(choices)};
 }

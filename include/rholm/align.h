@@ -63,34 +63,36 @@ void visit_fields(FieldsOf<AlignOptions>, const Visitor& field) {
   using O = AlignOptions;
   field(&O::start,
         {.name = "start",
-         .help =
-             "where the search begins: correlation, over all rotations; principal-axes, the four "
-             "ways to lay principal axes on principal axes, faster and blind where two are equal"});
+         .help = "start of the search; correlation: all rotations; principal-axes: the four ways "
+                 "to match principal axes, faster but wrong if two axes are nearly equal"});
   field(&O::bandwidth, {.name = "bandwidth",
-                        .help = "degrees used by the search over all rotations",
+                        .help = "highest degree used by the search over all rotations",
                         .value = "L",
                         .least = 1,
                         .most = 64});
-  field(&O::refine_degree, {.name = "refine_degree",
-                            .help = "degrees used by the iteration that refines what was found",
-                            .value = "L",
-                            .least = 1,
-                            .most = kMaxDegree});
-  field(&O::margin,
-        {.name = "margin",
-         .help = "report other rotations with a correlation at most this below the best",
-         .value = "C",
-         .least = 0,
-         .most = 2});
-  field(&O::mirror, {.name = "mirror",
-                     .help = "try the mirror image of A, too: reflected in the plane through its "
-                             "centre, across the x axis, before it is turned"});
+  field(&O::refine_degree,
+        {.name = "refine_degree",
+         .help = "highest degree used to refine the rotation that the search found",
+         .value = "L",
+         .least = 1,
+         .most = kMaxDegree});
+  field(&O::margin, {.name = "margin",
+                     .help = "report other rotations whose correlation is below the best one by at "
+                             "most this difference",
+                     .value = "C",
+                     .least = 0,
+                     .most = 2});
+  field(
+      &O::mirror,
+      {.name = "mirror",
+       .help =
+           "also try the mirror image of A, with x reversed about its centre before the rotation"});
   field(&O::unknown_a, {.name = "unknown_a",
-                        .help = "root mean square over the sphere of what is not known of A",
+                        .help = "root mean square of the unknown part of A over the sphere",
                         .least = 0,
                         .in_program = false});
   field(&O::unknown_b, {.name = "unknown_b",
-                        .help = "root mean square over the sphere of what is not known of B",
+                        .help = "root mean square of the unknown part of B over the sphere",
                         .least = 0,
                         .in_program = false});
 }
@@ -107,13 +109,21 @@ struct AlignedRotation {
 template <typename Visitor>
 void visit_fields(FieldsOf<AlignedRotation>, const Visitor& field) {
   using A = AlignedRotation;
-  field(&A::rotation, {.name = "rotation", .help = "of the mirror image, if mirrored"});
+  field(&A::rotation,
+        {.name = "rotation",
+         .help = "rotation that turns a, or the mirror image of a if mirrored, onto b"});
   field(&A::mirrored,
-        {.name = "mirrored", .help = "whether the reflection x -> -x comes first; y and z stay"});
-  field(&A::correlation, {.name = "correlation",
-                          .help = "of degrees from 1 on, normalised: 1 is equal up to a factor"});
-  field(&A::distance,
-        {.name = "distance", .help = "root mean square of R a - b over the sphere, all degrees"});
+        {.name = "mirrored",
+         .help = "true if the reflection x -> -x is applied before the rotation; y and z stay"});
+  field(
+      &A::correlation,
+      {.name = "correlation",
+       .help = "normalised correlation over the degrees from 1 on; 1 means equal up to a factor"});
+  field(
+      &A::distance,
+      {.name = "distance",
+       .help =
+           "root mean square difference between the rotated a and b over the sphere, all degrees"});
 }
 
 // The best rotation, and the rotations that are nearly as good.
@@ -131,15 +141,20 @@ struct Alignment {
 template <typename Visitor>
 void visit_fields(FieldsOf<Alignment>, const Visitor& field) {
   using A = Alignment;
-  field(&A::best, {.name = "best", .help = "of several that are equal the smallest turn"});
+  field(&A::best, {.name = "best",
+                   .help = "rotation with the largest correlation; among equal ones the one with "
+                           "the smallest angle"});
+  field(&A::ambiguities, {.name = "ambiguities",
+                          .help = "other rotations that are nearly as good, best first, at most "
+                                  "32: symmetries of the shape"});
   field(
-      &A::ambiguities,
-      {.name = "ambiguities",
-       .help = "others that are nearly as good, best first, at most 32: symmetries of the shape"});
-  field(&A::free_axes,
-        {.name = "free_axes",
-         .help = "axes in the frame of b about which turning changes nothing, (n, 3)"});
-  field(&A::unaligned_distance, {.name = "unaligned_distance", .help = "before any rotation"});
+      &A::free_axes,
+      {.name = "free_axes",
+       .help = "axes in the frame of b about which a turn hardly changes the correlation, (n, 3)"});
+  field(
+      &A::unaligned_distance,
+      {.name = "unaligned_distance",
+       .help = "root mean square difference between a and b over the sphere, before any rotation"});
 }
 
 // Finds the rotation that turns a onto b. Throws InvalidInput for options out of range or

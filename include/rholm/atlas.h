@@ -59,17 +59,22 @@ struct Cap {
 template <typename Visitor>
 void visit_fields(FieldsOf<Cap>, const Visitor& field) {
   using C = Cap;
-  field(&C::basis, {.name = "basis", .help = "which harmonics it uses"});
-  field(&C::degree, {.name = "degree", .help = "its highest degree"});
-  field(&C::first, {.name = "first", .help = "where its coefficients start"});
+  field(&C::basis, {.name = "basis", .help = "set of harmonics of the cap: full or even"});
+  field(&C::degree, {.name = "degree", .help = "highest degree of the cap"});
+  field(&C::first,
+        {.name = "first",
+         .help = "index of the cap's first coefficient in the coefficients of the atlas"});
   field(&C::error, {.name = "error",
-                    .help = "root mean square distance of the fitted points to it",
+                    .help = "root mean square distance of the fitted points from the cap",
                     .unit = FieldUnit::kLength});
-  field(&C::area, {.name = "area", .help = "of the surface that it was made for"});
-  field(&C::weight, {.name = "weight", .help = "a factor of its blend weight"});
+  field(&C::area,
+        {.name = "area",
+         .help =
+             "area of the surface assigned to the cap; the areas of all caps add up to the whole"});
+  field(&C::weight, {.name = "weight", .help = "factor of the blend weight of the cap"});
   field(&C::deviation,
         {.name = "deviation",
-         .help = "largest distance of its surface from the tangent plane of the seed",
+         .help = "largest distance of the cap's surface from the tangent plane at its seed",
          .unit = FieldUnit::kLength});
 }
 

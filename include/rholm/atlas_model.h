@@ -30,16 +30,17 @@ void visit_fields(FieldsOf<AtlasErrors>, const Visitor& field) {
   field(&E::rms_from, {.name = "rms_from",
                        .help = "root mean square distance from the shape to the model's surface",
                        .unit = FieldUnit::kLength});
-  field(&E::max_from,
-        {.name = "max_from", .help = "largest of these distances", .unit = FieldUnit::kLength});
-  field(&E::rms_to,
-        {.name = "rms_to",
-         .help =
-             "root mean square distance from the model's surface to the shape; 0 if that is points",
-         .unit = FieldUnit::kLength});
-  field(&E::max_to, {.name = "max_to",
-                     .help = "largest of these distances; 0 if the shape is points",
+  field(&E::max_from, {.name = "max_from",
+                       .help = "largest distance from the shape to the model's surface",
+                       .unit = FieldUnit::kLength});
+  field(&E::rms_to, {.name = "rms_to",
+                     .help = "root mean square distance from the model's surface to the shape; 0 "
+                             "if the shape is points",
                      .unit = FieldUnit::kLength});
+  field(&E::max_to,
+        {.name = "max_to",
+         .help = "largest distance from the model's surface to the shape; 0 if the shape is points",
+         .unit = FieldUnit::kLength});
 }
 
 // An atlas, and the metadata of its file.

@@ -83,27 +83,38 @@ struct TruncationErrors {
 template <typename Visitor>
 void visit_fields(FieldsOf<TruncationErrors>, const Visitor& field) {
   using T = TruncationErrors;
-  field(&T::rms, {.name = "rms", .help = "radial, root mean square over solid angle"});
+  field(&T::rms, {.name = "rms", .help = "root mean square radial error over solid angle"});
   field(&T::rms_is_exact,
-        {.name = "rms_is_exact", .help = "whether rms is by Parseval's identity, not measured"});
+        {.name = "rms_is_exact",
+         .help = "true if rms is exact by Parseval's identity, false if it is measured"});
   field(&T::predicted_max,
-        {.name = "predicted_max", .help = "largest radial error at the vertices, in closed form"});
-  field(&T::predicted_max_distance,
-        {.name = "predicted_max_distance", .help = "the same as a distance"});
+        {.name = "predicted_max",
+         .help = "largest radial error at the vertices, predicted in closed form"});
+  field(
+      &T::predicted_max_distance,
+      {.name = "predicted_max_distance",
+       .help = "largest distance between the surfaces at the vertices, predicted in closed form"});
   field(&T::measured_max,
-        {.name = "measured_max", .help = "largest radial error at `points` points of the shape"});
+        {.name = "measured_max",
+         .help = "largest radial error measured at `points` points of the shape"});
   field(&T::max_bound, {.name = "max_bound",
-                        .help = "no radial error is larger, by branch and bound; None for a gauge, "
-                                "or beyond the diagonal"});
-  field(&T::measured_max_distance,
-        {.name = "measured_max_distance", .help = "the same as a distance"});
-  field(&T::distance_rms,
-        {.name = "distance_rms",
-         .help = "root mean square of distances over area, the larger of both ways"});
-  field(&T::distances_are_closest,
-        {.name = "distances_are_closest", .help = "whether distances are by closest points"});
-  field(&T::points, {.name = "points", .help = "at which was measured"});
-  field(&T::diagonal, {.name = "diagonal", .help = "of the shape's bounding box; 0 if not known"});
+                        .help = "upper bound of the radial error, by branch and bound; None for a "
+                                "gauge, or if larger than the diagonal"});
+  field(
+      &T::measured_max_distance,
+      {.name = "measured_max_distance",
+       .help = "largest distance between the surfaces, measured at `points` points of the shape"});
+  field(&T::distance_rms, {.name = "distance_rms",
+                           .help = "root mean square distance between the surfaces over area, the "
+                                   "larger of both directions"});
+  field(
+      &T::distances_are_closest,
+      {.name = "distances_are_closest",
+       .help = "true if distances are to closest points, false if they are first-order estimates"});
+  field(&T::points,
+        {.name = "points", .help = "number of points of the shape at which errors are measured"});
+  field(&T::diagonal,
+        {.name = "diagonal", .help = "diagonal of the shape's bounding box; 0 if unknown"});
 }
 
 // Reference values of the coefficients of a gravity field.
@@ -117,9 +128,10 @@ struct GravityField {
 template <typename Visitor>
 void visit_fields(FieldsOf<GravityField>, const Visitor& field) {
   using G = GravityField;
-  field(&G::gravity_constant, {.name = "gravity_constant", .help = "G M in m^3/s^2"});
-  field(&G::reference_radius,
-        {.name = "reference_radius", .help = "of the sphere about the centre, in m"});
+  field(&G::gravity_constant,
+        {.name = "gravity_constant", .help = "gravity constant G M, in m^3/s^2"});
+  field(&G::reference_radius, {.name = "reference_radius",
+                               .help = "radius of the reference sphere about the centre, in m"});
 }
 
 // A surface as coefficients: the content of a model file.
@@ -180,9 +192,12 @@ struct Convention {
 template <typename Visitor>
 void visit_fields(FieldsOf<Convention>, const Visitor& field) {
   using C = Convention;
-  field(&C::normalization, {.name = "normalization", .help = "how the functions are scaled"});
+  field(&C::normalization,
+        {.name = "normalization",
+         .help = "normalization of the spherical harmonics that the numbers in a file multiply"});
   field(&C::csphase, {.name = "csphase",
-                      .help = "1: without Condon-Shortley phase; -1: with it",
+                      .help = "sign of the harmonics; 1: without the Condon-Shortley phase; -1: "
+                              "with the factor (-1)^m",
                       .value = "1|-1",
                       .least = -1,
                       .most = 1});

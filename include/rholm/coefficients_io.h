@@ -37,11 +37,13 @@ struct CoefficientsReadOptions {
 template <typename Visitor>
 void visit_fields(FieldsOf<CoefficientsReadOptions>, const Visitor& field) {
   using O = CoefficientsReadOptions;
-  field(&O::convention,
-        {.name = "convention", .help = "of files that say none", .in_program = false});
-  field(&O::override_file, {.name = "override_file",
-                            .help = "the convention is that of all files, whatever they say",
-                            .in_program = false});
+  field(&O::convention, {.name = "convention",
+                         .help = "convention of files that do not state one",
+                         .in_program = false});
+  field(&O::override_file,
+        {.name = "override_file",
+         .help = "use the given convention even for files that state another one",
+         .in_program = false});
 }
 
 // Coefficients read from a file, and the metadata found in it.
@@ -77,11 +79,14 @@ struct CoefficientsWriteOptions {
 template <typename Visitor>
 void visit_fields(FieldsOf<CoefficientsWriteOptions>, const Visitor& field) {
   using O = CoefficientsWriteOptions;
-  field(&O::format,
-        {.name = "format", .help = "format of the output, instead of the one its extension names"});
-  field(&O::convention, {.name = "convention",
-                         .help = "of the numbers; the file says it if it can",
-                         .in_program = false});
+  field(&O::format, {.name = "format",
+                     .help = "format of the output; by default the extension of the file decides"});
+  field(
+      &O::convention,
+      {.name = "convention",
+       .help =
+           "convention of the written numbers; it is stored in the file if the format can state it",
+       .in_program = false});
 }
 
 // Writes coefficients with the shortest digits that read back the same. "-" is standard output.

@@ -26,13 +26,14 @@ template <typename Visitor>
 void visit_fields(FieldsOf<CompareOptions>, const Visitor& field) {
   using O = CompareOptions;
   field(&O::samples, {.name = "samples",
-                      .help = "points on each surface, evenly spread over its area",
+                      .help = "number of sample points on each surface, distributed by area",
                       .value = "N",
                       .least = 1,
                       .most = kMaxSamples});
-  field(&O::seed, {.name = "seed", .help = "of the random points", .value = "S"});
+  field(&O::seed, {.name = "seed", .help = "seed of the random sample points", .value = "S"});
   field(&O::threshold, {.name = "threshold",
-                        .help = "of the F-score, as a part of the diagonal of A's bounding box",
+                        .help = "distance within which a sample counts for the F-score, as a "
+                                "fraction of the diagonal of A's bounding box",
                         .value = "T",
                         .least = 0,
                         .above = true});
@@ -47,9 +48,9 @@ struct Distances {
 template <typename Visitor>
 void visit_fields(FieldsOf<Distances>, const Visitor& field) {
   using D = Distances;
-  field(&D::rms, {.name = "rms", .help = "root mean square", .unit = FieldUnit::kLength});
-  field(&D::mean, {.name = "mean", .help = "mean", .unit = FieldUnit::kLength});
-  field(&D::max, {.name = "max", .help = "largest", .unit = FieldUnit::kLength});
+  field(&D::rms, {.name = "rms", .help = "root mean square distance", .unit = FieldUnit::kLength});
+  field(&D::mean, {.name = "mean", .help = "mean distance", .unit = FieldUnit::kLength});
+  field(&D::max, {.name = "max", .help = "largest distance", .unit = FieldUnit::kLength});
 }
 
 // Distance between two surfaces A and B. Lengths are in the shape's unit.
@@ -73,26 +74,33 @@ struct Comparison {
 template <typename Visitor>
 void visit_fields(FieldsOf<Comparison>, const Visitor& field) {
   using C = Comparison;
-  field(&C::samples, {.name = "samples", .help = "points on each surface"});
-  field(&C::seed, {.name = "seed", .help = "that they were drawn with"});
+  field(&C::samples, {.name = "samples", .help = "number of sample points on each surface"});
+  field(&C::seed, {.name = "seed", .help = "seed of the random sample points"});
   field(&C::diagonal,
-        {.name = "diagonal", .help = "of A's bounding box", .unit = FieldUnit::kLength});
-  field(&C::a_to_b, {.name = "a_to_b", .help = "from samples of A to their closest points on B"});
-  field(&C::b_to_a, {.name = "b_to_a", .help = "from samples of B to their closest points on A"});
-  field(&C::hausdorff, {.name = "hausdorff",
-                        .help = "larger of the two largest distances: a lower bound of the "
-                                "Hausdorff distance",
-                        .unit = FieldUnit::kLength});
-  field(&C::threshold, {.name = "threshold", .help = "of the F-score", .unit = FieldUnit::kLength});
+        {.name = "diagonal", .help = "diagonal of A's bounding box", .unit = FieldUnit::kLength});
+  field(&C::a_to_b,
+        {.name = "a_to_b", .help = "distances from samples of A to their closest points on B"});
+  field(&C::b_to_a,
+        {.name = "b_to_a", .help = "distances from samples of B to their closest points on A"});
+  field(&C::hausdorff,
+        {.name = "hausdorff",
+         .help = "larger of the two largest distances, a lower bound of the Hausdorff distance",
+         .unit = FieldUnit::kLength});
+  field(&C::threshold,
+        {.name = "threshold",
+         .help = "distance within which a sample counts for precision, recall and F-score",
+         .unit = FieldUnit::kLength});
   field(&C::precision,
-        {.name = "precision", .help = "share of B's samples within the threshold of A"});
-  field(&C::recall, {.name = "recall", .help = "share of A's samples within the threshold of B"});
+        {.name = "precision", .help = "share of the samples of B within the threshold of A"});
+  field(&C::recall,
+        {.name = "recall", .help = "share of the samples of A within the threshold of B"});
   field(&C::f_score, {.name = "f_score", .help = "harmonic mean of precision and recall"});
-  field(&C::normal_median_degrees,
-        {.name = "normal_median_degrees",
-         .help = "median of the angle between the normal at a sample and that at its closest "
-                 "point, 0 ... 180"});
-  field(&C::normal_mean_degrees, {.name = "normal_mean_degrees", .help = "mean of that angle"});
+  field(&C::normal_median_degrees, {.name = "normal_median_degrees",
+                                    .help = "median angle between the normal at a sample and the "
+                                            "normal at its closest point, 0 ... 180 degrees"});
+  field(&C::normal_mean_degrees, {.name = "normal_mean_degrees",
+                                  .help = "mean angle between the normal at a sample and the "
+                                          "normal at its closest point, 0 ... 180 degrees"});
 }
 
 // Compares two meshes by exact closest points on triangles (double precision). Throws InvalidInput

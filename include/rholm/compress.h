@@ -33,30 +33,34 @@ struct CompressOptions {
 template <typename Visitor>
 void visit_fields(FieldsOf<CompressOptions>, const Visitor& field) {
   using O = CompressOptions;
-  field(&O::tolerance, {.name = "tolerance",
-                        .help = "root mean square distance between the surfaces, both ways",
-                        .value = "E",
-                        .least = 0,
-                        .above = true,
-                        .unit = FieldUnit::kLength,
-                        .in_program = false,
-                        .in_python = false});
-  field(&O::samples, {.name = "samples",
-                      .help = "points that caps are fitted to; 0: by the tolerance",
-                      .value = "N",
-                      .least = 1000,
-                      .most = kMaxSamples,
-                      .may_be_zero = true,
-                      .in_program = false});
+  field(&O::tolerance,
+        {.name = "tolerance",
+         .help = "largest root mean square distance between the surfaces, in both directions",
+         .value = "E",
+         .least = 0,
+         .above = true,
+         .unit = FieldUnit::kLength,
+         .in_program = false,
+         .in_python = false});
+  field(&O::samples,
+        {.name = "samples",
+         .help = "number of points that caps are fitted to; 0: chosen from the tolerance",
+         .value = "N",
+         .least = 1000,
+         .most = kMaxSamples,
+         .may_be_zero = true,
+         .in_program = false});
   field(&O::max_degree, {.name = "max_degree",
                          .help = "highest degree of a cap",
                          .value = "L",
                          .least = 2,
                          .most = kMaxCapDegree});
-  field(&O::seed, {.name = "seed", .help = "of samples and of the search", .value = "S"});
+  field(&O::seed, {.name = "seed",
+                   .help = "seed of the random samples and of the search for caps",
+                   .value = "S"});
   field(&O::max_numbers, {.name = "max_numbers",
-                          .help = "numbers that the model may take, coefficients and nine for each "
-                                  "cap; 0: as many as the shape has coordinates",
+                          .help = "largest number of values in the model, coefficients and nine "
+                                  "per cap; 0: the number of coordinates of the shape",
                           .value = "N",
                           .least = 0});
 }
@@ -72,8 +76,10 @@ template <typename Visitor>
 void visit_fields(FieldsOf<AtlasSize>, const Visitor& field) {
   using S = AtlasSize;
   field(&S::caps, {.name = "caps", .help = "number of caps"});
-  field(&S::coefficients, {.name = "coefficients", .help = "coefficients that are not zero"});
-  field(&S::frame_numbers, {.name = "frame_numbers", .help = "numbers of the caps' frames"});
+  field(&S::coefficients,
+        {.name = "coefficients", .help = "number of coefficients that are not zero"});
+  field(&S::frame_numbers,
+        {.name = "frame_numbers", .help = "number of values that describe the frames of all caps"});
 }
 
 // Counts caps, nonzero coefficients and frame numbers of an atlas.
@@ -100,26 +106,33 @@ struct CompressReport {
 template <typename Visitor>
 void visit_fields(FieldsOf<CompressReport>, const Visitor& field) {
   using R = CompressReport;
-  field(&R::samples, {.name = "samples", .help = "points that caps were fitted to"});
+  field(&R::samples, {.name = "samples", .help = "number of points that caps were fitted to"});
   field(&R::turned_normals,
         {.name = "turned_normals",
-         .help = "whether all normals of points pointed into the solid, and were turned"});
+         .help = "true if all normals of the points pointed into the solid and were turned"});
   field(&R::hidden, {.name = "hidden",
-                     .help = "share of a mesh that lies inside of its solid, and was left out"});
-  field(&R::gap, {.name = "gap",
-                  .help = "distance between sheets that face each other",
-                  .unit = FieldUnit::kLength});
+                     .help = "share of a mesh that lies inside its own solid and was left out"});
+  field(
+      &R::gap,
+      {.name = "gap",
+       .help =
+           "distance between sheets that face each other; it is smaller on a twentieth of the area",
+       .unit = FieldUnit::kLength});
   field(&R::aimed,
-        {.name = "aimed", .help = "tolerance that was aimed at", .unit = FieldUnit::kLength});
-  field(&R::uncovered,
-        {.name = "uncovered", .help = "share of the samples that no cap met by 4 tolerances"});
-  field(&R::components, {.name = "components", .help = "parts of the extracted surface"});
-  field(&R::genus, {.name = "genus", .help = "handles of the extracted surface"});
-  field(&R::met, {.name = "met", .help = "whether the tolerance is kept"});
-  field(&R::topology_kept,
-        {.name = "topology_kept",
-         .help = "whether the surface has as many parts and handles as the shape"});
-  field(&R::times, {.name = "times", .help = "seconds of each stage"});
+        {.name = "aimed",
+         .help = "tolerance that was used; for thin shapes it is smaller than the wanted one",
+         .unit = FieldUnit::kLength});
+  field(&R::uncovered, {.name = "uncovered",
+                        .help = "share of the samples farther than 4 tolerances from every cap"});
+  field(&R::components,
+        {.name = "components", .help = "number of connected parts of the extracted surface"});
+  field(&R::genus, {.name = "genus", .help = "number of handles of the extracted surface"});
+  field(&R::met, {.name = "met", .help = "true if the tolerance is met"});
+  field(&R::topology_kept, {.name = "topology_kept",
+                            .help = "true if the surface has as many parts and handles as the "
+                                    "shape, or if they are not compared"});
+  field(&R::times,
+        {.name = "times", .help = "wall and CPU time of each stage, in seconds: (wall, cpu)"});
 }
 
 // A compressed shape, and its report.
@@ -159,26 +172,29 @@ template <typename Visitor>
 void visit_fields(FieldsOf<AtlasSynthesisOptions>, const Visitor& field) {
   using O = AtlasSynthesisOptions;
   field(&O::step, {.name = "step",
-                   .help = "edge of the grid's cubes; 0: the model's",
+                   .help = "edge length of the grid's cubes; 0: the step of the model",
                    .value = "H",
                    .least = 0,
                    .unit = FieldUnit::kLength,
                    .in_program = false});
-  field(&O::degree, {.name = "degree",
-                     .help = "caps have no higher degrees",
-                     .value = "L",
-                     .least = 0,
-                     .in_program = false});
+  field(&O::degree,
+        {.name = "degree",
+         .help =
+             "highest degree of the caps; caps of higher degrees are fitted again with this degree",
+         .value = "L",
+         .least = 0,
+         .in_program = false});
   field(&O::simplify, {.name = "simplify",
-                       .help = "fewer triangles for the same surface: to 1/50 of a step, so many, "
-                               "or as options say; by default as a reconstruction was simplified",
+                       .help = "reduce the faces: True for an error of 1/50 of a step, a number of "
+                               "faces, or options of simplify; by default as the model says",
                        .in_program = false});
-  field(&O::max_memory, {.name = "max_memory",
-                         .help = "refused if more memory is foreseen",
-                         .value = "BYTES",
-                         .unit = FieldUnit::kBytes,
-                         .changes_result = false,
-                         .in_program = false});
+  field(&O::max_memory,
+        {.name = "max_memory",
+         .help = "largest estimated memory; the surface is refused if it needs more",
+         .value = "BYTES",
+         .unit = FieldUnit::kBytes,
+         .changes_result = false,
+         .in_program = false});
 }
 
 // Extracts the surface from a model: closed, oriented outwards, with normals nx, ny, nz. A

@@ -113,8 +113,8 @@ struct Overshoot {
 template <typename Visitor>
 void visit_fields(FieldsOf<Overshoot>, const Visitor& field) {
   using O = Overshoot;
-  field(&O::above, {.name = "above", .help = "largest value - 1"});
-  field(&O::below, {.name = "below", .help = "minus the smallest value"});
+  field(&O::above, {.name = "above", .help = "largest value of the filtered step, minus 1"});
+  field(&O::below, {.name = "below", .help = "smallest value of the filtered step, times -1"});
 }
 // Returns the overshoot for a step: 1 within 60 degrees of the pole and 0 beyond. Its coefficients
 // are known in closed form, (P_{l-1}(1/2) - P_{l+1}(1/2)) / 2.

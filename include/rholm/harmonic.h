@@ -41,13 +41,16 @@ struct SumOptions {
 template <typename Visitor>
 void visit_fields(FieldsOf<SumOptions>, const Visitor& field) {
   using O = SumOptions;
-  field(&O::engine, {.name = "engine",
-                     .help = "how sums are done: fast, to the precision; direct, term by term"});
-  field(&O::precision, {.name = "precision",
-                        .help = "of the fast engine, relative to sums with random signs",
-                        .value = "E",
-                        .least = 1e-14,
-                        .most = 0.1});
+  field(&O::engine,
+        {.name = "engine",
+         .help =
+             "method of the sums; fast: on a grid, to the wanted precision; direct: term by term"});
+  field(&O::precision,
+        {.name = "precision",
+         .help = "l2 error of the fast engine, relative to the norm of sums with random signs",
+         .value = "E",
+         .least = 1e-14,
+         .most = 0.1});
 }
 
 // Returns f(u_j) for every direction.

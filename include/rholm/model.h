@@ -41,19 +41,20 @@ void visit_fields(FieldsOf<ExpandOptions>, const Visitor& field) {
   using O = ExpandOptions;
   visit_transform_fields<O>(field);
   field(&O::tolerance, {.name = "tolerance",
-                        .help = "the smallest degree that keeps it, instead of a given one",
+                        .help = "tolerance of the model, which then has the smallest degree that "
+                                "meets it, instead of a given degree",
                         .in_program = false,
                         .in_python = false});
   field(&O::errors, {.name = "errors",
-                     .help = "whether the errors of the surface are measured and predicted",
+                     .help = "measure and predict the errors of the surface",
                      .in_program = false});
   field(&O::chart, {.name = "chart",
-                    .help = "the centre, and whether others than star-shaped are taken",
+                    .help = "options of the centre and of surfaces that are not star-shaped",
                     .in_program = false,
                     .in_python = false});
   field(&O::weld_tolerance, {.name = "weld",
-                             .help = "make vertices one whose distance is at most this, in the "
-                                     "unit of the shape; 0 joins identical ones",
+                             .help = "merge vertices within this distance of each other, in the "
+                                     "unit of the shape; 0: identical vertices only",
                              .value = "T",
                              .least = 0});
 }
@@ -77,11 +78,13 @@ struct ToleranceReport {
 template <typename Visitor>
 void visit_fields(FieldsOf<ToleranceReport>, const Visitor& field) {
   using T = ToleranceReport;
-  field(&T::allowed, {.name = "allowed", .help = "error, in the mesh's unit"});
-  field(&T::reached, {.name = "reached", .help = "error, in the mesh's unit"});
-  field(&T::met, {.name = "met", .help = "whether reached is at most allowed"});
-  field(&T::degrees, {.name = "degrees",
-                      .help = "that were tried; the model's is the last one, or cut off from it"});
+  field(&T::allowed, {.name = "allowed", .help = "largest allowed error, in the unit of the mesh"});
+  field(&T::reached, {.name = "reached", .help = "error of the model, in the unit of the mesh"});
+  field(&T::met,
+        {.name = "met", .help = "true if the error of the model is at most the allowed error"});
+  field(&T::degrees,
+        {.name = "degrees",
+         .help = "degrees that were tried; the model has the last degree or is truncated from it"});
 }
 
 // A mesh as coefficients, with a report.
@@ -103,17 +106,27 @@ struct Expanded {
 template <typename Visitor>
 void visit_fields(FieldsOf<Expanded>, const Visitor& field) {
   using E = Expanded;
-  field(&E::transform, {.name = "transform", .help = "how the coefficients were found"});
-  field(&E::tolerance, {.name = "tolerance", .help = "how the tolerance was kept, or None"});
-  field(&E::star, {.name = "star", .help = "the centre, and how well it sees the surface"});
-  field(&E::diagonal, {.name = "diagonal", .help = "of the bounding box"});
-  field(&E::vertices, {.name = "vertices", .help = "after welding, where that was needed"});
-  field(&E::faces, {.name = "faces", .help = "likewise"});
-  field(&E::edges, {.name = "edges", .help = "likewise"});
-  field(&E::merged_vertices, {.name = "merged_vertices", .help = "by welding"});
-  field(&E::collapsed_triangles, {.name = "collapsed_triangles", .help = "by welding"});
-  field(&E::flipped, {.name = "flipped", .help = "whether the mesh was inside out"});
-  field(&E::times, {.name = "times", .help = "stages: (wall, cpu) in seconds"});
+  field(&E::transform,
+        {.name = "transform", .help = "report of the transform that computed the coefficients"});
+  field(&E::tolerance, {.name = "tolerance",
+                        .help = "report on the wanted tolerance, or None without a tolerance"});
+  field(&E::star,
+        {.name = "star", .help = "centre, and visibility of the surface from the centre"});
+  field(&E::diagonal, {.name = "diagonal", .help = "diagonal of the bounding box of the mesh"});
+  field(&E::vertices,
+        {.name = "vertices", .help = "number of vertices, after welding if the mesh was welded"});
+  field(&E::faces,
+        {.name = "faces", .help = "number of faces, after welding if the mesh was welded"});
+  field(&E::edges,
+        {.name = "edges", .help = "number of edges, after welding if the mesh was welded"});
+  field(&E::merged_vertices,
+        {.name = "merged_vertices", .help = "number of vertices removed by welding"});
+  field(&E::collapsed_triangles,
+        {.name = "collapsed_triangles",
+         .help = "number of faces removed because welding merged two of their corners"});
+  field(&E::flipped, {.name = "flipped", .help = "true if the mesh was inside out and was turned"});
+  field(&E::times,
+        {.name = "times", .help = "wall and CPU time of each stage, in seconds: (wall, cpu)"});
 }
 
 // Welds the mesh, turns it right side out, checks it, finds the centre, computes coefficients. A

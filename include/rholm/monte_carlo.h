@@ -60,29 +60,32 @@ template <typename Visitor>
 void visit_fields(FieldsOf<MonteCarloOptions>, const Visitor& field) {
   using O = MonteCarloOptions;
   field(&O::degree, {.name = "degree",
-                     .help = "highest degree L",
+                     .help = "highest degree L; the model has (L+1)^2 coefficients",
                      .value = "L",
                      .least = 0,
                      .most = kMaxDegree,
                      .in_python = false});
   field(&O::places, {.name = "places",
-                     .help = "where the random points are: on edges, or on spherical triangles",
+                     .help = "places of the random points; edge: on the edges; triangle: on the "
+                             "spherical triangles of the faces",
                      .in_program = false});
-  field(&O::seed, {.name = "seed", .help = "of the random points", .value = "S"});
+  field(&O::seed, {.name = "seed", .help = "seed of the random points", .value = "S"});
   field(&O::samples, {.name = "samples",
-                      .help = "points on each edge or triangle, an even number; by default points "
-                              "are added until the deviation is reached",
+                      .help = "number of points on each edge or face, raised to an even number; by "
+                              "default points are added until the deviation is reached",
                       .value = "N",
                       .least = 2,
                       .most = kMostSamples});
   field(&O::deviation, {.name = "deviation",
-                        .help = "wanted relative deviation of the coefficients",
+                        .help = "wanted standard error of the coefficients, relative to the "
+                                "coefficients without the mean",
                         .value = "S",
                         .least = 1e-8,
                         .most = 1});
   field(&O::most_samples,
         {.name = "most_samples",
-         .help = "points on each edge or triangle at which to stop without the wanted deviation",
+         .help =
+             "number of points on each edge or face at which to stop without the wanted deviation",
          .value = "N",
          .least = 2,
          .most = kMostSamples});
@@ -113,21 +116,26 @@ struct MonteCarlo {
 template <typename Visitor>
 void visit_fields(FieldsOf<MonteCarlo>, const Visitor& field) {
   using M = MonteCarlo;
-  field(&M::places, {.name = "places", .help = "edges or triangles that were sampled"});
-  field(&M::samples, {.name = "samples", .help = "points on each of them"});
-  field(&M::rounds, {.name = "rounds", .help = "rounds in which they were added"});
+  field(&M::places, {.name = "places", .help = "number of edges or faces that were sampled"});
+  field(&M::samples, {.name = "samples", .help = "number of points on each sampled edge or face"});
+  field(&M::rounds, {.name = "rounds", .help = "number of rounds in which points were added"});
   field(&M::relative_deviation, {.name = "relative_deviation",
                                  .help = "standard error relative to the coefficients without the "
-                                         "mean; none if too few points tell"});
-  field(&M::reached, {.name = "reached", .help = "whether the wanted deviation is reached"});
+                                         "mean; None with too few points to estimate it"});
+  field(&M::reached,
+        {.name = "reached",
+         .help = "true if the wanted deviation is reached, or if the number of samples was given"});
   field(&M::degree_deviation,
         {.name = "degree_deviation",
-         .help = "for each degree the standard error of its coefficients together"});
-  field(&M::truncation_rms,
-        {.name = "truncation_rms", .help = "root mean square of what degrees above L would add"});
+         .help = "standard error of all coefficients of a degree together, for each degree"});
+  field(&M::truncation_rms, {.name = "truncation_rms",
+                             .help = "root mean square truncation error over solid angle, in the "
+                                     "unit of the function; None if too uncertain"});
   field(&M::truncation_rms_doubt,
-        {.name = "truncation_rms_doubt", .help = "how far that may be off, by 3 deviations"});
-  field(&M::times, {.name = "times", .help = "seconds of each stage"});
+        {.name = "truncation_rms_doubt",
+         .help = "uncertainty of truncation_rms: three standard deviations"});
+  field(&M::times,
+        {.name = "times", .help = "wall and CPU time of each stage, in seconds: (wall, cpu)"});
 }
 
 // Computes coefficients with the same bits for the same chart, options and seed, for every number

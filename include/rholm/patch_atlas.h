@@ -32,22 +32,22 @@ void visit_fields(FieldsOf<PatchAtlasOptions>, const Visitor& field) {
                      .least = 0,
                      .most = kMaxCapDegree,
                      .in_python = false});
-  field(
-      &O::extension,
-      {.name = "extension",
-       .help =
-           "what a cap is beyond its points: zero, as the paper has it, or the sphere it lies on"});
-  field(&O::min_cosine, {.name = "min_cosine",
-                         .help = "least cosine between a normal and the mean normal of its patch",
-                         .value = "C",
-                         .least = 0,
-                         .most = 1});
-  field(&O::overlap, {.name = "overlap",
-                      .help = "radius of the cell of a patch over that of its own points",
-                      .value = "F",
-                      .least = 1,
-                      .most = 4,
-                      .in_program = false});
+  field(&O::extension, {.name = "extension",
+                        .help = "value of a cap outside its points; zero: 0, as in the paper; "
+                                "sphere: the sphere that the cap lies on"});
+  field(&O::min_cosine,
+        {.name = "min_cosine",
+         .help = "smallest cosine between a normal and the mean normal of its patch",
+         .value = "C",
+         .least = 0,
+         .most = 1});
+  field(&O::overlap,
+        {.name = "overlap",
+         .help = "radius of the cell of a patch, divided by the radius of the patch's own points",
+         .value = "F",
+         .least = 1,
+         .most = 4,
+         .in_program = false});
 }
 
 // The caps, and the surface extracted from them.

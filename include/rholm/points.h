@@ -72,79 +72,86 @@ template <typename Visitor>
 void visit_fields(FieldsOf<SampleOptions>, const Visitor& field) {
   using O = SampleOptions;
   field(&O::points, {.name = "points",
-                     .help = "how many, before holes; with a pattern about as many",
+                     .help = "number of points before holes are made; approximate with a pattern",
                      .value = "N",
                      .least = 1,
                      .most = kMaxPoints,
                      .in_python = false});
-  field(&O::noise,
-        {.name = "noise",
-         .help = "standard deviation of each point along x, y and z, a part of the diagonal",
-         .value = "F",
-         .least = 0,
-         .most = 1});
+  field(&O::noise, {.name = "noise",
+                    .help = "standard deviation of the noise along x, y and z, as a fraction of "
+                            "the bounding box's diagonal",
+                    .value = "F",
+                    .least = 0,
+                    .most = 1});
   field(&O::normal_noise,
         {.name = "normal_noise",
-         .help = "standard deviation of the angle each normal is turned by, degrees",
+         .help = "standard deviation of the angle between exact and given normals, in degrees",
          .value = "DEG",
          .least = 0,
          .most = 180});
-  field(&O::outliers, {.name = "outliers",
-                       .help = "share of the points that is anywhere in the box, grown by 10 %",
-                       .value = "F",
-                       .least = 0,
-                       .most = 1});
-  field(&O::holes, {.name = "holes",
-                    .help = "balls about random points of the surface, in which points are removed",
-                    .value = "K",
-                    .least = 0,
-                    .in_program = false});
+  field(&O::outliers,
+        {.name = "outliers",
+         .help =
+             "share of the points replaced by random points in the bounding box, enlarged by 10 %",
+         .value = "F",
+         .least = 0,
+         .most = 1});
+  field(&O::holes,
+        {.name = "holes",
+         .help = "number of balls about random points of the surface in which points are removed",
+         .value = "K",
+         .least = 0,
+         .in_program = false});
   field(&O::hole_radius, {.name = "hole_radius",
-                          .help = "radius of these balls, a part of the diagonal",
+                          .help = "radius of the balls in which points are removed, as a fraction "
+                                  "of the bounding box's diagonal",
                           .value = "R",
                           .least = 0,
                           .most = 1,
                           .in_program = false});
   field(&O::density_ratio, {.name = "density_ratio",
-                            .help = "density falls by this along the longest axis, exponentially",
+                            .help = "ratio of the highest to the lowest density, which falls "
+                                    "exponentially along the longest axis",
                             .value = "Q",
                             .least = 1,
                             .most = kMaxDensityRatio});
-  field(&O::pattern,
-        {.name = "pattern",
-         .help = "where points lie: random; slices across an axis; rings, planes through it; grid, "
-                 "lines along it and across; lines, rays of scanners in rows"});
-  field(&O::pattern_ratio, {.name = "pattern_ratio",
-                            .help = "steps between the rows of a pattern over those along them",
-                            .value = "R",
-                            .least = 1,
-                            .most = kMaxPatternRatio});
+  field(&O::pattern, {.name = "pattern",
+                      .help = "arrangement of the points; random: independent; slices: planes "
+                              "across the axis; rings: planes through the axis; lines: rows of "
+                              "scanner rays; grid: lines along and across the axis"});
+  field(&O::pattern_ratio,
+        {.name = "pattern_ratio",
+         .help = "step between the rows of a pattern, divided by the step along a row",
+         .value = "R",
+         .least = 1,
+         .most = kMaxPatternRatio});
   field(&O::pattern_axis,
-        {.name = "pattern_axis", .help = "axis of the pattern", .value = "X,Y,Z"});
-  field(&O::scans,
-        {.name = "scans",
-         .help = "scanners all around, each with its part of the points, of what it sees",
-         .value = "K",
-         .least = 0,
-         .most = kMaxScans});
+        {.name = "pattern_axis", .help = "direction of the axis of the pattern", .value = "X,Y,Z"});
+  field(&O::scans, {.name = "scans",
+                    .help = "number of scanners around the surface, each with an equal part of the "
+                            "points, where it sees the surface",
+                    .value = "K",
+                    .least = 0,
+                    .most = kMaxScans});
   field(&O::misalignment, {.name = "misalignment",
-                           .help = "root mean square distance by which scans are moved, each as a "
-                                   "rigid body, a part of the diagonal",
+                           .help = "root mean square displacement of the scans, moved as rigid "
+                                   "bodies, as a fraction of the bounding box's diagonal",
                            .value = "F",
                            .least = 0,
                            .most = 1});
-  field(&O::scan_noise,
-        {.name = "scan_noise",
-         .help = "the last scan has so much more noise than the first, others between",
-         .value = "F",
-         .least = 0});
-  field(&O::sensor,
-        {.name = "sensor",
-         .help = "with the place of its scanner at each point: sensor_x, sensor_y, sensor_z"});
-  field(&O::normals,
-        {.name = "normals", .help = "whether points have normals", .in_program = false});
+  field(&O::scan_noise, {.name = "scan_noise",
+                         .help = "relative excess of the last scan's noise over the first scan's "
+                                 "noise; the other scans lie between",
+                         .value = "F",
+                         .least = 0});
+  field(
+      &O::sensor,
+      {.name = "sensor",
+       .help =
+           "add the position of each point's scanner as attributes sensor_x, sensor_y, sensor_z"});
+  field(&O::normals, {.name = "normals", .help = "add normals to the points", .in_program = false});
   field(&O::seed,
-        {.name = "seed", .help = "of all random numbers", .value = "S", .in_program = false});
+        {.name = "seed", .help = "seed of all random numbers", .value = "S", .in_program = false});
 }
 
 // Samples points on the surface with the exact normals of their faces: independent random points,
@@ -169,15 +176,19 @@ struct CleanReport {
 template <typename Visitor>
 void visit_fields(FieldsOf<CleanReport>, const Visitor& field) {
   using C = CleanReport;
-  field(&C::points, {.name = "points", .help = "number of points before"});
+  field(&C::points, {.name = "points", .help = "number of points before cleaning"});
   field(&C::not_finite,
-        {.name = "not_finite", .help = "points dropped: a coordinate was NaN or infinite"});
+        {.name = "not_finite",
+         .help = "number of points dropped because a coordinate is NaN or infinite"});
   field(&C::duplicates,
-        {.name = "duplicates", .help = "points dropped: at the place of an earlier one"});
+        {.name = "duplicates",
+         .help = "number of points dropped because an earlier point has the same position"});
   field(&C::opposite_normals,
-        {.name = "opposite_normals", .help = "of these, with a normal against the earlier one's"});
+        {.name = "opposite_normals",
+         .help =
+             "number of dropped duplicates whose normal opposes the normal of the earlier point"});
   field(&C::zero_normals,
-        {.name = "zero_normals", .help = "of the points that stay, those with a zero normal"});
+        {.name = "zero_normals", .help = "number of remaining points with a zero normal"});
 }
 
 // Drops points that are not finite, and merges points at one place (to 2^-23
@@ -201,15 +212,19 @@ struct ScanAlignment {
 template <typename Visitor>
 void visit_fields(FieldsOf<ScanAlignment>, const Visitor& field) {
   using S = ScanAlignment;
-  field(&S::scans, {.name = "scans", .help = "different values of the attribute; 0 without one"});
+  field(&S::scans,
+        {.name = "scans",
+         .help =
+             "number of scans: different values of the attribute `scan`; 0 without the attribute"});
   field(&S::pairs,
-        {.name = "pairs", .help = "points of one scan that were compared with those of another"});
-  field(
-      &S::distance_before,
-      {.name = "distance_before",
-       .help = "of these pairs along the normal, as a standard deviation, before anything moved"});
-  field(&S::distance, {.name = "distance", .help = "the same after"});
-  field(&S::moved, {.name = "moved", .help = "root mean square way of all points"});
+        {.name = "pairs", .help = "number of compared pairs of points from different scans"});
+  field(&S::distance_before, {.name = "distance_before",
+                              .help = "standard deviation of the distance between paired points "
+                                      "along the normal, before the alignment"});
+  field(&S::distance, {.name = "distance",
+                       .help = "standard deviation of the distance between paired points along the "
+                               "normal, after the alignment"});
+  field(&S::moved, {.name = "moved", .help = "root mean square displacement of all points"});
 }
 
 // Aligns scans of one surface, each moved as a rigid body. The attribute `scan` of points holds
@@ -241,25 +256,29 @@ struct OrientOptions {
 template <typename Visitor>
 void visit_fields(FieldsOf<OrientOptions>, const Visitor& field) {
   using O = OrientOptions;
-  field(&O::neighbors, {.name = "neighbors",
-                        .help = "points that a normal is fitted to; 0: chosen from the data",
-                        .value = "N",
-                        .least = 3,
-                        .most = 1000,
-                        .may_be_zero = true});
-  field(&O::keep_directions, {.name = "keep_directions",
-                              .help = "believe the normals that are given up to their signs"});
-  field(
-      &O::center,
-      {.name = "center", .help = "normals point away from here, a point inside", .value = "X,Y,Z"});
-  field(&O::sensor, {.name = "sensor",
-                     .help = "normals point to here, where the points were measured from",
+  field(&O::neighbors,
+        {.name = "neighbors",
+         .help = "number of neighbours that a normal is fitted to; 0: chosen from the data",
+         .value = "N",
+         .least = 3,
+         .most = 1000,
+         .may_be_zero = true});
+  field(&O::keep_directions,
+        {.name = "keep_directions",
+         .help = "keep the directions of given normals and compute only their signs"});
+  field(&O::center, {.name = "center",
+                     .help = "point inside the surface, from which all normals point away",
                      .value = "X,Y,Z"});
+  field(&O::sensor,
+        {.name = "sensor",
+         .help = "point from which the surface was measured, to which all normals point",
+         .value = "X,Y,Z"});
   field(&O::keep_outliers, {.name = "keep_outliers",
-                            .help = "do not look for points far from all others, which take the "
-                                    "normal of the nearest"});
-  field(&O::confidence,
-        {.name = "confidence", .help = "give each point its confidence, 0 ... 1, as an attribute"});
+                            .help = "do not search for isolated points, which otherwise get the "
+                                    "normal of the nearest point that is not isolated"});
+  field(&O::confidence, {.name = "confidence",
+                         .help = "add the confidence of each normal's sign as the point attribute "
+                                 "`confidence`, 0 ... 1"});
 }
 
 // Counts and confidence of orient().
@@ -286,23 +305,27 @@ struct OrientReport {
 template <typename Visitor>
 void visit_fields(FieldsOf<OrientReport>, const Visitor& field) {
   using R = OrientReport;
-  field(&R::points, {.name = "points", .help = "points given"});
-  field(&R::duplicates, {.name = "duplicates",
-                         .help = "points at the place of an earlier one, whose normal they share"});
-  field(&R::neighbors, {.name = "neighbors", .help = "points of a fit"});
-  field(&R::components, {.name = "components",
-                         .help = "parts of the graph of neighbours; 0 with a centre or a sensor"});
-  field(&R::computed, {.name = "computed", .help = "normals whose direction is new"});
-  field(&R::flipped, {.name = "flipped", .help = "normals that were turned round"});
+  field(&R::points, {.name = "points", .help = "number of given points"});
+  field(&R::duplicates,
+        {.name = "duplicates",
+         .help = "number of points at the position of an earlier point, whose normal they share"});
+  field(&R::neighbors,
+        {.name = "neighbors", .help = "number of neighbours that a normal is fitted to"});
+  field(&R::components,
+        {.name = "components",
+         .help = "number of connected parts of the neighbour graph; 0 with a centre or a sensor"});
+  field(&R::computed,
+        {.name = "computed", .help = "number of normals with a newly computed direction"});
+  field(&R::flipped, {.name = "flipped", .help = "number of normals whose sign was changed"});
   field(&R::outliers, {.name = "outliers",
-                       .help = "points far from all others, which took the normal of the nearest"});
+                       .help = "number of isolated points, which got the normal of the nearest "
+                               "point that is not isolated"});
   field(&R::undetermined,
         {.name = "undetermined",
-         .help = "points whose neighbours lie on a line: their normals are zero"});
-  field(
-      &R::mean_confidence,
-      {.name = "mean_confidence",
-       .help = "mean over the points: a sign is right with the probability (1 + confidence) / 2"});
+         .help = "number of points with a zero normal, because their neighbours lie on a line"});
+  field(&R::mean_confidence, {.name = "mean_confidence",
+                              .help = "mean confidence of all points; a sign is right with at "
+                                      "least the probability (1 + confidence) / 2"});
   field(&R::unsure, {.name = "unsure", .help = "share of the points with a confidence below 0.5"});
 }
 

@@ -45,13 +45,16 @@ struct TileForecast {
 template <typename Visitor>
 void visit_fields(FieldsOf<TileForecast>, const Visitor& field) {
   using F = TileForecast;
-  field(&F::points, {.name = "points", .help = "that are finite, and no far strays"});
-  field(&F::tiles, {.name = "tiles", .help = "that space is cut into"});
-  field(&F::memory, {.name = "memory", .help = "bytes, beside what is stored"});
-  field(&F::stored,
-        {.name = "stored",
-         .help = "bytes between the steps, in a folder, or in memory if there is room for them"});
-  field(&F::written, {.name = "written", .help = "bytes of the surface as a file"});
+  field(&F::points,
+        {.name = "points", .help = "number of finite points, without points isolated far away"});
+  field(&F::tiles, {.name = "tiles", .help = "number of tiles that space is cut into"});
+  field(&F::memory, {.name = "memory", .help = "memory in bytes, without the stored bytes"});
+  field(
+      &F::stored,
+      {.name = "stored",
+       .help =
+           "number of bytes stored between the steps, in a folder, or in memory if there is room"});
+  field(&F::written, {.name = "written", .help = "size of the surface's file, in bytes"});
 }
 
 // Estimates the resources, without attributes of the points. Throws InvalidInput for tile_points
@@ -114,89 +117,91 @@ template <typename Visitor>
 void visit_fields(FieldsOf<ReconstructOptions>, const Visitor& field) {
   using O = ReconstructOptions;
   field(&O::step, {.name = "step",
-                   .help = "edge of the grid's cubes; 0: from the spacing and the noise of the "
-                           "points",
+                   .help = "edge length of the grid's cubes; 0: chosen from the spacing and the "
+                           "noise of the points",
                    .value = "H",
                    .least = 0,
                    .unit = FieldUnit::kLength,
                    .in_program = false});
   field(&O::tolerance, {.name = "tolerance",
-                        .help = "larger caps and a coarser surface, within this rms distance of "
-                                "the points; 0: as exact as the points are",
+                        .help = "largest root mean square distance from the points, for larger "
+                                "caps and a coarser surface; 0: the accuracy of the points",
                         .value = "E",
                         .least = 0,
                         .unit = FieldUnit::kLength});
-  field(&O::noise, {.name = "noise",
-                    .help = "standard deviation of the points; estimated if not given",
-                    .value = "SIGMA",
-                    .least = 0,
-                    .unit = FieldUnit::kLength});
-  field(&O::holes, {.name = "holes",
-                    .help = "fill: close places without points smoothly; keep: cut them open"});
-  field(&O::blend,
-        {.name = "blend",
-         .help = "weights of caps that overlap; spline: the paper's quadratic B-spline"});
-  field(&O::min_component, {.name = "min_component",
-                            .help = "parts of the surface with less than this share of the "
-                                    "largest one's area are dropped",
-                            .value = "SHARE",
-                            .least = 0,
-                            .most = 1});
+  field(&O::noise,
+        {.name = "noise",
+         .help = "standard deviation of the points; by default estimated from the points",
+         .value = "SIGMA",
+         .least = 0,
+         .unit = FieldUnit::kLength});
+  field(&O::holes,
+        {.name = "holes",
+         .help = "places without points; fill: close them smoothly; keep: cut them open"});
+  field(&O::blend, {.name = "blend",
+                    .help = "weights of overlapping caps; smooth: a smooth polynomial; spline: the "
+                            "paper's quadratic B-spline"});
+  field(&O::min_component,
+        {.name = "min_component",
+         .help =
+             "drop parts of the surface whose area is below this share of the largest part's area",
+         .value = "SHARE",
+         .least = 0,
+         .most = 1});
   field(&O::keep_outliers, {.name = "keep_outliers",
-                            .help = "points that belong to no surface stay; else they are looked "
-                                    "for and removed"});
-  field(&O::sensor, {.name = "sensor",
-                     .help = "all points have been measured from here (without, attributes "
-                             "sensor_x, sensor_y, sensor_z say where each was): computed normals "
-                             "point there, and holes are not closed across what lines of sight go "
-                             "through",
-                     .value = "X,Y,Z"});
-  field(&O::keep_scans, {.name = "keep_scans",
-                         .help = "points with an attribute scan stay where they are; else the "
-                                 "scans are brought together first"});
-  field(&O::confidence, {.name = "confidence",
-                         .help = "the vertices get an attribute confidence, 0 ... 1: less where "
-                                 "signs of computed normals are unsure, far from data, and where "
-                                 "the surface is thin"});
+                            .help = "keep all points; by default isolated points and outliers near "
+                                    "the surface are removed"});
+  field(&O::sensor,
+        {.name = "sensor",
+         .help =
+             "point from which all points were measured, by default attributes sensor_x, sensor_y, "
+             "sensor_z; computed normals point to it, and no hole is closed across a line of sight",
+         .value = "X,Y,Z"});
+  field(
+      &O::keep_scans,
+      {.name = "keep_scans",
+       .help =
+           "leave points with the attribute `scan` in place; by default scans are aligned first"});
+  field(&O::confidence,
+        {.name = "confidence",
+         .help = "add the vertex attribute `confidence`, 0 ... 1; it is low where normals are "
+                 "unsure, far from points, and where the surface is thin"});
   field(&O::simplify, {.name = "simplify",
-                       .help = "fewer triangles for the same surface: so many, a share of them, "
-                               "or as few as hardly change it (auto); all by default",
+                       .help = "reduce the faces: to as few as hardly change the surface (auto), a "
+                               "number, or a share of them; by default all faces stay",
                        .value = "auto|N|P%|none"});
   field(&O::tile_points, {.name = "tile_points",
-                          .help = "more points than that are cut into tiles of at most so many, "
-                                  "worked on one after the other; fewer take less memory and more "
-                                  "time",
+                          .help = "largest number of points in a tile; more points are cut into "
+                                  "tiles; smaller tiles take less memory and more time",
                           .value = "N",
                           .least = 1000,
                           .most = 1 << 28});
   field(&O::max_memory, {.name = "max_memory",
-                         .help = "what needs more memory is refused, with the tile_points or the "
-                                 "step that would do; it never changes the surface",
+                         .help = "largest memory, which never changes the surface; if it is too "
+                                 "small, the error names a sufficient tile_points or step",
                          .value = "BYTES",
                          .unit = FieldUnit::kBytes,
                          .changes_result = false,
                          .in_program = false});
   field(&O::output, {.name = "output",
-                     .help = "binary PLY to write the surface to, which then need not fit into "
-                             "memory",
+                     .help = "binary PLY file for the surface, which then need not fit into memory",
                      .value = "FILE",
                      .changes_result = false,
                      .in_program = false});
   field(&O::model, {.name = "model",
-                    .help = "model file of all caps to write as well",
+                    .help = "model file to write all caps to",
                     .value = "FILE",
                     .changes_result = false,
                     .in_program = false});
-  field(&O::work_dir,
-        {.name = "work_dir",
-         .help = "folder in which tiles are kept meanwhile, if memory has no room for "
-                 "them; by default that of the system's temporary files",
-         .value = "DIR",
-         .changes_result = false,
-         .in_program = false});
+  field(&O::work_dir, {.name = "work_dir",
+                       .help = "folder for tiles that do not fit into memory; by default the "
+                               "system's folder for temporary files",
+                       .value = "DIR",
+                       .changes_result = false,
+                       .in_program = false});
   field(&O::resume, {.name = "resume",
-                     .help = "keep what is done of several tiles, in a folder with the name of the "
-                             "output, if the work ends early, and take up what is there",
+                     .help = "keep finished work on tiles in a folder named after the output, and "
+                             "continue from work found there",
                      .changes_result = false});
 }
 
@@ -267,93 +272,113 @@ struct ReconstructReport {
 template <typename Visitor>
 void visit_fields(FieldsOf<ReconstructReport>, const Visitor& field) {
   using R = ReconstructReport;
-  field(&R::points, {.name = "points", .help = "number of points given"});
+  field(&R::points, {.name = "points", .help = "number of given points"});
   field(&R::dropped_points, {.name = "dropped_points",
-                             .help = "not finite, at the place of another, without a normal"});
-  field(&R::outliers, {.name = "outliers", .help = "points removed"});
-  field(&R::computed_normals, {.name = "computed_normals",
-                               .help = "whether the points had none, or given ones were replaced"});
-  field(&R::scans, {.name = "scans", .help = "what became of scans, if there are any"});
-  field(&R::unsure, {.name = "unsure",
-                     .help = "share of the points the sign of whose computed normal is unsure"});
+                             .help = "number of points dropped: not finite, at the position of "
+                                     "another point, or without a normal"});
+  field(&R::outliers, {.name = "outliers", .help = "number of removed outliers"});
+  field(
+      &R::computed_normals,
+      {.name = "computed_normals",
+       .help = "true if all normals were computed, because there were none or they were replaced"});
+  field(&R::scans,
+        {.name = "scans", .help = "report on the alignment of the scans, if there are any"});
+  field(&R::unsure,
+        {.name = "unsure", .help = "share of the points whose computed normal has an unsure sign"});
   field(&R::turned_normals,
-        {.name = "turned_normals", .help = "whether all pointed into the solid, and were turned"});
-  field(&R::mended_normals,
-        {.name = "mended_normals",
-         .help = "given normals that contradicted those around them, and were turned"});
+        {.name = "turned_normals",
+         .help = "true if all given normals pointed into the solid and were turned"});
+  field(
+      &R::mended_normals,
+      {.name = "mended_normals",
+       .help = "number of given normals that contradicted the points around them and were turned"});
   field(&R::crooked_normals, {.name = "crooked_normals",
                               .help = "share of given normals more than 45 degrees off the "
-                                      "surface; above 0.25 all are computed instead"});
-  field(
-      &R::contradicting_normals,
-      {.name = "contradicting_normals",
-       .help =
-           "points whose normals contradict those around them, where turning does not help: above "
-           "half the square root of the number of points the surface should not be trusted"});
+                                      "surface; above 0.25 all normals are computed instead"});
+  field(&R::contradicting_normals,
+        {.name = "contradicting_normals",
+         .help = "number of points whose normals contradict their neighbours even if turned; above "
+                 "half the square root of the number of points the surface is unreliable"});
   field(&R::contradictions,
-        {.name = "contradictions", .help = "the first three of these points, n x 3"});
+        {.name = "contradictions",
+         .help = "up to three points whose normals contradict their neighbours, n x 3"});
   field(&R::crossing_length,
         {.name = "crossing_length",
-         .help = "length of the lines along which sheets of the points cross, in diagonals of the "
-                 "points: above 0.12 the surface should not be trusted"});
+         .help = "length of the lines where sheets of the points cross, in diagonals of the "
+                 "points; above 0.12 the surface is unreliable"});
   field(&R::crossings,
-        {.name = "crossings", .help = "the first three points near these lines, n x 3"});
+        {.name = "crossings",
+         .help = "up to three points near the lines where sheets of the points cross, n x 3"});
   field(&R::points_off_surface,
         {.name = "points_off_surface",
-         .help = "share of the points that fill what lies between the walls of the surface, or "
-                 "around it: above 0.5 the surface should not be trusted"});
-  field(&R::places_off_surface,
-        {.name = "places_off_surface", .help = "up to three of these points, n x 3"});
-  field(&R::inward_normals,
-        {.name = "inward_normals",
-         .help = "share of the points at which the winding number contradicts the given normal: "
-                 "above 0.1 the surface should not be trusted"});
+         .help = "share of the points that lie off the surface, between its walls or around it; "
+                 "above 0.5 the surface is unreliable"});
+  field(&R::places_off_surface, {.name = "places_off_surface",
+                                 .help = "up to three points that lie off the surface, n x 3"});
+  field(&R::inward_normals, {.name = "inward_normals",
+                             .help = "share of the points whose given normal contradicts the "
+                                     "winding number; above 0.1 the surface is unreliable"});
   field(&R::spacing,
-        {.name = "spacing", .help = "median distance between neighbours, as if on a square grid"});
-  field(&R::noise, {.name = "noise", .help = "standard deviation along the normal"});
+        {.name = "spacing", .help = "median distance of neighbouring points, as on a square grid"});
+  field(&R::noise, {.name = "noise",
+                    .help = "standard deviation of the points along the normal; 0 if it is within "
+                            "the shape's own variation"});
   field(&R::normal_noise_degrees,
-        {.name = "normal_noise_degrees", .help = "of the normals against the surface"});
-  field(&R::neighbours, {.name = "neighbours", .help = "points of a typical cap"});
-  field(&R::caps, {.name = "caps", .help = "of the atlas"});
-  field(&R::step, {.name = "step", .help = "edge of the grid's cubes"});
-  field(&R::holes, {.name = "holes", .help = "places without points that were closed, or cut out"});
-  field(&R::smooth_holes,
-        {.name = "smooth_holes", .help = "of those closed, by a surface that continues the rim"});
-  field(&R::cut_handles,
-        {.name = "cut_handles",
-         .help = "bridges and tunnels of the surface that were smaller than points can tell"});
+        {.name = "normal_noise_degrees",
+         .help = "noise of the normals relative to the surface, in degrees"});
+  field(&R::neighbours, {.name = "neighbours", .help = "number of points of a typical cap"});
+  field(&R::caps, {.name = "caps", .help = "number of caps of the atlas"});
+  field(&R::step, {.name = "step", .help = "edge length of the grid's cubes"});
+  field(&R::holes,
+        {.name = "holes", .help = "number of places without points that were closed or cut out"});
+  field(&R::smooth_holes, {.name = "smooth_holes",
+                           .help = "number of holes closed by a surface that continues the rim"});
+  field(
+      &R::cut_handles,
+      {.name = "cut_handles",
+       .help = "number of removed bridges and tunnels that are too small for the points to show"});
   field(&R::dropped_components,
-        {.name = "dropped_components", .help = "parts of the surface that were too small"});
-  field(&R::faces, {.name = "faces", .help = "of the surface before it was simplified"});
-  field(&R::simplify_error, {.name = "simplify_error", .help = "by simplify()"});
-  field(&R::area, {.name = "area", .help = "of the surface"});
-  field(&R::closed_area, {.name = "closed_area", .help = "of it, what closes holes"});
-  field(&R::points_area, {.name = "points_area",
-                          .help = "that the points stand for, by the circles of their neighbours"});
-  field(&R::volume, {.name = "volume",
-                     .help = "signed, of the surface: negative if its normals point inwards"});
+        {.name = "dropped_components",
+         .help = "number of parts of the surface dropped because they are too small"});
+  field(&R::faces,
+        {.name = "faces", .help = "number of faces of the surface before simplification"});
+  field(&R::simplify_error,
+        {.name = "simplify_error",
+         .help = "error of the simplification, measured as max_error of simplify"});
+  field(&R::area, {.name = "area", .help = "area of the surface"});
+  field(&R::closed_area,
+        {.name = "closed_area", .help = "area of the parts of the surface that close holes"});
+  field(&R::points_area,
+        {.name = "points_area",
+         .help = "area that the points represent, from the circles of their neighbours"});
+  field(&R::volume,
+        {.name = "volume",
+         .help = "signed volume inside the surface; negative if its normals point inwards"});
   field(&R::unseen_area, {.name = "unseen_area",
-                          .help = "of the surface, if confidence is asked for: share of the area "
-                                  "without data nearer than three spacings"});
+                          .help = "share of the surface's area without points within three "
+                                  "spacings, if confidence is wanted"});
   field(&R::thin_area, {.name = "thin_area",
-                        .help = "of the surface, if confidence is asked for: share of the area "
-                                "thinner than one and a half spacings"});
-  field(&R::unsure_area, {.name = "unsure_area",
-                          .help = "of the surface, if confidence is asked for: share of the area "
-                                  "with a confidence below 1/2"});
-  field(&R::memory, {.name = "memory", .help = "foreseen, bytes"});
-  field(&R::times, {.name = "times", .help = "stages: (wall, cpu) in seconds"});
-  field(&R::bounds,
-        {.name = "bounds",
-         .help = "the box of the points that are finite; of several tiles without far strays"});
-  field(&R::tiles, {.name = "tiles", .help = "number that space was cut into"});
+                        .help = "share of the surface's area thinner than one and a half spacings, "
+                                "if confidence is wanted"});
+  field(
+      &R::unsure_area,
+      {.name = "unsure_area",
+       .help = "share of the surface's area with a confidence below 1/2, if confidence is wanted"});
+  field(&R::memory, {.name = "memory", .help = "estimated memory, in bytes"});
+  field(&R::times,
+        {.name = "times", .help = "wall and CPU time of each stage, in seconds: (wall, cpu)"});
+  field(&R::bounds, {.name = "bounds",
+                     .help = "bounding box of the finite points; with several tiles, without "
+                             "points isolated far away"});
+  field(&R::tiles, {.name = "tiles", .help = "number of tiles that space was cut into"});
   field(&R::stored,
-        {.name = "stored", .help = "bytes between the steps of several tiles, at most at a time"});
-  field(&R::vertices, {.name = "vertices", .help = "number of them, of the surface"});
-  field(&R::triangles, {.name = "triangles", .help = "number of them, of the surface"});
-  field(&R::coefficients, {.name = "coefficients", .help = "number of those of all caps"});
+        {.name = "stored",
+         .help = "largest number of bytes stored at a time between the steps of several tiles"});
+  field(&R::vertices, {.name = "vertices", .help = "number of vertices of the surface"});
+  field(&R::triangles, {.name = "triangles", .help = "number of faces of the surface"});
+  field(&R::coefficients, {.name = "coefficients", .help = "number of coefficients of all caps"});
   field(&R::warnings,
-        {.name = "warnings", .help = "of the file that the points were read from, list of str"});
+        {.name = "warnings", .help = "warnings from reading the file of points, list of str"});
 }
 
 // Adds n points to a report that the reader of the file dropped (ShapeFile::dropped).

@@ -61,23 +61,23 @@ template <typename Visitor>
 void visit_fields(FieldsOf<RenderOptions>, const Visitor& field) {
   using O = RenderOptions;
   field(&O::width, {.name = "width",
-                    .help = "width of the whole picture, pixels",
+                    .help = "width of the whole picture, in pixels",
                     .value = "W",
                     .least = 16,
                     .most = 16384,
                     .in_program = false,
                     .in_python = false});
   field(&O::height, {.name = "height",
-                     .help = "height of the whole picture, pixels",
+                     .help = "height of the whole picture, in pixels",
                      .value = "H",
                      .least = 16,
                      .most = 16384,
                      .in_program = false,
                      .in_python = false});
-  field(&O::perspective,
-        {.name = "perspective", .help = "as a camera sees it, instead of parallel lines of sight"});
+  field(&O::perspective, {.name = "perspective",
+                          .help = "use a perspective projection instead of a parallel projection"});
   field(&O::fit_each, {.name = "fit_each",
-                       .help = "every panel is filled; otherwise all have the same scale",
+                       .help = "fill each panel; by default all panels have the same scale",
                        .in_program = false});
   field(&O::view, {.name = "view",
                    .help = "direction of sight, from the eye into the scene",
@@ -86,22 +86,23 @@ void visit_fields(FieldsOf<RenderOptions>, const Visitor& field) {
                  .help = "direction that points up in the picture, as far as the view allows",
                  .value = "X,Y,Z"});
   field(&O::samples, {.name = "samples",
-                      .help = "samples along the side of a pixel that is an edge",
+                      .help = "number of samples along the side of a pixel on an edge",
                       .value = "N",
                       .least = 1,
                       .most = 16,
                       .in_program = false});
-  field(&O::occlusion_rays, {.name = "occlusion_rays",
-                             .help = "rays per sample for ambient occlusion; 0 switches it off",
-                             .value = "N",
-                             .least = 0,
-                             .most = 256,
-                             .in_program = false});
-  field(&O::fine,
-        {.name = "fine",
-         .help = "all rays of light for every sample of every pixel: seven times as long"});
+  field(&O::occlusion_rays,
+        {.name = "occlusion_rays",
+         .help = "number of rays per sample for ambient occlusion; 0: no ambient occlusion",
+         .value = "N",
+         .least = 0,
+         .most = 256,
+         .in_program = false});
+  field(&O::fine, {.name = "fine",
+                   .help = "trace all light rays for every sample of every pixel, which takes "
+                           "seven times as long"});
   field(&O::scale_min, {.name = "scale_min",
-                        .help = "lower end of the colour map; by default the least scalar",
+                        .help = "lower end of the colour map; by default the smallest scalar",
                         .value = "D",
                         .in_program = false,
                         .in_python = false});
@@ -109,11 +110,10 @@ void visit_fields(FieldsOf<RenderOptions>, const Visitor& field) {
                         .help = "upper end of the colour map; by default the largest scalar",
                         .value = "D",
                         .in_python = false});
-  field(
-      &O::scale_bar,
-      {.name = "scale_bar", .help = "a scale bar is drawn below the panels", .in_program = false});
+  field(&O::scale_bar,
+        {.name = "scale_bar", .help = "draw a colour bar below the panels", .in_program = false});
   field(&O::scale_label, {.name = "scale_label",
-                          .help = "what the scalars are",
+                          .help = "label of the colour bar: the quantity that the scalars show",
                           .value = "TEXT",
                           .in_program = false});
 }

@@ -26,17 +26,19 @@ struct RepairOptions {
 template <typename Visitor>
 void visit_fields(FieldsOf<RepairOptions>, const Visitor& field) {
   using O = RepairOptions;
-  field(&O::weld, {.name = "weld",
-                   .help = "vertices become one whose distance is at most this; 0: identical ones",
-                   .value = "T",
-                   .least = 0,
-                   .unit = FieldUnit::kLength,
-                   .in_program = false});
-  field(&O::max_hole, {.name = "max_hole",
-                       .help = "holes with at most so many edges are closed; 0 closes none",
-                       .value = "N",
-                       .least = 0,
-                       .most = kMostHoleEdges});
+  field(&O::weld,
+        {.name = "weld",
+         .help = "merge vertices within this distance of each other; 0: identical vertices only",
+         .value = "T",
+         .least = 0,
+         .unit = FieldUnit::kLength,
+         .in_program = false});
+  field(&O::max_hole,
+        {.name = "max_hole",
+         .help = "largest number of edges of a hole that is closed; 0: no hole is closed",
+         .value = "N",
+         .least = 0,
+         .most = kMostHoleEdges});
 }
 
 // Counts of repairs and of remaining defects.
@@ -66,37 +68,53 @@ struct RepairReport {
 template <typename Visitor>
 void visit_fields(FieldsOf<RepairReport>, const Visitor& field) {
   using R = RepairReport;
-  field(&R::before, {.name = "before", .help = "state of the mesh welded exactly"});
-  field(&R::merged_vertices, {.name = "merged_vertices", .help = "vertices merged by welding"});
+  field(&R::before,
+        {.name = "before", .help = "state of the mesh before the repair, welded exactly"});
+  field(&R::merged_vertices,
+        {.name = "merged_vertices", .help = "number of vertices merged by welding"});
   field(&R::collapsed_triangles,
-        {.name = "collapsed_triangles", .help = "triangles of which welding made two corners one"});
-  field(&R::isolated_vertices,
-        {.name = "isolated_vertices", .help = "vertices dropped: in no triangle"});
-  field(&R::duplicate_triangles, {.name = "duplicate_triangles",
-                                  .help = "triangles dropped: same vertices as an earlier one"});
-  field(&R::degenerate_triangles, {.name = "degenerate_triangles",
-                                   .help = "triangles thinner than rounding, dropped or swapped"});
-  field(&R::junctions, {.name = "junctions",
-                        .help = "vertices on edges of others' triangles (T-junctions), joined"});
-  field(&R::flipped_triangles, {.name = "flipped_triangles", .help = "triangles that were turned"});
+        {.name = "collapsed_triangles",
+         .help = "number of faces dropped because welding merged two of their corners"});
+  field(&R::isolated_vertices, {.name = "isolated_vertices",
+                                .help = "number of vertices dropped because no face uses them"});
+  field(&R::duplicate_triangles,
+        {.name = "duplicate_triangles",
+         .help = "number of faces dropped because an earlier face has the same vertices"});
+  field(&R::degenerate_triangles,
+        {.name = "degenerate_triangles",
+         .help = "number of faces dropped or swapped because they are thinner than rounding"});
+  field(&R::junctions,
+        {.name = "junctions",
+         .help = "number of vertices on edges of other faces (T-junctions) that were joined"});
+  field(&R::flipped_triangles,
+        {.name = "flipped_triangles", .help = "number of faces that were turned"});
   field(&R::inside_out_parts,
-        {.name = "inside_out_parts", .help = "closed parts that were turned as a whole"});
+        {.name = "inside_out_parts", .help = "number of closed parts that were turned as a whole"});
   field(&R::cavities,
-        {.name = "cavities", .help = "closed parts within another: they face inwards"});
-  field(&R::split_vertices,
-        {.name = "split_vertices", .help = "new vertices where sheets met in one"});
-  field(&R::closed_holes, {.name = "closed_holes", .help = "holes closed by new triangles"});
-  field(&R::hole_triangles, {.name = "hole_triangles", .help = "triangles put into them"});
-  field(&R::large_holes, {.name = "large_holes", .help = "holes left: more edges than allowed"});
-  field(&R::largest_hole, {.name = "largest_hole", .help = "edges of the largest of these"});
-  field(&R::sheets, {.name = "sheets", .help = "holes left: borders of open sheets"});
+        {.name = "cavities",
+         .help = "number of closed parts inside another part, which are oriented inwards"});
+  field(&R::split_vertices, {.name = "split_vertices",
+                             .help = "number of new vertices where sheets met in one vertex"});
+  field(&R::closed_holes, {.name = "closed_holes", .help = "number of holes closed by new faces"});
+  field(&R::hole_triangles,
+        {.name = "hole_triangles", .help = "number of new faces that close holes"});
+  field(&R::large_holes,
+        {.name = "large_holes",
+         .help = "number of holes left open because they have more edges than allowed"});
+  field(&R::largest_hole,
+        {.name = "largest_hole",
+         .help = "number of edges of the largest hole with more edges than allowed"});
+  field(&R::sheets, {.name = "sheets",
+                     .help = "number of holes left open because they are borders of open sheets"});
   field(&R::one_sided_parts,
-        {.name = "one_sided_parts", .help = "parts left without an orientation (Moebius strips)"});
-  field(&R::closes_at,
-        {.name = "closes_at",
-         .help = "tolerance of welding that would join the borders left; none if none would",
-         .unit = FieldUnit::kLength});
-  field(&R::after, {.name = "after", .help = "state of the result, welded exactly"});
+        {.name = "one_sided_parts",
+         .help = "number of parts left without an orientation (Moebius strips)"});
+  field(
+      &R::closes_at,
+      {.name = "closes_at",
+       .help = "tolerance of welding that would join the remaining borders; None if there is none",
+       .unit = FieldUnit::kLength});
+  field(&R::after, {.name = "after", .help = "state of the mesh after the repair, welded exactly"});
 }
 
 // A repaired mesh, and the report.

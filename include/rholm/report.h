@@ -40,46 +40,46 @@ template <typename Visitor>
 void visit_fields(FieldsOf<ReportOptions>, const Visitor& field) {
   using O = ReportOptions;
   field(&O::title, {.name = "title",
-                    .help = "what the page is of, as a rule a file's name",
+                    .help = "title of the page, usually the name of a file",
                     .value = "TEXT",
                     .in_program = false});
   field(&O::shape_name, {.name = "shape_name",
-                         .help = "name of the shape, as a rule a file's name",
+                         .help = "name of the shape, usually the name of a file",
                          .value = "TEXT",
                          .in_program = false});
-  field(&O::notes, {.name = "notes",
-                    .help = "what must be known of the input, a sentence each",
-                    .in_program = false});
+  field(&O::notes,
+        {.name = "notes", .help = "facts about the input, one sentence each", .in_program = false});
   field(&O::tolerance,
         {.name = "tolerance",
-         .help = "wanted root mean square error of the function: a line in the plots",
+         .help = "wanted root mean square error of the function, drawn as a line in the plots",
          .value = "E",
          .least = 0,
          .above = true,
          .in_program = false});
-  field(&O::weld_tolerance,
-        {.name = "weld_tolerance",
-         .help = "vertices of the shape become one whose distance is at most this",
-         .value = "T",
-         .least = 0,
-         .unit = FieldUnit::kLength,
-         .in_program = false,
-         .in_python = false});
+  field(&O::weld_tolerance, {.name = "weld_tolerance",
+                             .help = "merge vertices of the shape within this distance of each "
+                                     "other; 0: identical vertices only",
+                             .value = "T",
+                             .least = 0,
+                             .unit = FieldUnit::kLength,
+                             .in_program = false,
+                             .in_python = false});
   field(&O::picture_size, {.name = "picture_size",
-                           .help = "pixels of each picture's side",
+                           .help = "side length of each picture, in pixels",
                            .value = "N",
                            .least = 16,
                            .most = 4096,
                            .in_program = false});
   field(&O::file_bytes, {.name = "file_bytes",
-                         .help = "of an atlas: how large its file is",
+                         .help = "size of the file of an atlas, in bytes",
                          .in_program = false,
                          .in_python = false});
-  field(&O::viewer,
-        {.name = "viewer",
-         .help = "JavaScript of the viewer, with which the surface of an expansion can be turned",
-         .in_program = false,
-         .in_python = false});
+  field(
+      &O::viewer,
+      {.name = "viewer",
+       .help = "source of the JavaScript viewer, in which readers turn the surface of an expansion",
+       .in_program = false,
+       .in_python = false});
 }
 
 // Returns a page of HTML (UTF-8) that needs no other file and no script except the viewer. Its

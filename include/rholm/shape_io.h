@@ -65,14 +65,15 @@ template <typename Visitor>
 void visit_fields(FieldsOf<ShapeReadOptions>, const Visitor& field) {
   using O = ShapeReadOptions;
   field(&O::attributes, {.name = "attributes",
-                         .help = "whether attributes of vertices or points are read",
+                         .help = "read the attributes of vertices or points",
                          .in_program = false});
-  field(&O::columns,
-        {.name = "columns",
-         .help = "what the columns of a text table of points are, as in x,y,z,r,g,b,nx,ny,nz,-: "
-                 "also a (alpha), or lat,lon,radius (degrees north and east); - passes over a "
-                 "column, any other word names an attribute",
-         .value = "LIST"});
+  field(
+      &O::columns,
+      {.name = "columns",
+       .help =
+           "columns of a text table of points, such as x,y,z,r,g,b,nx,ny,nz,-; also a (alpha) and "
+           "lat,lon,radius (degrees north and east); - skips a column; other words name attributes",
+       .value = "LIST"});
 }
 // Throws InvalidInput unless `columns` is valid for ShapeReadOptions.
 void check_columns(const std::string& columns);
@@ -104,9 +105,9 @@ struct ShapeWriteOptions {
 template <typename Visitor>
 void visit_fields(FieldsOf<ShapeWriteOptions>, const Visitor& field) {
   using O = ShapeWriteOptions;
-  field(&O::format,
-        {.name = "format", .help = "format of the output, instead of the one its extension names"});
-  field(&O::ascii, {.name = "ascii", .help = "text instead of binary, where the format has both"});
+  field(&O::format, {.name = "format",
+                     .help = "format of the output; by default the extension of the file decides"});
+  field(&O::ascii, {.name = "ascii", .help = "write text, in formats that are text or binary"});
 }
 
 // Writes to a temporary file beside `path`, which replaces `path` when complete. "-" is standard

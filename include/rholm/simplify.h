@@ -26,16 +26,16 @@ template <typename Visitor>
 void visit_fields(FieldsOf<SimplifyOptions>, const Visitor& field) {
   using O = SimplifyOptions;
   field(&O::triangles, {.name = "triangles",
-                        .help = "no more triangles than these are left; 0: any number",
+                        .help = "largest number of faces in the result; 0: any number",
                         .value = "N"});
   field(&O::share, {.name = "share",
-                    .help = "no more than this share of the triangles is left; 0: any",
+                    .help = "largest share of the given faces in the result; 0: any share",
                     .value = "SHARE",
                     .least = 0,
                     .most = 1});
   field(&O::max_error, {.name = "max_error",
-                        .help = "no vertex goes whose place in the result would be farther than "
-                                "this from the planes of the triangles it stands for",
+                        .help = "largest root mean square distance of a vertex from the planes of "
+                                "the faces that it replaces",
                         .value = "E",
                         .least = 0,
                         .may_be_infinite = true,

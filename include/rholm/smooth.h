@@ -45,12 +45,13 @@ struct PatchOptions {
 template <typename Visitor>
 void visit_fields(FieldsOf<PatchOptions>, const Visitor& field) {
   using O = PatchOptions;
-  field(&O::wavelength, {.name = "wavelength",
-                         .help = "detail finer than this goes, in the unit of the shape",
-                         .value = "W",
-                         .least = 0,
-                         .above = true,
-                         .in_python = false});
+  field(&O::wavelength,
+        {.name = "wavelength",
+         .help = "wavelength below which detail is removed, in the unit of the shape",
+         .value = "W",
+         .least = 0,
+         .above = true,
+         .in_python = false});
   field(&O::transition, {.name = "transition",
                          .help = "width over which the edit fades outside the region, in the unit "
                                  "of the shape; by default the wavelength",
@@ -58,10 +59,10 @@ void visit_fields(FieldsOf<PatchOptions>, const Visitor& field) {
                          .least = 0});
   field(&O::fitting,
         {.name = "fitting",
-         .help = "what the smooth surface is fitted to; robust: all but what stands out; mean: "
-                 "all; around: what is outside the region, which is bridged"});
+         .help = "points that the smooth surface is fitted to; robust: all except outliers; mean: "
+                 "all; around: points outside the region, to bridge it"});
   field(&O::repair, {.name = "repair",
-                     .help = "move only what stands out, scratches and spikes; texture stays"});
+                     .help = "move only outliers such as scratches and spikes; the texture stays"});
 }
 
 // Result of an analysis: the vertices that may move, and their moves for fits of each degree.
@@ -94,16 +95,18 @@ template <typename Visitor>
 void visit_fields(FieldsOf<PatchUpdate>, const Visitor& field) {
   using U = PatchUpdate;
   field(&U::wavelength, {.name = "wavelength",
-                         .help = "detail finer than this goes; 0: that of the analysis",
+                         .help = "wavelength below which detail is removed; 0: the wavelength that "
+                                 "the fits were made for",
                          .value = "W",
                          .least = 0,
                          .in_program = false,
                          .in_python = false});
-  field(&U::strength, {.name = "strength",
-                       .help = "1 takes the detail away, 0.5 half of it, -1 doubles it",
-                       .value = "S",
-                       .least = -10,
-                       .most = 1});
+  field(&U::strength,
+        {.name = "strength",
+         .help = "strength of the smoothing; 1 removes the detail, 0.5 half of it, -1 doubles it",
+         .value = "S",
+         .least = -10,
+         .most = 1});
 }
 
 // Returns the wavelength of the lowest fitted degree.

@@ -41,25 +41,28 @@ EnumNames names_of(CenterKind kind);  // the names above; "given" for a point
 template <typename Visitor>
 void visit_fields(FieldsOf<CenterOptions>, const Visitor& field) {
   using O = CenterOptions;
-  field(&O::kind, {.name = "center",
-                   .help = "slope, or auto: where the radius has the least slope, on the line "
-                           "through kernel and the centroid of the solid, well within the points "
-                           "that see the whole surface; kernel: in the middle of these points; "
-                           "cosine: where the surface is seen least aslant; none: the file's "
-                           "origin; centroid: of the surface; volume: of the solid, or as slope "
-                           "where not all is seen from there",
-                   .in_program = false,
-                   .in_python = false});
-  field(&O::point, {.name = "point",
-                    .help = "of the kind given, which the program and Python write in its place",
-                    .in_program = false,
-                    .in_python = false});
-  field(&O::rays, {.name = "rays",
-                   .help = "directions that are tried to see how often they meet the surface; 0 "
-                           "tries none",
-                   .value = "N",
-                   .least = 0,
-                   .most = 100'000'000});
+  field(&O::kind,
+        {.name = "center",
+         .help = "choice of the centre; slope, auto: the point of least slope of the radius, among "
+                 "points that see the whole surface (the kernel); kernel: middle of the kernel; "
+                 "cosine: the point that sees the surface least obliquely; none: origin of the "
+                 "coordinates; centroid: centroid of the surface; volume: centroid of the solid, "
+                 "or slope if it does not see the whole surface; given: a given point",
+         .in_program = false,
+         .in_python = false});
+  field(
+      &O::point,
+      {.name = "point",
+       .help =
+           "centre for the choice given; the program and Python take the point in place of a name",
+       .in_program = false,
+       .in_python = false});
+  field(&O::rays,
+        {.name = "rays",
+         .help = "number of directions tested for how often they meet the surface; 0: no test",
+         .value = "N",
+         .least = 0,
+         .most = 100'000'000});
 }
 
 // Visibility of a mesh from a centre.
@@ -84,21 +87,31 @@ struct StarReport {
 template <typename Visitor>
 void visit_fields(FieldsOf<StarReport>, const Visitor& field) {
   using S = StarReport;
-  field(&S::center, {.name = "center", .help = "in the coordinates of the mesh, (3,)"});
-  field(&S::min_d,
-        {.name = "min_d",
-         .help = "distance of the nearest face plane; negative if a face turns its back"});
-  field(&S::min_cos_gamma, {.name = "min_cos_gamma", .help = "over all corners of all triangles"});
-  field(&S::bad_triangles, {.name = "bad_triangles", .help = "triangles that turn their backs"});
-  field(&S::star_shaped,
-        {.name = "star_shaped", .help = "no such triangle, and every direction covered once"});
-  field(&S::rays, {.name = "rays", .help = "directions tried"});
-  field(&S::once_share, {.name = "once_share", .help = "part of them that meet the surface once"});
-  field(&S::multiple_share, {.name = "multiple_share", .help = "part that meet it more than once"});
-  field(&S::missed_share, {.name = "missed_share", .help = "part that never meet it"});
+  field(&S::center, {.name = "center", .help = "centre in the coordinates of the mesh, (3,)"});
+  field(&S::min_d, {.name = "min_d",
+                    .help = "smallest distance of the centre from the plane of a face; negative if "
+                            "a face points away from the centre"});
+  field(&S::min_cos_gamma, {.name = "min_cos_gamma",
+                            .help = "smallest cosine of the angle between normal and ray from the "
+                                    "centre, over all corners of all faces"});
+  field(&S::bad_triangles,
+        {.name = "bad_triangles", .help = "number of faces that point away from the centre"});
+  field(&S::star_shaped, {.name = "star_shaped",
+                          .help = "true if no face points away from the centre and every direction "
+                                  "meets the surface once"});
+  field(&S::rays, {.name = "rays", .help = "number of tested directions"});
+  field(&S::once_share,
+        {.name = "once_share",
+         .help = "share of the tested directions that meet the surface exactly once"});
+  field(&S::multiple_share,
+        {.name = "multiple_share",
+         .help = "share of the tested directions that meet the surface more than once"});
+  field(&S::missed_share, {.name = "missed_share",
+                           .help = "share of the tested directions that never meet the surface"});
   field(&S::center_fell_back,
         {.name = "center_fell_back",
-         .help = "whether no point sees all faces, and the centre is the best guess"});
+         .help =
+             "true if no point sees the whole surface, so that the centre is only the best guess"});
 }
 
 // Finds the centre and checks visibility. `mesh` is welded, closed, outward; faces thinner than
@@ -131,14 +144,13 @@ template <typename Visitor>
 void visit_fields(FieldsOf<ChartOptions>, const Visitor& field) {
   using O = ChartOptions;
   field(&O::center, {.name = "center",
-                     .help = "of the expansion, sought or given",
+                     .help = "centre of the expansion, searched for or given",
                      .in_program = false,
                      .in_python = false});
   field(&O::allow_signed,
         {.name = "signed",
-         .help = "accept a surface that is not star-shaped: the signed sum of its radii, to "
-                 "compare such sums or as a descriptor; it does not give back the body, an atlas "
-                 "of caps does"});
+         .help = "accept a surface that is not star-shaped; the model is the signed sum of its "
+                 "radii, a descriptor that does not reproduce the body (use an atlas of caps)"});
 }
 
 // Pairs the edges, finds the centre, checks, and moves the centre to the origin. `mesh` is welded

@@ -61,7 +61,7 @@ void visit_fields(FieldsOf<StudioOptions>, const Visitor& field) {
                      .help = "folder for temporary files; by default /tmp",
                      .in_program = false});
   field(&O::threads, {.name = "threads",
-                      .help = "threads of the library; 0: one per processor",
+                      .help = "number of threads of the library; 0: one per processor",
                       .value = "N",
                       .least = 0,
                       .changes_result = false,
@@ -72,7 +72,7 @@ void visit_fields(FieldsOf<StudioOptions>, const Visitor& field) {
                          .least = 1,
                          .unit = FieldUnit::kBytes});
   field(&O::max_sessions, {.name = "max_sessions",
-                           .help = "pages at a time",
+                           .help = "largest number of pages that are open at a time",
                            .value = "N",
                            .least = 1,
                            .in_program = false});

@@ -52,8 +52,8 @@ struct Bounds {
 template <typename Visitor>
 void visit_fields(FieldsOf<Bounds>, const Visitor& field) {
   using B = Bounds;
-  field(&B::min, {.name = "min", .help = "the corner with the smallest coordinates"});
-  field(&B::max, {.name = "max", .help = "the corner with the largest coordinates"});
+  field(&B::min, {.name = "min", .help = "corner with the smallest coordinates"});
+  field(&B::max, {.name = "max", .help = "corner with the largest coordinates"});
 }
 
 Bounds bounds(const std::vector<Vec3>& points);  // {0,0,0} twice for no points
@@ -87,40 +87,47 @@ template <typename Visitor>
 void visit_fields(FieldsOf<Inspection>, const Visitor& field) {
   using I = Inspection;
   field(&I::vertices, {.name = "vertices", .help = "number of vertices, used or not"});
-  field(&I::triangles, {.name = "triangles", .help = "number of triangles, with an area or not"});
-  field(&I::edges, {.name = "edges", .help = "pairs of vertices that a triangle joins"});
-  field(&I::boundary_edges, {.name = "boundary_edges", .help = "edges in one triangle only"});
+  field(&I::triangles, {.name = "triangles", .help = "number of faces, with an area or not"});
+  field(&I::edges, {.name = "edges", .help = "number of pairs of vertices that a face joins"});
+  field(&I::boundary_edges, {.name = "boundary_edges", .help = "number of edges of only one face"});
   field(&I::non_manifold_edges,
-        {.name = "non_manifold_edges", .help = "edges in three triangles or more"});
+        {.name = "non_manifold_edges", .help = "number of edges of three or more faces"});
   field(&I::misoriented_edges,
         {.name = "misoriented_edges",
-         .help = "edges in two triangles that run through them in the same sense"});
-  field(&I::non_manifold_vertices,
-        {.name = "non_manifold_vertices", .help = "vertices whose triangles do not form one fan"});
-  field(&I::isolated_vertices, {.name = "isolated_vertices", .help = "vertices in no triangle"});
+         .help = "number of edges that two faces use in the same direction"});
+  field(&I::non_manifold_vertices, {.name = "non_manifold_vertices",
+                                    .help = "number of vertices whose faces do not form one fan"});
+  field(&I::isolated_vertices,
+        {.name = "isolated_vertices", .help = "number of vertices that no face uses"});
   field(&I::degenerate_triangles,
         {.name = "degenerate_triangles",
-         .help = "triangles thinner than the rounding of their coordinates"});
-  field(&I::duplicate_triangles, {.name = "duplicate_triangles",
-                                  .help = "triangles with the three vertices of an earlier one"});
-  field(&I::components, {.name = "components", .help = "parts connected through edges"});
+         .help = "number of faces thinner than the rounding of their coordinates"});
+  field(&I::duplicate_triangles,
+        {.name = "duplicate_triangles",
+         .help = "number of faces with the same three vertices as an earlier face"});
+  field(&I::components, {.name = "components", .help = "number of parts connected through edges"});
   field(&I::euler_characteristic,
-        {.name = "euler_characteristic", .help = "used vertices - edges + triangles"});
-  field(&I::genus,
-        {.name = "genus", .help = "handles, of all parts together; of closed manifold meshes"});
-  field(&I::closed, {.name = "closed", .help = "no boundary edge, at least one triangle"});
-  field(&I::manifold, {.name = "manifold", .help = "no non-manifold edge or vertex"});
-  field(&I::oriented, {.name = "oriented", .help = "no misoriented edge"});
+        {.name = "euler_characteristic", .help = "number of used vertices minus edges plus faces"});
+  field(&I::genus, {.name = "genus",
+                    .help = "number of handles of all parts together, for closed manifold meshes"});
+  field(&I::closed,
+        {.name = "closed", .help = "true if the mesh has at least one face and no boundary edge"});
+  field(&I::manifold,
+        {.name = "manifold", .help = "true if the mesh has no non-manifold edge or vertex"});
+  field(&I::oriented, {.name = "oriented", .help = "true if the mesh has no misoriented edge"});
   field(&I::inside_out,
-        {.name = "inside_out", .help = "closed and oriented, but the enclosed volume is negative"});
-  field(&I::bounds, {.name = "bounds", .help = "box around all vertices"});
+        {.name = "inside_out",
+         .help = "true if the mesh is closed and oriented, but encloses a negative volume"});
+  field(&I::bounds, {.name = "bounds", .help = "bounding box of all vertices"});
   field(&I::area,
-        {.name = "area", .help = "of all triangles, in the squared unit of the vertices"});
+        {.name = "area", .help = "area of all faces, in the squared unit of the vertices"});
   field(&I::volume,
-        {.name = "volume", .help = "signed, of closed oriented meshes, in the cubed unit"});
+        {.name = "volume",
+         .help = "signed volume of a closed oriented mesh, in the cubed unit of the vertices"});
   field(&I::vertex_centroid, {.name = "vertex_centroid", .help = "mean of the used vertices"});
-  field(&I::volume_centroid, {.name = "volume_centroid",
-                              .help = "of the solid, if it is closed and its volume is not zero"});
+  field(&I::volume_centroid,
+        {.name = "volume_centroid",
+         .help = "centroid of the solid, if the mesh is closed and its volume is not zero"});
 }
 
 // Counts and measures. Throws InvalidInput as validate().

@@ -58,32 +58,32 @@ void visit_fields(FieldsOf<TransferOptions>, const Visitor& field) {
   using O = TransferOptions;
   field(&O::from_degree,
         {.name = "from_degree",
-         .help = "detail is what harmonics up to this degree over the source region leave: waves "
-                 "shorter than 4 radii of the region by the degree",
+         .help = "highest degree of the smooth base of the source region; detail has wavelengths "
+                 "below 4 radii of the region, divided by the degree",
          .value = "L0",
          .least = 2,
          .most = kMaxTransferDegree});
+  field(&O::scale, {.name = "scale",
+                    .help = "size at which the source region is laid on the target, divided by the "
+                            "size of the target region; 1 fills the target region",
+                    .value = "S",
+                    .least = 0,
+                    .most = 1e6,
+                    .above = true});
   field(
-      &O::scale,
-      {.name = "scale",
+      &O::refine,
+      {.name = "refine",
        .help =
-           "size of the source region laid on the target, by that of the target region; 1 fills it",
-       .value = "S",
-       .least = 0,
-       .most = 1e6,
-       .above = true});
-  field(&O::refine,
-        {.name = "refine", .help = "split edges of the target where the detail is finer"});
+           "split edges of the target until they are as short as the scaled edges of the source"});
   field(&O::find_angle, {.name = "find_angle",
-                         .help = "look for the angle at which the detail is most like the target's "
-                                 "own, which is half of the analysis",
+                         .help = "search for the angle at which the detail is most like the "
+                                 "target's own, half of the computation",
                          .in_program = false,
                          .in_python = false});
   field(&O::transition,
         {.name = "transition",
-         .help =
-             "width over which the detail fades outside the region, in the unit of the target; by "
-             "default the length of the waves of the base there, at most a quarter of its radius",
+         .help = "width over which the detail fades outside the region, in the unit of the target; "
+                 "by default the base's wavelength, at most a quarter of the region's radius",
          .value = "T",
          .least = 0});
 }
@@ -109,20 +109,20 @@ void visit_fields(FieldsOf<TransferUpdate>, const Visitor& field) {
   field(
       &U::height,
       {.name = "height", .help = "factor of the heights; -1 turns bumps into pits", .value = "H"});
-  field(&U::angle, {.name = "angle",
-                    .help = "turn of the detail, radians, counter-clockwise from outside; by "
-                            "default where it is most like the target's own",
-                    .value = "A",
-                    .in_program = false});
+  field(&U::angle,
+        {.name = "angle",
+         .help = "rotation of the detail in radians, counter-clockwise seen from outside; by "
+                 "default the angle at which it is most like the target's own",
+         .value = "A",
+         .in_program = false});
   field(&U::repeat,
-        {.name = "repeat", .help = "lay the detail again and again, for scales below 1"});
+        {.name = "repeat", .help = "repeat the detail side by side, for scales below 1"});
   field(&U::remove_own, {.name = "remove_own",
-                         .help = "take the target's own detail of the same waves away first"});
-  field(
-      &U::mode,
-      {.name = "mode",
-       .help = "displacement: along the normals of the target's base; coefficients: the harmonics "
-               "above the degree of one cap are put into the other, raw, for comparison"});
+                         .help = "remove the target's own detail of the same wavelengths first"});
+  field(&U::mode,
+        {.name = "mode",
+         .help = "method; displacement: along the normals of the target's base; coefficients: "
+                 "coefficients above from_degree replace the target's, for comparison"});
 }
 
 // Findings of the analysis. Lengths are in the units of the two meshes.
@@ -147,24 +147,32 @@ void visit_fields(FieldsOf<TransferReport>, const Visitor& field) {
   field(&R::target_radius, {.name = "target_radius",
                             .help = "radius of a disc with the area of the target's base",
                             .unit = FieldUnit::kLength});
-  field(&R::scale, {.name = "scale", .help = "lengths on the target per length on the source"});
-  field(&R::source_wavelength,
-        {.name = "source_wavelength", .help = "of the source's base", .unit = FieldUnit::kLength});
-  field(&R::target_wavelength,
-        {.name = "target_wavelength", .help = "of the target's base", .unit = FieldUnit::kLength});
+  field(&R::scale,
+        {.name = "scale", .help = "length on the target, divided by the length on the source"});
+  field(&R::source_wavelength, {.name = "source_wavelength",
+                                .help = "wavelength of the source's base",
+                                .unit = FieldUnit::kLength});
+  field(&R::target_wavelength, {.name = "target_wavelength",
+                                .help = "wavelength of the target's base",
+                                .unit = FieldUnit::kLength});
   field(&R::source_edge, {.name = "source_edge",
-                          .help = "median length of an edge of the source",
+                          .help = "median edge length of the source",
                           .unit = FieldUnit::kLength});
   field(&R::target_edge, {.name = "target_edge",
-                          .help = "median length of an edge of the target, after refinement",
+                          .help = "median edge length of the target, after refinement",
                           .unit = FieldUnit::kLength});
   field(&R::source_rms, {.name = "source_rms",
-                         .help = "height of the texture in its region",
+                         .help = "root mean square height of the detail in the source region",
                          .unit = FieldUnit::kLength});
-  field(&R::angle, {.name = "angle", .help = "turn of best correlation, radians"});
-  field(&R::correlation,
-        {.name = "correlation", .help = "with the target's own detail there, -1 ... 1"});
-  field(&R::new_vertices, {.name = "new_vertices", .help = "vertices made by refinement"});
+  field(&R::angle, {.name = "angle",
+                    .help = "angle of best correlation, in radians; 0 if it was not searched for"});
+  field(
+      &R::correlation,
+      {.name = "correlation",
+       .help =
+           "correlation with the target's own detail at the angle of best correlation, -1 ... 1"});
+  field(&R::new_vertices,
+        {.name = "new_vertices", .help = "number of vertices added by refinement"});
 }
 
 struct TransferSourceState;

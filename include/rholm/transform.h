@@ -52,28 +52,29 @@ struct FastReport {
 template <typename Visitor>
 void visit_fields(FieldsOf<FastReport>, const Visitor& field) {
   using F = FastReport;
-  field(&F::single, {.name = "single", .help = "whether sources were spread in single precision"});
-  field(&F::width, {.name = "width", .help = "grid points of the window"});
-  field(&F::oversampling, {.name = "oversampling", .help = "of the grid"});
+  field(&F::single, {.name = "single", .help = "true if sources were spread in single precision"});
+  field(&F::width, {.name = "width", .help = "number of grid points of the spreading window"});
+  field(&F::oversampling, {.name = "oversampling", .help = "oversampling factor of the grid"});
   field(&F::lumped_triangles, {.name = "lumped_triangles",
-                               .help = "triangles whose sources are those of their vertices"});
-  field(&F::nodes, {.name = "nodes", .help = "sources of their own"});
-  field(&F::vertices, {.name = "vertices", .help = "sources at vertices"});
-  field(&F::error,
-        {.name = "error",
-         .help =
-             "of the coefficients, l2 over degrees from 1 on, relative to the norm without mean"});
+                               .help = "number of faces represented by sources at their vertices"});
+  field(&F::nodes, {.name = "nodes", .help = "number of sources that are not at vertices"});
+  field(&F::vertices, {.name = "vertices", .help = "number of sources at vertices"});
+  field(&F::error, {.name = "error",
+                    .help = "l2 error of the coefficients from degree 1 on, relative to the norm "
+                            "of the function without its mean"});
   field(&F::band_error,
-        {.name = "band_error", .help = "of the degrees above 3L/4 relative to their own norm"});
+        {.name = "band_error",
+         .help = "l2 error of the degrees above 3L/4, relative to the norm of these degrees"});
   field(&F::measured_share,
         {.name = "measured_share",
-         .help = "part of the triangles that errors were measured on: 1 by a second, finer "
-                 "reading, less on a sample; 0 where they are estimates"});
+         .help = "share of the faces on which errors were measured; 1: a second, finer pass; less: "
+                 "a sample; 0: errors are estimated"});
   field(&F::error_doubt,
-        {.name = "error_doubt", .help = "by how much more a measured error may be off"});
-  field(&F::passes,
-        {.name = "passes", .help = "over the triangles until the coefficients were found"});
-  field(&F::reached, {.name = "reached", .help = "whether the error is within the precision"});
+        {.name = "error_doubt", .help = "possible excess of the true error over a measured error"});
+  field(&F::passes, {.name = "passes", .help = "number of passes over the faces"});
+  field(&F::reached, {.name = "reached",
+                      .help = "true if the error is within the precision, or within the least "
+                              "error that rounding allows"});
 }
 
 // Degree, method and precision for expand().
@@ -93,20 +94,20 @@ struct TransformOptions {
 template <typename O, typename Visitor>
 void visit_transform_fields(const Visitor& field) {
   field(&O::degree, {.name = "degree",
-                     .help = "the highest degree; there are (L+1)^2 coefficients",
+                     .help = "highest degree L; the model has (L+1)^2 coefficients",
                      .value = "L",
                      .least = 0,
                      .most = kMaxDegree,
                      .in_python = false});
   field(&O::method,
         {.name = "method",
-         .help = "which function is expanded (gauge: 1/r, the others r), and by which integrals"});
+         .help = "method of the integrals; gauge expands 1/r, the others the radius r"});
   field(&O::engine, {.name = "engine",
-                     .help = "how sums are done: fast, on an oversampled grid, to the precision; "
-                             "direct, term by term, slow; curl and area are always direct"});
+                     .help = "method of the sums; fast: on a grid, to the wanted precision; "
+                             "direct: term by term, slow; curl and area always use direct sums"});
   field(&O::precision, {.name = "precision",
-                        .help = "wanted error of the coefficients, l2 relative to the norm of the "
-                                "function without its mean, finer where a tolerance asks for it",
+                        .help = "wanted l2 error of the coefficients, relative to the norm of the "
+                                "function without its mean; finer where a tolerance needs it",
                         .value = "E",
                         .least = 1e-14,
                         .most = 0.1});
@@ -142,20 +143,23 @@ struct Transform {
 template <typename Visitor>
 void visit_fields(FieldsOf<Transform>, const Visitor& field) {
   using A = Transform;
-  field(&A::edge_nodes, {.name = "edge_nodes", .help = "quadrature nodes on edges"});
-  field(&A::face_nodes, {.name = "face_nodes", .help = "quadrature nodes on faces"});
-  field(&A::closure_residual,
-        {.name = "closure_residual",
-         .help = "zero for a closed, consistently oriented mesh; None with the fast engine"});
-  field(&A::fast, {.name = "fast", .help = "of the fast engine, or None"});
-  field(&A::precision, {.name = "precision", .help = "that the coefficients were wanted with"});
-  field(&A::times, {.name = "times", .help = "stages: (wall, cpu) in seconds"});
-  field(&A::truncation_rms,
-        {.name = "truncation_rms",
-         .help = "truncation error over solid angle, in the unit of the function, or None"});
+  field(&A::edge_nodes, {.name = "edge_nodes", .help = "number of quadrature nodes on edges"});
+  field(&A::face_nodes, {.name = "face_nodes", .help = "number of quadrature nodes on faces"});
+  field(&A::closure_residual, {.name = "closure_residual",
+                               .help = "closure error of the mesh, zero if it is closed and "
+                                       "consistently oriented; None with the fast engine"});
+  field(&A::fast,
+        {.name = "fast", .help = "report of the fast engine, or None if it was not used"});
+  field(&A::precision,
+        {.name = "precision", .help = "precision that the coefficients were computed for"});
+  field(&A::times,
+        {.name = "times", .help = "wall and CPU time of each stage, in seconds: (wall, cpu)"});
+  field(&A::truncation_rms, {.name = "truncation_rms",
+                             .help = "root mean square truncation error over solid angle, in the "
+                                     "unit of the function; None if too uncertain"});
   field(&A::truncation_rms_doubt,
         {.name = "truncation_rms_doubt",
-         .help = "how far it is at most from that of exact coefficients"});
+         .help = "uncertainty of truncation_rms, from the precision of the coefficients"});
 }
 
 // Computes the coefficients of the surface by the chosen method. Throws InvalidInput for a degree
@@ -192,9 +196,17 @@ struct ErrorStrengths {
 template <typename Visitor>
 void visit_fields(FieldsOf<ErrorStrengths>, const Visitor& field) {
   using E = ErrorStrengths;
-  field(&E::radius, {.name = "radius", .help = "of the radius, in the mesh's unit"});
-  field(&E::gauge, {.name = "gauge", .help = "of 1/r, in 1/unit"});
-  field(&E::distance, {.name = "distance", .help = "of the distance between the surfaces"});
+  field(
+      &E::radius,
+      {.name = "radius",
+       .help =
+           "largest error of the radius at a vertex, times 2 pi (L + 1), in the unit of the mesh"});
+  field(&E::gauge,
+        {.name = "gauge",
+         .help = "largest error of 1/r at a vertex, times 2 pi (L + 1), in 1/unit of the mesh"});
+  field(&E::distance, {.name = "distance",
+                       .help = "largest distance between the surfaces at a vertex, times 2 pi (L + "
+                               "1), in the unit of the mesh"});
 }
 // Returns the strengths of a closed mesh without a copy; identical vertices count as one. Throws as
 // validate(). Takes 12 bytes of memory per vertex for positions, 32 for sums.

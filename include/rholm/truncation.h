@@ -33,13 +33,14 @@ template <typename Visitor>
 void visit_fields(FieldsOf<TruncationOptions>, const Visitor& field) {
   using O = TruncationOptions;
   field(&O::precision, {.name = "precision",
-                        .help = "how exact the coefficients are; by default as the expansion says",
+                        .help = "relative error of the coefficients; by default the precision of "
+                                "the expansion, or 1e-8 if unknown",
                         .value = "E",
                         .least = 1e-14,
                         .most = 0.1,
                         .in_program = false});
   field(&O::predict, {.name = "predict",
-                      .help = "whether the largest errors are predicted in closed form, too",
+                      .help = "also predict the largest errors in closed form",
                       .in_program = false});
 }
 
@@ -86,24 +87,25 @@ template <typename Visitor>
 void visit_fields(FieldsOf<Tolerance>, const Visitor& field) {
   using O = Tolerance;
   field(&O::error, {.name = "error",
-                    .help = "the largest error that is allowed",
+                    .help = "largest allowed error of the model",
                     .value = "E",
                     .least = 0,
                     .above = true,
                     .in_program = false,
                     .in_python = false});
   field(&O::unit, {.name = "unit",
-                   .help = "of the tolerance: absolute, the shape's own; diagonal, of its bounding "
-                           "box; radius, its mean over directions"});
-  field(&O::norm, {.name = "norm",
-                   .help = "of the tolerance: rms, the root mean square; max, the largest error"});
+                   .help = "unit of the tolerance; absolute: unit of the shape; diagonal: diagonal "
+                           "of the bounding box; radius: mean radius over directions"});
+  field(&O::norm,
+        {.name = "norm",
+         .help = "norm of the error; rms: root mean square over the surface; max: largest error"});
   field(&O::measure,
         {.name = "measure",
-         .help = "of the tolerance: radius, along rays from the centre; distance, between the "
-                 "surfaces, which unit diagonal takes where nothing is said",
+         .help = "measure of the error; radius: along rays from the centre; distance: to the "
+                 "closest point of the other surface, the default with --unit diagonal",
          .in_python = false});
   field(&O::max_degree, {.name = "max_degree",
-                         .help = "the largest degree that is tried for a tolerance",
+                         .help = "highest degree tried to meet a tolerance",
                          .value = "L",
                          .least = 0,
                          .most = kMaxDegree});

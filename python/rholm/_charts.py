@@ -113,9 +113,9 @@ class ChartExpansion(NamedTuple):
     expansion: Expansion
     """The coefficients."""
     transform: _core.Transform
-    """How they were found."""
+    """Report of the transform that computed the coefficients."""
     tolerance: _core.ToleranceReport | None
-    """How a tolerance was kept."""
+    """Report on the wanted tolerance."""
 
 
 @takes(_core.TransformOptions, _core.Tolerance)

@@ -16,31 +16,31 @@ class Error(Exception):
 
 
 class InvalidInputError(Error, ValueError):
-    """The data cannot mean what was asked: a malformed file, NaN, an open mesh, a number out of range."""
+    """The input is invalid: a malformed file, NaN, an open mesh, a number out of range."""
 
     code = "InvalidInput"
 
 
 class IoError(Error, OSError):
-    """The operating system refused to read or write."""
+    """The operating system could not read or write a file."""
 
     code = "Io"
 
 
 class UnsupportedError(Error):
-    """Well-formed, but a variant that is not handled."""
+    """The input is well-formed, but of a variant that is not supported."""
 
     code = "Unsupported"
 
 
 class NotStarShapedError(InvalidInputError):
-    """The surface is not star-shaped from any, or the given, centre."""
+    """The surface is not star-shaped from the given centre, or from any centre."""
 
     code = "NotStarShaped"
 
 
 class OutOfMemoryError(Error, MemoryError):
-    """More memory than allowed would be needed."""
+    """The task needs more memory than is allowed."""
 
     code = "OutOfMemory"
 

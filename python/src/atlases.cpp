@@ -110,30 +110,30 @@ void bind_caps(nb::module_& m) {
   Record<Cap>(m, "Cap", "One cap of an atlas.")
       .property(
           "center", [](const Cap& c) { return read_only(c.frame.center); },
-          "Of its sphere, in the coordinates of the shape, (3,).")
+          "Centre of the cap's sphere, in the coordinates of the shape, (3,).")
       .property(
           "axes",
           [](const Cap& c) {
             return read_only(std::vector<Vec3>{c.frame.x, c.frame.y, c.frame.z});
           },
-          "Of its frame, rows x, y, z; z points outwards, (3, 3).")
+          "Axes of the cap's frame, rows x, y, z; z points outwards, (3, 3).")
       .property(
-          "radius", [](const Cap& c) { return c.frame.radius; }, "Of its sphere.")
+          "radius", [](const Cap& c) { return c.frame.radius; }, "Radius of the cap's sphere.")
       .property(
           "dilation", [](const Cap& c) { return c.frame.dilation; },
-          "a: tan(theta'/2) = a tan(theta/2) opens the sphere.")
+          "Dilation a of the cap: tan(theta'/2) = a tan(theta/2).")
       .property(
           "support", [](const Cap& c) { return c.frame.support; },
-          "Radius of the points around the seed that it was made of.")
+          "Radius of the points around the seed that the cap was fitted to.")
       .property(
           "seed", [](const Cap& c) { return read_only(c.frame.seed()); },
-          "The point of the sphere in the middle of the cap, (3,).")
+          "Point of the cap's sphere in the middle of the cap, (3,).")
       .property(
           "ellipse",
           [](const Cap& c) {
             return nb::make_tuple(c.where.px, c.where.py, c.where.xx, c.where.xy, c.where.yy);
           },
-          "Of its support: middle (px, py) and form (xx, xy, yy).")
+          "Ellipse of the cap's support: centre (px, py) and quadratic form (xx, xy, yy).")
       .fields()
       .hidden("frame_center", [](Cap& c) -> Vec3& { return c.frame.center; })
       .hidden("frame_x", [](Cap& c) -> Vec3& { return c.frame.x; })
@@ -246,9 +246,9 @@ SurfaceRules rules_of_state(const nb::object& state) {
 }
 
 void bind_rules(nb::module_& m) {
-  nb::class_<SurfaceRules> rules(
-      m, "SurfaceRules",
-      "How `reconstruct` made the surface of its caps; an atlas with them makes the same again.");
+  nb::class_<SurfaceRules> rules(m, "SurfaceRules",
+                                 "Rules with which `reconstruct` made a surface from caps; an "
+                                 "atlas with them makes the same surface again.");
   bind_state(rules, &state_of_rules, &rules_of_state);
   rules.def("__repr__", [](nb::handle self) { return record_text(self); })
       .def(
@@ -265,39 +265,42 @@ void bind_rules(nb::module_& m) {
            [](const SurfaceRules&) -> std::size_t { throw nb::type_error("a record has no hash"); })
       .def(
           "to_dict", [](nb::handle self) { return record_dict(self); },
-          "All fields by name; records within it are dicts, too.")
+          "Returns all fields by name; records in fields become dicts, too.")
       .def_prop_ro(
           "holes", [](const SurfaceRules& r) { return to_string(r.holes); },
-          "'fill': places without points are closed; 'keep': cut open.")
+          "Places without points; 'fill': they are closed; 'keep': they are cut open.")
       .def_ro("min_component", &SurfaceRules::min_component,
-              "Parts with less than this share of the largest one's area are dropped.")
+              "Share of the largest part's area below which a part is dropped.")
       .def_prop_ro(
           "simplified", [](const SurfaceRules& r) { return r.simplify.has_value(); },
-          "Whether the surface has fewer triangles than its grid gave.")
+          "True if the surface was simplified.")
       .def_ro("tiles", &SurfaceRules::tiles,
-              "Whether it was made in several tiles: `Atlas.mesh` has another order of vertices "
-              "and faces, "
-              "and what closes holes may differ by some steps of the grid.")
-      .def_ro("left_out", &SurfaceRules::left_out,
-              "Attributes of the surface from the points, which the atlas does not hold.");
+              "True if the surface was made in several tiles. `Atlas.mesh` then has another order "
+              "of vertices and faces, and closed holes may differ by some steps of the grid.")
+      .def_ro(
+          "left_out", &SurfaceRules::left_out,
+          "Names of attributes that the surface has from the points, and the atlas does not hold.");
 }
 
 void bind_models(nb::module_& m) {
   bind_rules(m);
-  Record<AtlasErrors>(m, "AtlasErrors", "What a model is measured by, in the shape's unit.")
+  Record<AtlasErrors>(m, "AtlasErrors", "Measured errors of an atlas, in the unit of the shape.")
       .fields()
       .property(
-          "rms", [](const AtlasErrors& e) { return e.rms(); }, "The larger of both ways.")
+          "rms", [](const AtlasErrors& e) { return e.rms(); },
+          "Root mean square distance, the larger of both directions.")
       .property(
-          "max", [](const AtlasErrors& e) { return e.max(); }, "The larger of both ways.")
+          "max", [](const AtlasErrors& e) { return e.max(); },
+          "Largest distance, the larger of both directions.")
       .property(
           "two_sided", [](const AtlasErrors& e) { return e.two_sided(); },
-          "Whether both ways were measured.");
-  Record<AtlasSize>(m, "AtlasSize", "How large a model is.")
+          "True if both directions were measured.");
+  Record<AtlasSize>(m, "AtlasSize", "Size of an atlas.")
       .fields()
       .property(
-          "numbers", [](const AtlasSize& s) { return s.numbers(); }, "Of the whole model.");
-  nb::class_<AtlasModel> model_type(m, "AtlasModel", "An atlas and what its file says of it.");
+          "numbers", [](const AtlasSize& s) { return s.numbers(); },
+          "Number of values of the whole model: coefficients and frame numbers.");
+  nb::class_<AtlasModel> model_type(m, "AtlasModel", "An atlas and the metadata of its file.");
   bind_state(
       model_type,
       [](const AtlasModel& self) {
@@ -340,17 +343,18 @@ void bind_models(nb::module_& m) {
 }
 
 void bind_compress(nb::module_& m) {
-  Options<CompressOptions>(m, "CompressOptions", "Limits of the size and the error of an atlas.")
+  Options<CompressOptions>(m, "CompressOptions",
+                           "Options of `compress`: limits of the size and the error of an atlas.")
       .fields();
-  Record<CompressReport>(m, "CompressReport", "How a model came about, and what it keeps.")
-      .fields();
+  Record<CompressReport>(m, "CompressReport", "Report of `compress`.").fields();
   m.def("compress", [](const Shape& shape, const CompressOptions& options, const Caller& caller) {
     Compressed result = caller.run([&](const Context& context) {
       return std::visit([&](const auto* s) { return compress(*s, options, context); }, shape);
     });
     return nb::make_tuple(std::move(result.model), std::move(result.report));
   });
-  Options<AtlasSynthesisOptions>(m, "AtlasSynthesisOptions", "How a surface is extracted.")
+  Options<AtlasSynthesisOptions>(m, "AtlasSynthesisOptions",
+                                 "Options for extracting the surface of an atlas.")
       .fields();
   m.def("synthesize_atlas", [](const AtlasModel& model, const AtlasSynthesisOptions& options,
                                const Caller& caller) {
@@ -380,7 +384,9 @@ void bind_compress(nb::module_& m) {
 }
 
 void bind_patch_atlas(nb::module_& m) {
-  Options<PatchAtlasOptions>(m, "PatchAtlasOptions", "The paper's parameters.").fields();
+  Options<PatchAtlasOptions>(m, "PatchAtlasOptions",
+                             "Options of `patch_atlas`: the paper's parameters.")
+      .fields();
   m.def("patch_atlas", [](const Shape& shape, const PatchAtlasOptions& options,
                           const Caller& caller) {
     PatchAtlas result = caller.run([&](const Context& context) {

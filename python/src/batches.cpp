@@ -129,7 +129,7 @@ nb::list columns_of(const BatchTable& table) {
 }  // namespace
 
 void bind_batches(nb::module_& m) {
-  nb::class_<BatchTable> type(m, "BatchTable", "Rows as columns.");
+  nb::class_<BatchTable> type(m, "BatchTable", "Table of batch results, column by column.");
   bind_state(
       type,
       [](const BatchTable& table) {
@@ -156,7 +156,7 @@ void bind_batches(nb::module_& m) {
         const nb::gil_scoped_release release;
         write_batch(table, path, with_coefficients, raw_cells);
       });
-  nb::class_<BatchJournal>(m, "BatchJournal", "Rows that are done, in a file.")
+  nb::class_<BatchJournal>(m, "BatchJournal", "File of the finished rows of a batch.")
       .def("__init__",
            [](BatchJournal* self, const std::string& path, const std::vector<std::string>& job,
               std::size_t rows) { new (self) BatchJournal(path, fingerprint(job), rows); })

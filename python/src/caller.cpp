@@ -63,7 +63,7 @@ void after_fork_in_child() {
 }
 
 void bind_caller(nb::module_& m) {
-  nb::class_<Caller>(m, "Caller", "Threads and progress of one call.")
+  nb::class_<Caller>(m, "Caller", "Threads and progress callback of one call.")
       .def(nb::init<int, nb::object>(), nb::arg("threads"), nb::arg("progress").none());
   m.def("after_fork_in_child", &after_fork_in_child,
         "Tells the library that it is in a child of fork(), where there are no threads.");

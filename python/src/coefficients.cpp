@@ -117,13 +117,14 @@ void bind_numbers(nb::module_& m) {
 }
 
 void bind_expansion(nb::module_& m) {
-  Record<TruncationErrors>(m, "TruncationErrors",
-                           "How far a surface is from the shape it was made of, in the unit of "
-                           "lengths; None where it is not known.")
+  Record<TruncationErrors>(
+      m, "TruncationErrors",
+      "Errors of an expansion relative to its shape, in the unit of lengths; None where unknown.")
       .fields();
-  Record<GravityField>(m, "GravityField", "References of the coefficients of a gravity field.")
+  Record<GravityField>(m, "GravityField",
+                       "Reference values of the coefficients of a gravity field.")
       .fields();
-  nb::class_<Expansion> type(m, "Expansion", "A surface as coefficients.");
+  nb::class_<Expansion> type(m, "Expansion", "A surface as spherical harmonic coefficients.");
   bind_state(
       type,
       [](const Expansion& e) {
@@ -269,7 +270,7 @@ void bind_filters(nb::module_& m) {
     return filter(e, span_of(gains), name);
   });
   Record<Overshoot>(m, "Overshoot",
-                    "How far a filtered step leaves 0 ... 1, in parts of its height.")
+                    "Overshoot of a filtered step beyond 0 ... 1, relative to its height.")
       .fields();
   m.def("overshoot", [](const Doubles& gains) { return overshoot(span_of(gains)); });
   m.def("overshoot", [](const std::string& window, int degree) {

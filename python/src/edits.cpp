@@ -33,8 +33,11 @@ void bind_smooth(nb::module_& m) {
           return array_of(
               unlocked([&] { return region_weights(mesh, regions_of(regions), transition); }));
         });
-  Options<PatchOptions>(m, "PatchOptions", "Detail to remove from a region.").fields();
-  nb::class_<Patch> patch_type(m, "Patch", "The vertices that may move, and where fits want them.");
+  Options<PatchOptions>(m, "PatchOptions",
+                        "Options of `smooth`: the detail to remove from a region.")
+      .fields();
+  nb::class_<Patch> patch_type(
+      m, "Patch", "Vertices of a region that may move, and their positions on the fits.");
   bind_state(
       patch_type,
       [](const Patch& p) {
@@ -102,13 +105,15 @@ void bind_smooth(nb::module_& m) {
 }
 
 void bind_transfer(nb::module_& m) {
-  Options<TransferOptions>(m, "TransferOptions", "Detail to take, and its size on the target.")
+  Options<TransferOptions>(m, "TransferOptions",
+                           "Options of `transfer`: the detail to take, and its size on the target.")
       .fields();
-  Options<TransferUpdate>(m, "TransferUpdate", "Values that sliders change.").fields();
+  Options<TransferUpdate>(m, "TransferUpdate", "Options of `transfer` that can be updated quickly.")
+      .fields();
   Record<TransferReport>(m, "TransferReport",
-                         "Findings of the analysis; lengths are in the units of the two meshes.")
+                         "Report of `transfer`; lengths are in the units of the two meshes.")
       .fields();
-  nb::class_<TransferSource>(m, "TransferSource", "A texture taken from its source.")
+  nb::class_<TransferSource>(m, "TransferSource", "A texture extracted from its source.")
       .def_ro("from_degree", &TransferSource::from_degree)
       .def_ro("radius", &TransferSource::radius)
       .def_ro("wavelength", &TransferSource::wavelength)

@@ -8,7 +8,7 @@
 
 NB_MODULE(_core, m) {
   using namespace rholm::python;
-  m.doc() = "The C++ library; use rholm itself.";
+  m.doc() = "Bindings of the C++ library; use the package rholm instead.";
   m.attr("VERSION") = rholm::kVersion;
   m.attr("MAX_DEGREE") = rholm::kMaxDegree;
   m.attr("NO_CAP") = rholm::kNoCap;

@@ -32,7 +32,8 @@ double number_of(const char* name, nb::handle value) {
 }
 
 void bind_rotations(nb::module_& m) {
-  Record<Rotation> rotation(m, "Rotation", "A unit quaternion; the same rotation as its negative.");
+  Record<Rotation> rotation(m, "Rotation",
+                            "A rotation as a unit quaternion; its negative is the same rotation.");
   rotation.type().def(
       "__init__",
       [](Rotation* self, nb::handle w, nb::handle x, nb::handle y, nb::handle z) {
@@ -42,10 +43,10 @@ void bind_rotations(nb::module_& m) {
       nb::arg("w") = 1.0, nb::arg("x") = 0.0, nb::arg("y") = 0.0, nb::arg("z") = 0.0,
       nb::sig("def __init__(self, w: float = 1.0, x: float = 0.0, y: float = 0.0, "
               "z: float = 0.0) -> None"));
-  rotation.field("w", &Rotation::w, "cos(a/2), a the angle.")
-      .field("x", &Rotation::x, "sin(a/2) times the axis.")
-      .field("y", &Rotation::y, "sin(a/2) times the axis.")
-      .field("z", &Rotation::z, "sin(a/2) times the axis.");
+  rotation.field("w", &Rotation::w, "Cosine of half the angle of rotation.")
+      .field("x", &Rotation::x, "Component x of the axis, times the sine of half the angle.")
+      .field("y", &Rotation::y, "Component y of the axis, times the sine of half the angle.")
+      .field("z", &Rotation::z, "Component z of the axis, times the sine of half the angle.");
   m.def("rotation_about", &rotation_about);
   m.def("rotation_of_euler", [](double alpha, double beta, double gamma) {
     return rotation_of(EulerAngles{alpha, beta, gamma});
@@ -92,44 +93,46 @@ void bind_rotations(nb::module_& m) {
 }
 
 void bind_alignment(nb::module_& m) {
-  Record<PrincipalAxes>(m, "PrincipalAxes", "The axes of the quadratic form of degree 2.")
+  Record<PrincipalAxes>(m, "PrincipalAxes", "Principal axes of the quadratic form of degree 2.")
       .property(
           "axes",
           [](const PrincipalAxes& p) {
             return read_only(std::vector<Vec3>(p.axes.begin(), p.axes.end()));
           },
-          "Rows: right-handed, orthonormal, longest first, (3, 3).")
+          "Principal axes in rows, right-handed, orthonormal, longest first, (3, 3).")
       .property(
           "values",
           [](const PrincipalAxes& p) {
             return read_only(std::vector<double>(p.values.begin(), p.values.end()));
           },
-          "Of the form, descending, (3,); their sum is 0.")
-      .field("to_axes", &PrincipalAxes::to_axes, "Turns the axes to x, y and z.")
+          "Values of the form along the axes, descending, (3,); their sum is 0.")
+      .field("to_axes", &PrincipalAxes::to_axes, "Rotation that turns the axes to x, y and z.")
       .field("free_axes", &PrincipalAxes::free_axes,
-             "About these the form turns freely: none, one or three, (n, 3).")
+             "Axes about which the form can turn without changing: none, one or three, (n, 3).")
       .hidden("axes", [](PrincipalAxes& p) -> std::array<Vec3, 3>& { return p.axes; })
       .hidden("values", [](PrincipalAxes& p) -> std::array<double, 3>& { return p.values; });
   m.def("principal_axes", [](const Coefficients& c, const std::string& function) {
     return principal_axes(c, parse_name<RadialFunction>(function));
   });
 
-  Options<AlignOptions>(m, "AlignOptions", "How a rotation is sought.").fields();
-  Record<AlignedRotation>(m, "AlignedRotation", "A rotation of a, and how well it lays a on b.")
+  Options<AlignOptions>(m, "AlignOptions", "Options of `align`.").fields();
+  Record<AlignedRotation>(m, "AlignedRotation",
+                          "A rotation of a, and how closely it brings a to b.")
       .fields();
-  Record<Alignment>(m, "Alignment", "The best rotation, and those that are nearly as good.")
+  Record<Alignment>(m, "Alignment", "The best rotation, and rotations that are nearly as good.")
       .fields();
   Record<Placement>(m, "Placement",
-                    "The point p becomes R (p - from_point) + to_point, of the mirror image if "
-                    "mirrored.")
-      .field("alignment", &Placement::alignment, "R and whether it is mirrored.")
-      .field("from_point", &Placement::from, "The point of a that is laid on b's, (3,).")
-      .field("to_point", &Placement::to, "The point of b, (3,).")
+                    "Rigid motion of a point p to R (p - from_point) + to_point, of the mirror "
+                    "image if mirrored.")
+      .field("alignment", &Placement::alignment,
+             "Rotation R, and whether the mirror image is taken.")
+      .field("from_point", &Placement::from, "Point of a that is moved to to_point, (3,).")
+      .field("to_point", &Placement::to, "Point of b that from_point is moved to, (3,).")
       .field("centers", &Placement::centers,
-             "Which points these are: \"volume\", the centroids, or \"own\", the centres of the "
-             "expansions.")
+             "Choice of from_point and to_point: \"volume\", the centroids, or \"own\", the "
+             "centres of the expansions.")
       .field("why_own", &Placement::why_own,
-             "Why the centroids could not be taken; empty if they were, or not asked for.");
+             "Reason why the centroids could not be used; empty if they were used or not wanted.");
   m.def("align", [](const Coefficients& a, const Coefficients& b, const AlignOptions& options,
                     const Caller& caller) {
     return caller.run([&](const Context& context) { return align(a, b, options, context); });

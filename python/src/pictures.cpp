@@ -42,7 +42,7 @@ void color(Panel& panel, const std::optional<Doubles>& scalars, const std::optio
 }
 
 void bind_render(nb::module_& m) {
-  nb::class_<Panel>(m, "Panel", "One thing in a picture; the mesh, or the points, must be kept.")
+  nb::class_<Panel>(m, "Panel", "A mesh or points in a picture; the caller keeps them alive.")
       .def(
           "__init__",
           [](Panel* self, const Mesh& mesh, const std::string& label, bool smooth,
@@ -63,7 +63,9 @@ void bind_render(nb::module_& m) {
           },
           nb::arg(), nb::arg(), nb::arg(), nb::arg().none(), nb::arg().none(),
           nb::keep_alive<1, 2>());
-  Options<RenderOptions>(m, "RenderOptions", "Size, point of view, light and colours.").fields();
+  Options<RenderOptions>(m, "RenderOptions",
+                         "Options of `render`: size, point of view, light and colours.")
+      .fields();
   m.def("render", [](const std::vector<const Panel*>& panels, const RenderOptions& options,
                      const Caller& caller) {
     std::vector<Panel> all;
@@ -95,7 +97,8 @@ void bind_render(nb::module_& m) {
 }
 
 void bind_pages(nb::module_& m) {
-  Options<ReportOptions>(m, "ReportOptions", "Texts of a page beside its figures.")
+  Options<ReportOptions>(m, "ReportOptions",
+                         "Options of `report_html`: texts of the page, and size of its pictures.")
       .fields()
       .type()
       .def("set_commands", [](ReportOptions& options,

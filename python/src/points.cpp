@@ -12,14 +12,14 @@ namespace rholm::python {
 
 void bind_points(nb::module_& m) {
   Options<SampleOptions>(m, "SampleOptions",
-                         "Errors, outliers and places of the samples of a surface.")
+                         "Options of `sample_surface`: errors, outliers and places of the samples.")
       .fields();
   m.def("sample_surface", [](const Mesh& mesh, const SampleOptions& options, const Caller& caller) {
     return caller.run(
         [&](const Context& context) { return sample_surface(mesh, options, context); });
   });
 
-  Record<CleanReport>(m, "CleanReport", "Report of clean().").fields();
+  Record<CleanReport>(m, "CleanReport", "Report of `clean`.").fields();
   m.def("clean", [](PointCloud cloud, const Caller& caller) {
     const CleanReport report =
         caller.run([&](const Context& context) { return clean(cloud, context); });
@@ -27,7 +27,7 @@ void bind_points(nb::module_& m) {
   });
 
   Record<ScanAlignment>(m, "ScanAlignment",
-                        "Report of align_scans(); lengths are in the unit of the points.")
+                        "Report of `align_scans`; lengths are in the unit of the points.")
       .fields();
   m.def("align_scans", [](PointCloud cloud, const Caller& caller) {
     const ScanAlignment report =
@@ -35,9 +35,8 @@ void bind_points(nb::module_& m) {
     return nb::make_tuple(std::move(cloud), report);
   });
 
-  Options<OrientOptions>(m, "OrientOptions", "How normals are found and which side is outside.")
-      .fields();
-  Record<OrientReport>(m, "OrientReport", "Report of orient(), with its certainty.").fields();
+  Options<OrientOptions>(m, "OrientOptions", "Options of `orient`.").fields();
+  Record<OrientReport>(m, "OrientReport", "Report of `orient`.").fields();
   m.def("orient", [](PointCloud cloud, const OrientOptions& options, const Caller& caller) {
     const OrientReport report =
         caller.run([&](const Context& context) { return orient(cloud, options, context); });

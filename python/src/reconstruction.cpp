@@ -46,7 +46,7 @@ nb::tuple reconstruct_any(const Points& points, std::size_t dropped, const std::
 }
 
 void bind_tiles(nb::module_& m) {
-  Record<TileForecast>(m, "TileForecast", "What a reconstruction in tiles will take, about.")
+  Record<TileForecast>(m, "TileForecast", "Estimated resources of a reconstruction in tiles.")
       .fields();
   m.def("foresee_tiles", &foresee_tiles);
 }
@@ -54,12 +54,12 @@ void bind_tiles(nb::module_& m) {
 }  // namespace
 
 void bind_reconstruction(nb::module_& m) {
-  Options<ReconstructOptions>(m, "ReconstructOptions",
-                              "Resolution, cleaning and holes of the surface.")
+  Options<ReconstructOptions>(
+      m, "ReconstructOptions",
+      "Options of `reconstruct`: resolution, cleaning and holes of the surface.")
       .fields();
   Record<ReconstructReport>(m, "ReconstructReport",
-                            "What was found in the points, and what became of them; lengths are in "
-                            "their unit.")
+                            "Report of `reconstruct`; lengths are in the unit of the points.")
       .fields();
   m.def("reconstruct", &reconstruct_any, nb::arg("points"), nb::arg("dropped"), nb::arg("columns"),
         nb::arg("options"), nb::arg("foreseen").none(), nb::arg("caller"));

@@ -132,7 +132,7 @@ class Record {
                [](const T&) -> std::size_t { throw nb::type_error("a record has no hash"); });
     class_.def(
         "to_dict", [](nb::handle self) { return record_dict(self); },
-        "All fields by name; records within it are dicts, too.");
+        "Returns all fields by name; records in fields become dicts, too.");
   }
 
   template <class V>

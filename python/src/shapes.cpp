@@ -93,7 +93,7 @@ bool same(const std::vector<Attribute>& a, const std::vector<Attribute>& b) {
 }
 
 void bind_mesh(nb::module_& m) {
-  nb::class_<Mesh> mesh_class(m, "Mesh", "Triangles that share vertices.");
+  nb::class_<Mesh> mesh_class(m, "Mesh", "A mesh of triangles that share vertices.");
   bind_state(
       mesh_class,
       [](const Mesh& mesh) {
@@ -255,7 +255,7 @@ nb::ndarray<nb::numpy, const std::uint8_t> bytes_of(nb::handle owner, const std:
 }
 
 void bind_mapped(nb::module_& m) {
-  nb::class_<MappedMesh>(m, "MappedMesh", "A mesh where it lies in a file.")
+  nb::class_<MappedMesh>(m, "MappedMesh", "A mesh in a mapped file.")
       .def_prop_ro("vertex_bytes",
                    [](nb::handle self) {
                      const MeshView& v = nb::cast<const MappedMesh&>(self).view();

@@ -47,10 +47,11 @@ nb::list wait(StudioListener& listener, double seconds) {
 }  // namespace
 
 void bind_studio(nb::module_& m) {
-  nb::class_<StudioListener>(m, "StudioListener", "Who listens to a session.")
+  nb::class_<StudioListener>(m, "StudioListener", "A receiver of the events of a session.")
       .def("wait", &wait, nb::arg("seconds"))
       .def_prop_ro("ended", &StudioListener::ended);
-  nb::class_<Studio>(m, "Studio", "Requests in, responses out.")
+  nb::class_<Studio>(m, "Studio",
+                     "The studio without a transport: takes requests and returns responses.")
       .def(
           "__init__",
           [](Studio* self, const std::string& folder, int threads) {

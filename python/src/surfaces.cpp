@@ -43,7 +43,8 @@ void bind_surfaces(nb::module_& m) {
     return result;
   });
   m.def("directions_of", unlocked_function(&directions_of));
-  Record<SurfaceMeasures> measures(m, "SurfaceMeasures", "Of the solid bounded by a surface.");
+  Record<SurfaceMeasures> measures(m, "SurfaceMeasures",
+                                   "Measures of the solid bounded by a surface.");
   measures
       .hidden("volume", [](SurfaceMeasures& all) -> std::optional<double>& { return all.volume; })
       .hidden("area", [](SurfaceMeasures& all) -> std::optional<double>& { return all.area; })
@@ -60,7 +61,7 @@ void bind_surfaces(nb::module_& m) {
         if (!all.centroid) return std::nullopt;
         return read_only(*all.centroid);
       },
-      "Of the solid, (3,).");
+      "Centroid of the solid, (3,).");
   m.def("descriptors", [] {
     nb::list rows;
     for (const Descriptor& one : descriptors()) {
@@ -84,9 +85,10 @@ void bind_surfaces(nb::module_& m) {
     return array_of(std::vector<Vec3>(rows.begin(), rows.end()));
   });
 
-  Options<CompareOptions>(m, "CompareOptions", "Where distances are measured.").fields();
-  Record<Distances>(m, "Distances", "Of all samples, in the shape's unit.").fields();
-  Record<Comparison>(m, "Comparison", "How far two surfaces lie apart, in the shape's unit.")
+  Options<CompareOptions>(m, "CompareOptions", "Options of `compare`.").fields();
+  Record<Distances>(m, "Distances", "Distances of all samples, in the unit of the shape.").fields();
+  Record<Comparison>(m, "Comparison",
+                     "Distance between two surfaces A and B, in the unit of the shape.")
       .fields();
   m.def("compare", [](const Mesh& a, const Mesh& b, const CompareOptions& options,
                       const Caller& caller) {

@@ -24,15 +24,15 @@ namespace {
 using Polygons = nb::ndarray<const std::uint32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
 void bind_records(nb::module_& m) {
-  Record<Bounds>(m, "Bounds", "A box along the axes.")
+  Record<Bounds>(m, "Bounds", "A box with sides along the axes.")
       .fields()
       .property(
-          "diagonal", [](const Bounds& b) { return b.diagonal(); }, "Its length.");
+          "diagonal", [](const Bounds& b) { return b.diagonal(); }, "Length of the diagonal.");
   Record<Inspection>(
       m, "Inspection",
-      "What a mesh is. Counts are those of the mesh given: weld first to close seams.")
+      "Properties of a mesh. Counts are of the given mesh: weld it first to close seams.")
       .fields();
-  Record<RepairReport>(m, "RepairReport", "Report of a repair: changes, and defects that remain.")
+  Record<RepairReport>(m, "RepairReport", "Report of `repair`: changes, and defects that remain.")
       .fields();
 }
 
@@ -76,13 +76,13 @@ void bind_edges(nb::module_& m) {
 }
 
 void bind_repair(nb::module_& m) {
-  Options<RepairOptions>(m, "RepairOptions", "Steps of the repair of a mesh.").fields();
+  Options<RepairOptions>(m, "RepairOptions", "Options of `repair`.").fields();
   m.def("repair", [](const Mesh& mesh, const RepairOptions& options, const Caller& caller) {
     Repaired repaired =
         caller.run([&](const Context& context) { return repair(mesh, options, context); });
     return nb::make_tuple(std::move(repaired.mesh), repaired.report);
   });
-  Options<SimplifyOptions>(m, "SimplifyOptions", "Where simplify() stops.").fields();
+  Options<SimplifyOptions>(m, "SimplifyOptions", "Options of `simplify`: when it stops.").fields();
   m.def("simplify", [](const Mesh& mesh, const SimplifyOptions& options, const Caller& caller) {
     Simplification result =
         caller.run([&](const Context& context) { return simplify(mesh, options, context); });

@@ -55,7 +55,7 @@ MeshView view_of_arrays(const AnyVertices& vertices, const AnyTriangles& triangl
 }
 
 void bind_star(nb::module_& m) {
-  Record<StarReport>(m, "StarReport", "How a mesh is seen from a centre.").fields();
+  Record<StarReport>(m, "StarReport", "Visibility of a mesh from a centre.").fields();
   m.def("find_center", [](const Mesh& mesh, const CenterOptions& options, const Caller& caller) {
     return caller.run([&](const Context& context) { return find_center(mesh, options, context); });
   });
@@ -63,7 +63,7 @@ void bind_star(nb::module_& m) {
     return caller.run(
         [&](const Context& context) { return check_star(mesh, center, rays, context); });
   });
-  nb::class_<StarChart> chart_class(m, "StarChart", "A mesh seen from a centre.");
+  nb::class_<StarChart> chart_class(m, "StarChart", "A mesh relative to its centre.");
   bind_state(
       chart_class, [](const StarChart& chart) { return nb::make_tuple(chart.mesh, chart.report); },
       [](const nb::object& state) {
@@ -79,27 +79,28 @@ void bind_star(nb::module_& m) {
 }
 
 void bind_options(nb::module_& m) {
-  Options<TransformOptions>(m, "TransformOptions", "Function to expand, and method.").fields();
-  Options<Tolerance>(m, "Tolerance", "The largest error that is allowed.").fields();
-  Options<CenterOptions>(m, "CenterOptions", "Where the centre is sought.").fields();
+  Options<TransformOptions>(m, "TransformOptions",
+                            "Options of the transform from a chart to coefficients.")
+      .fields();
+  Options<Tolerance>(m, "Tolerance", "Largest allowed error of a model.").fields();
+  Options<CenterOptions>(m, "CenterOptions", "Options of the centre.").fields();
   m.def("parse_center", &parse_center);
   Options<ChartOptions>(m, "ChartOptions",
-                        "Rules for the centre, and for surfaces that are not star-shaped.")
+                        "Options of a chart: the centre, and surfaces that are not star-shaped.")
       .fields();
-  Options<ExpandOptions>(m, "ExpandOptions", "Degree, precision and error figures of an expansion.")
+  Options<ExpandOptions>(m, "ExpandOptions", "Options of `expand`: degree, precision and errors.")
       .fields();
 }
 
 void bind_results(nb::module_& m) {
-  Record<FastReport>(m, "FastReport", "How the fast engine did it.").fields();
-  Record<Transform>(m, "Transform", "How coefficients were found.")
+  Record<FastReport>(m, "FastReport", "Report of the fast engine.").fields();
+  Record<Transform>(m, "Transform", "Report of a transform to coefficients.")
       .fields()
       .hidden("expansion", [](Transform& a) -> Expansion& { return a.expansion; })
       .type()
       .def_prop_ro("expansion", [](const Transform& a) { return a.expansion; });
-  Record<ToleranceReport>(m, "ToleranceReport", "How a tolerance was kept.").fields();
-  Record<Expanded>(m, "Expanded", "What was found out on the way from a mesh to an expansion.")
-      .fields();
+  Record<ToleranceReport>(m, "ToleranceReport", "Report on a wanted tolerance.").fields();
+  Record<Expanded>(m, "Expanded", "Report of `expand`.").fields();
 }
 
 void bind_expand(nb::module_& m) {
@@ -146,7 +147,7 @@ void bind_norms(nb::module_& m) {
         [&] { return vertex_error_strength(chart, parse_name<RadialFunction>(function)); });
   });
   Record<ErrorStrengths>(m, "ErrorStrengths",
-                         "The largest truncation errors at vertices, times 2 pi (L + 1).")
+                         "Largest truncation errors at vertices, times 2 pi (L + 1).")
       .fields();
   m.def("vertex_error_strengths", [](const Mesh& mesh, const Vec3& center) {
     return unlocked([&] { return vertex_error_strengths(view_of(mesh), center); });
@@ -172,9 +173,8 @@ void bind_norms(nb::module_& m) {
 }
 
 void bind_monte_carlo(nb::module_& m) {
-  Options<MonteCarloOptions>(m, "MonteCarloOptions", "How much is wanted, and when to stop.")
-      .fields();
-  Record<MonteCarlo>(m, "MonteCarlo", "Coefficients by random points, and how far they may be off.")
+  Options<MonteCarloOptions>(m, "MonteCarloOptions", "Options of `monte_carlo`.").fields();
+  Record<MonteCarlo>(m, "MonteCarlo", "Coefficients from random points, and their standard errors.")
       .fields()
       .hidden("expansion", [](MonteCarlo& found) -> Expansion& { return found.expansion; })
       .hidden("deviation", [](MonteCarlo& found) -> Coefficients& { return found.deviation; })

@@ -10,17 +10,16 @@ namespace {
 
 constexpr std::array kErrors = {
     ErrorInfo{ErrorCode::kInvalidInput, "InvalidInput", 3, "InvalidInputError", "ValueError",
-              "The data cannot mean what was asked: a malformed file, NaN, an open mesh, a number "
-              "out of range."},
+              "The input is invalid: a malformed file, NaN, an open mesh, a number out of range."},
     ErrorInfo{ErrorCode::kIo, "Io", 1, "IoError", "OSError",
-              "The operating system refused to read or write."},
+              "The operating system could not read or write a file."},
     ErrorInfo{ErrorCode::kUnsupported, "Unsupported", 3, "UnsupportedError", "",
-              "Well-formed, but a variant that is not handled."},
+              "The input is well-formed, but of a variant that is not supported."},
     ErrorInfo{ErrorCode::kNotStarShaped, "NotStarShaped", 3, "NotStarShapedError",
               "InvalidInputError",
-              "The surface is not star-shaped from any, or the given, centre."},
+              "The surface is not star-shaped from the given centre, or from any centre."},
     ErrorInfo{ErrorCode::kOutOfMemory, "OutOfMemory", 1, "OutOfMemoryError", "MemoryError",
-              "More memory than allowed would be needed."},
+              "The task needs more memory than is allowed."},
     ErrorInfo{ErrorCode::kNotConverged, "NotConverged", 4, "NotConvergedError", "ArithmeticError",
               "A tolerance was not reached within the limits."},
     ErrorInfo{ErrorCode::kCancelled, "Cancelled", 128, "CancelledError", "",

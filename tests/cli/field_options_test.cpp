@@ -46,7 +46,7 @@ TEST(field_options, say_units_choices_and_defaults) {
     return found == all.end() ? "" : option_heading(*found) + ": " + found->help;
   };
   EXPECT_EQ(help("size"),
-            "--size S: how large; a part of the diagonal of the bounding box; 2 by default");
+            "--size S: how large; a fraction of the bounding box's diagonal; 2 by default");
   EXPECT_EQ(help("share-of-all"), "--share-of-all auto|P: how much");
   EXPECT_EQ(help("count"), "--count N: how many; 3 by default");
   EXPECT_EQ(help("flag"), "--flag: whether");

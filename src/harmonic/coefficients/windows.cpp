@@ -34,44 +34,46 @@ double smooth_step(double x) {
   return 1 / (1 + std::exp(1 / (1 - x) - 1 / x));
 }
 
-constexpr WindowParameter kTime[] = {{.name = "time",
-                                      .symbol = "t",
-                                      .help = "by default the gain at degree L is a half",
-                                      .field = &WindowOptions::time,
-                                      .min = 1e-12,
-                                      .max = 1e6,
-                                      .replaces_cutoff = true}};
-constexpr WindowParameter kOrder[] = {{.name = "order",
-                                       .symbol = "p",
-                                       .help = "a higher order is sharper",
-                                       .field = &WindowOptions::order,
-                                       .min = 1,
-                                       .max = 64}};
+constexpr WindowParameter kTime[] = {
+    {.name = "time",
+     .symbol = "t",
+     .help = "diffusion time; by default the gain at degree L is 1/2",
+     .field = &WindowOptions::time,
+     .min = 1e-12,
+     .max = 1e6,
+     .replaces_cutoff = true}};
+constexpr WindowParameter kOrder[] = {
+    {.name = "order",
+     .symbol = "p",
+     .help = "order of the exponent; a higher order gives a sharper fall",
+     .field = &WindowOptions::order,
+     .min = 1,
+     .max = 64}};
 
 constexpr WindowInfo kWindows[] = {
     {.window = Window::kIdeal,
      .name = "ideal",
      .formula = "1",
-     .help = "the closest to the shape, and the most ringing",
+     .help = "closest to the shape, with the most ringing",
      .overshoot = 0.089,
      .gain = [](double, double, const WindowOptions&) { return 1.0; }},
     {.window = Window::kLanczos,
      .name = "lanczos",
      .formula = "sin(x)/x, x = pi l/(L+1)",
-     .help = "little ringing, and detail nearly up to degree L",
+     .help = "little ringing, with detail kept nearly up to degree L",
      .overshoot = 0.014,
      .gain = [](double l, double cutoff, const WindowOptions&) { return lanczos(l, cutoff); }},
     {.window = Window::kLanczos2,
      .name = "lanczos2",
      .formula = "(sin(x)/x)^2, x = pi l/(L+1)",
-     .help = "the square of lanczos: less ringing, more blur",
+     .help = "less ringing and more blur than lanczos",
      .overshoot = 0.0046,
      .gain = [](double l, double cutoff,
                 const WindowOptions&) { return std::pow(lanczos(l, cutoff), 2); }},
     {.window = Window::kGaussian,
      .name = "gaussian",
      .formula = "exp(-2.4 l(l+1)/(L(L+1)))",
-     .help = "nearly a blur by a Gaussian on the sphere",
+     .help = "approximates a Gaussian blur on the sphere",
      .overshoot = 0.0026,
      .gain =
          [](double l, double cutoff, const WindowOptions&) {
@@ -80,7 +82,7 @@ constexpr WindowInfo kWindows[] = {
     {.window = Window::kHeat,
      .name = "heat",
      .formula = "exp(-t l(l+1)), not cut off at L",
-     .help = "the surface as heat spreads for the time t: no ringing, and a positive radius stays "
+     .help = "heat diffusion on the sphere for the time t: no ringing, and a positive radius stays "
              "positive",
      .overshoot = 0,
      .gain =
@@ -93,7 +95,7 @@ constexpr WindowInfo kWindows[] = {
     {.window = Window::kExponential,
      .name = "exponential",
      .formula = "exp(-36 (l/(L+1))^p)",
-     .help = "from a blur to nearly ideal, by the order p",
+     .help = "from a blur to a nearly ideal filter, depending on the order p",
      .overshoot = 0.057,
      .gain =
          [](double l, double cutoff, const WindowOptions& options) {
@@ -102,8 +104,8 @@ constexpr WindowInfo kWindows[] = {
      .parameters = kOrder},
     {.window = Window::kPlateau,
      .name = "plateau",
-     .formula = "1 to L/2, then an infinitely smooth step to 0 at L+1, as of needlets",
-     .help = "degrees up to L/2 stay as they are",
+     .formula = "1 up to L/2, then an infinitely smooth step to 0 at L+1, as in needlets",
+     .help = "degrees up to L/2 stay unchanged",
      .overshoot = 0.086,
      .gain = [](double l, double cutoff,
                 const WindowOptions&) { return smooth_step(2 * (l / (cutoff + 1)) - 1); }},
