@@ -1,11 +1,12 @@
 // Reconstruction of surfaces from points. Layer: reconstruct.
 //
-// Up to ReconstructOptions::tile_points points are reconstructed in one tile. Larger clouds are cut
-// into tiles of space by a tree that depends on the points alone. Each tile uses the points around
-// it too, and the parts join to one surface without seams. The surface depends on points and
-// options only: its bytes are the same for any number of threads, memory and folder. With several
-// tiles the order of points does not matter either, except at points with the same place: the
-// attributes of the first one are used.
+// Space is cut into tiles by a tree that depends on the points alone. Up to
+// ReconstructOptions::tile_points points are one tile. Each tile uses the points around it too, and
+// the parts join to one surface without seams.
+//
+// The surface depends on points and options only: its bytes are the same for any number of threads,
+// memory and folder. The order of points does not matter either, except at points with the same
+// place: the attributes of the first one are used.
 #pragma once
 
 #include <cstddef>
@@ -80,7 +81,7 @@ struct ReconstructOptions {
   // are not closed across space that lines of sight show to be empty.
   std::optional<Vec3> sensor = {};
   // True: points with an attribute `scan` stay in place. False: align_scans() aligns scans first;
-  // with several tiles, it finds the motions from a sample of at most tile_points points.
+  // it finds the motions from a sample of at most tile_points points.
   bool keep_scans = false;
   // Adds a vertex attribute `confidence`, 0 ... 1, in place of an existing one: the confidence of
   // the signs of computed normals. It is reduced far from points (0 from four spacings on) and
@@ -254,8 +255,8 @@ struct ReconstructReport {
   // thinner than one and a half spacings, and with a confidence below 1/2.
   double unseen_area = 0, thin_area = 0, unsure_area = 0;
   std::size_t memory = 0;    // estimate for points, grid and surface, bytes
-  StageTimes times;          // "points", "caps", "surface", "attributes"; tiles: "survey", ...
-  Bounds bounds = {};        // box of finite points; several tiles: without far isolated points
+  StageTimes times;          // "survey", ..., "caps", ..., "surface", "attributes"
+  Bounds bounds = {};        // box of finite points without far isolated points
   std::uint64_t tiles = 1;   // number of tiles
   std::uint64_t stored = 0;  // largest amount of bytes stored between steps of tiles
   std::uint64_t vertices = 0, triangles = 0;  // numbers, of the surface
@@ -344,8 +345,7 @@ void visit_fields(FieldsOf<ReconstructReport>, const Visitor& field) {
   field(&R::memory, {.name = "memory", .help = "foreseen, bytes"});
   field(&R::times, {.name = "times", .help = "stages: (wall, cpu) in seconds"});
   field(&R::bounds,
-        {.name = "bounds",
-         .help = "the box of the points that are finite; of several tiles without far strays"});
+        {.name = "bounds", .help = "the box of the points that are finite, without far strays"});
   field(&R::tiles, {.name = "tiles", .help = "number that space was cut into"});
   field(&R::stored,
         {.name = "stored", .help = "bytes between the steps of several tiles, at most at a time"});

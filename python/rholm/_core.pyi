@@ -2779,9 +2779,7 @@ class ReconstructReport:
 
     @property
     def bounds(self) -> Bounds:
-        """
-        The box of the points that are finite; of several tiles without far strays.
-        """
+        """The box of the points that are finite, without far strays."""
 
     @property
     def tiles(self) -> int:
