@@ -1,11 +1,12 @@
 // Reconstruction of surfaces from points. Layer: reconstruct.
 //
-// Up to ReconstructOptions::tile_points points are reconstructed in one tile. Larger clouds are cut
-// into tiles of space by a tree that depends on the points alone. Each tile uses the points around
-// it too, and the parts join to one surface without seams. The surface depends on points and
-// options only: its bytes are the same for any number of threads, memory and folder. With several
-// tiles the order of points does not matter either, except at points with the same place: the
-// attributes of the first one are used.
+// Space is cut into tiles by a tree that depends on the points alone. Up to
+// ReconstructOptions::tile_points points are one tile. Each tile uses the points around it too, and
+// the parts join to one surface without seams.
+//
+// The surface depends on points and options only: its bytes are the same for any number of threads,
+// memory and folder. The order of points does not matter either, except at points with the same
+// place: the attributes of the first one are used.
 #pragma once
 
 #include <cstddef>
@@ -83,7 +84,7 @@ struct ReconstructOptions {
   // are not closed across space that lines of sight show to be empty.
   std::optional<Vec3> sensor = {};
   // True: points with an attribute `scan` stay in place. False: align_scans() aligns scans first;
-  // with several tiles, it finds the motions from a sample of at most tile_points points.
+  // it finds the motions from a sample of at most tile_points points.
   bool keep_scans = false;
   // Adds a vertex attribute `confidence`, 0 ... 1, in place of an existing one: the confidence of
   // the signs of computed normals. It is reduced far from points (0 from four spacings on) and
@@ -259,8 +260,8 @@ struct ReconstructReport {
   // thinner than one and a half spacings, and with a confidence below 1/2.
   double unseen_area = 0, thin_area = 0, unsure_area = 0;
   std::size_t memory = 0;    // estimate for points, grid and surface, bytes
-  StageTimes times;          // "points", "caps", "surface", "attributes"; tiles: "survey", ...
-  Bounds bounds = {};        // box of finite points; several tiles: without far isolated points
+  StageTimes times;          // "survey", ..., "caps", ..., "surface", "attributes"
+  Bounds bounds = {};        // box of finite points without far isolated points
   std::uint64_t tiles = 1;   // number of tiles
   std::uint64_t stored = 0;  // largest amount of bytes stored between steps of tiles
   std::uint64_t vertices = 0, triangles = 0;  // numbers, of the surface
@@ -368,8 +369,8 @@ void visit_fields(FieldsOf<ReconstructReport>, const Visitor& field) {
   field(&R::times,
         {.name = "times", .help = "wall and CPU time of each stage, in seconds: (wall, cpu)"});
   field(&R::bounds, {.name = "bounds",
-                     .help = "bounding box of the finite points; with several tiles, without "
-                             "points isolated far away"});
+                     .help = "bounding box of the finite points, without points isolated far "
+                             "away"});
   field(&R::tiles, {.name = "tiles", .help = "number of tiles that space was cut into"});
   field(&R::stored,
         {.name = "stored",

@@ -118,11 +118,10 @@ def reconstruct(
     """Reconstructs a surface from points. It is the same as from ``rholm reconstruct`` with these
     options.
 
-    Up to `tile_points` points are reconstructed in one tile. More are cut into tiles of space. Each
-    tile uses the points around it too, and the parts join to one surface without seams. The bytes
-    of the surface are the same for any memory, number of threads and folder. With several tiles the
-    order of points does not matter either, except at points with the same place: the attributes of
-    the first one are used.
+    Space is cut into tiles of at most `tile_points` points; fewer points are one tile. Each tile
+    uses the points around it too, and the parts join to one surface without seams. The bytes of the
+    surface are the same for any memory, number of threads and folder. The order of points does not
+    matter either, except at points with the same place: the attributes of the first one are used.
 
     Parameters
     ----------

@@ -13,8 +13,6 @@
 #include "base/refuse.h"
 #include "parts/threads.h"
 #include "reconstruct/points/mesh_points.h"
-#include "reconstruct/points/point_rows.h"
-#include "reconstruct/reconstruct_piece.h"
 #include "reconstruct/shared_tiles.h"
 #include "rholm/error.h"
 #include "rholm/formats.h"
@@ -43,46 +41,6 @@ bool is_once(const std::filesystem::path& path) {
          (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error));
 }
 
-bool are_more(const PointCloud& cloud, std::uint64_t most) {
-  if (cloud.points.size() <= most) return false;
-  const auto finite = std::count_if(cloud.points.begin(), cloud.points.end(),
-                                    [](const Vec3& p) { return is_finite(p); });
-  return static_cast<std::uint64_t>(finite) > most;
-}
-
-void write(const ReconstructOptions& options, Reconstruction& made, const Context& context) {
-  if (!options.output.empty()) {
-    for (std::string& warning :
-         write_shape(made.mesh, options.output, {.format = ShapeFormat::kPly}, context)) {
-      made.report.warnings.push_back(std::move(warning));
-    }
-  }
-  if (!options.model.empty()) write_atlas(made.model, options.model);
-  if (!options.output.empty()) made.mesh = {}, made.model = {};
-}
-
-Reconstruction in_one_piece(PointCloud cloud, std::uint64_t dropped,
-                            const ReconstructOptions& options, const Context& context) {
-  Reconstruction made;
-  try {
-    made = reconstruct_piece(std::move(cloud), options, context);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::kOutOfMemory) throw;
-    throw Error(error.code(),
-                fmt::format("{}; or {}", error.what(), advice_of_tiles(options.max_memory)));
-  }
-  add_dropped(dropped, made.report);
-  made.model.input_numbers = 3 * made.report.points;
-  write(options, made, context);
-  return made;
-}
-
-Reconstruction in_tiles(const PointCloud& cloud, std::uint64_t dropped,
-                        const ReconstructOptions& options, const Context& context) {
-  Threads alone;
-  return reconstruct_tiles(cloud, dropped, options, {.executor = alone}, context);
-}
-
 // A mesh, and what cannot be read in portions.
 Reconstruction of_whole_file(const std::filesystem::path& points, const std::string& columns,
                              const ReconstructOptions& options, const Context& context) {
@@ -90,9 +48,9 @@ Reconstruction of_whole_file(const std::filesystem::path& points, const std::str
   auto* mesh = std::get_if<Mesh>(&file.shape);
   PointCloud cloud = mesh != nullptr ? points_of_mesh(std::move(*mesh))
                                      : std::get<PointCloud>(std::move(file.shape));
-  Reconstruction made = are_more(cloud, options.tile_points)
-                            ? in_tiles(cloud, file.dropped, options, context)
-                            : in_one_piece(std::move(cloud), file.dropped, options, context);
+  Threads alone;
+  Reconstruction made =
+      reconstruct_tiles(std::move(cloud), file.dropped, options, {.executor = alone}, context);
   if (file.table.unsure) made.report.warnings.push_back(file.table.note);
   if (file.dropped > 0) {
     made.report.warnings.push_back(
@@ -101,7 +59,8 @@ Reconstruction of_whole_file(const std::filesystem::path& points, const std::str
   return made;
 }
 
-// Whether the file has more points that are finite, and is read in portions.
+// Returns whether the file is read in portions and has more finite points. Files with fewer points
+// are read as a whole, because then any row may change the type of its column.
 bool has_more(const std::filesystem::path& points, const std::string& columns, std::uint64_t most,
               const Context& context) {
   try {
@@ -116,36 +75,6 @@ bool has_more(const std::filesystem::path& points, const std::string& columns, s
   }
 }
 
-// All points of the source, if they are no more.
-std::optional<PointCloud> those_of(PointSource& source, std::uint64_t most,
-                                   const Context& context) {
-  PointCloud all, piece;
-  PointLayout layout;
-  while (source.next(piece, context)) {
-    if (all.points.empty()) {
-      layout = layout_of(piece);
-      all = piece;
-    } else {
-      widen(layout, layout_of(piece));
-      all.points.insert(all.points.end(), piece.points.begin(), piece.points.end());
-      all.normals.insert(all.normals.end(), piece.normals.begin(), piece.normals.end());
-      for (std::size_t k = 0; k < all.attributes.size(); ++k) {
-        const std::vector<double>& more = piece.attributes[k].values;
-        std::vector<double>& values = all.attributes[k].values;
-        values.insert(values.end(), more.begin(), more.end());
-      }
-    }
-    if (all.points.size() > most) return std::nullopt;
-    ask_cancel();
-  }
-  for (Attribute& attribute : all.attributes) {
-    for (const ColumnLayout& column : layout.columns) {
-      if (column.name == attribute.name) attribute.type = column.type;
-    }
-  }
-  return all;
-}
-
 }  // namespace
 
 void add_dropped(std::size_t n, ReconstructReport& report) {
@@ -156,34 +85,25 @@ void add_dropped(std::size_t n, ReconstructReport& report) {
 Reconstruction reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                            const Context& context) {
   check_call(options);
-  if (are_more(cloud, options.tile_points)) return in_tiles(cloud, 0, options, context);
-  return in_one_piece(cloud, 0, options, context);
+  Threads alone;
+  return reconstruct_tiles(cloud, 0, options, {.executor = alone}, context);
 }
 
 Reconstruction reconstruct(PointCloud&& cloud, const ReconstructOptions& options,
                            const Context& context) {
   check_call(options);
-  if (are_more(cloud, options.tile_points)) return in_tiles(cloud, 0, options, context);
-  return in_one_piece(std::move(cloud), 0, options, context);
+  Threads alone;
+  return reconstruct_tiles(std::move(cloud), 0, options, {.executor = alone}, context);
 }
 
 Reconstruction reconstruct(const std::filesystem::path& points, const ReconstructOptions& options,
                            const Context& context, const std::string& columns) {
   check_call(options);
-  Threads alone;
-  SharedRun run{.executor = alone};
-  if (is_once(points)) {
-    run.instead = [&](PointSource& source) -> std::optional<Reconstruction> {
-      std::optional<PointCloud> few = those_of(source, options.tile_points, context);
-      if (!few) return std::nullopt;
-      Reconstruction made = in_one_piece(std::move(*few), source.dropped(), options, context);
-      made.report.warnings = source.warnings();
-      return made;
-    };
-  } else if (!has_more(points, columns, options.tile_points, context)) {
+  if (!is_once(points) && !has_more(points, columns, options.tile_points, context)) {
     return of_whole_file(points, columns, options, context);
   }
-  return reconstruct_tiles(points, columns, options, run, context);
+  Threads alone;
+  return reconstruct_tiles(points, columns, options, {.executor = alone}, context);
 }
 
 }  // namespace rholm

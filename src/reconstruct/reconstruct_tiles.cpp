@@ -99,12 +99,16 @@ bool fits_in_memory(std::uint64_t points, const ReconstructOptions& options) {
 }
 
 // What is known between the steps: in a folder that the next run finds again, or in one that goes
-// with it, or in memory.
+// with it, or in memory, as of one tile.
 class TileStore {
  public:
   // `n` points, if that is known. `input` gives what a folder to resume from remembers of them.
   TileStore(std::optional<std::uint64_t> n, const ReconstructOptions& options, bool is_shared,
             const std::function<std::string()>& input) {
+    if (n && *n <= options.tile_points && !is_shared) {
+      store_ = std::make_unique<MemoryStore>();
+      return;
+    }
     const std::filesystem::path base =
         options.work_dir.empty() ? std::filesystem::temp_directory_path() : options.work_dir;
     if (options.resume) {
@@ -137,6 +141,30 @@ constexpr double kGibibyte = 0x1p30;
 double rounded_up(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
   return unit * std::ceil(value / unit);
+}
+
+// "take smaller tiles (--tile-points 4900)", which fit into so much memory; where none do, how much
+// memory would be enough.
+std::string advice_of_tiles(std::uint64_t max_memory) {
+  constexpr double kOfPoint = kForecastError * kSeveralTiles * static_cast<double>(kMemoryOfPoint);
+  const auto given = static_cast<double>(max_memory);
+  const double points = std::max(given, kLeastMemory) / kOfPoint;
+  const double unit = std::pow(10, std::floor(std::log10(points)) - 1);
+  const double tile = unit * std::floor(points / unit);
+  if (given >= kLeastMemory) return fmt::format("take smaller tiles (--tile-points {:.0f})", tile);
+  return fmt::format("{:.2g} GiB would do for tiles of {:.0f} points (--tile-points {:.0f})",
+                     rounded_up(kLeastMemory / kGibibyte), tile, tile);
+}
+
+// Throws if the points of the only tile need too much memory. The grid is checked later.
+void check_only(std::uint64_t points, std::uint64_t max_memory) {
+  const std::uint64_t least = kMemoryOfOnly * points;
+  if (least <= max_memory) return;
+  throw Error(ErrorCode::kOutOfMemory,
+              fmt::format("{} points in one tile need more than {:.2g} GiB, and {:.2g} are "
+                          "allowed: allow more memory",
+                          points, static_cast<double>(least) / kGibibyte,
+                          static_cast<double>(max_memory) / kGibibyte));
 }
 
 // What the points themselves decide is not known before.
@@ -179,7 +207,13 @@ Reconstruction reconstruct_source(const TileStore& store,
   std::unique_ptr<PointSource> source = open();
   ScanAlignment scans;
   std::uint64_t memory = 0;
+  bool is_only = false;  // one tile
   const auto foreseen = [&](const Survey& survey, std::size_t n_tiles) {
+    is_only = n_tiles == 1;
+    if (is_only) {
+      check_only(survey.points, options.max_memory);
+      return;
+    }
     TileForecast forecast = foresee_tiles(survey.points, options.tile_points);
     forecast.tiles = n_tiles;
     memory = forecast.memory;
@@ -190,20 +224,43 @@ Reconstruction reconstruct_source(const TileStore& store,
     if (options.foreseen) options.foreseen(forecast);
   };
   try {
-    std::optional<Reconstruction> made = run.instead ? run.instead(*source) : std::nullopt;
-    if (!made) {
-      source = with_moved_scans(std::move(source), *store, options, scans, context);
+    source = with_moved_scans(std::move(source), *store, options, scans, context);
+    Reconstruction made;
+    try {
       made = run_tiles(*source, *store, {.reconstruct = options, .foreseen = foreseen},
                        run.executor, context);
-      made->report.memory = memory;
-      made->report.scans = scans;
+    } catch (const Error& error) {
+      if (!is_only || error.code() != ErrorCode::kOutOfMemory) throw;
+      throw Error(error.code(),
+                  fmt::format("{}; or {}", error.what(), advice_of_tiles(options.max_memory)));
     }
+    if (!is_only) made.report.memory = memory;
+    made.report.scans = scans;
     store->keep(false);
-    return std::move(*made);
+    return made;
   } catch (...) {
     if (run.failed) run.failed(std::current_exception());
     throw;
   }
+}
+
+Reconstruction reconstruct_cloud(const PointCloud& points, const ReconstructOptions& options,
+                                 const SharedRun& run, const Context& context,
+                                 const std::function<std::unique_ptr<PointSource>()>& open) {
+  check_fields(options);
+  const auto fits = [&](std::size_t n) { return n == points.points.size(); };
+  if (!points.normals.empty() && !fits(points.normals.size())) {
+    refuse(fmt::format("there are {} normals for {} points", points.normals.size(),
+                       points.points.size()));
+  }
+  for (const Attribute& attribute : points.attributes) {
+    if (fits(attribute.values.size())) continue;
+    refuse(fmt::format("the attribute {} has {} values for {} points", attribute.name,
+                       attribute.values.size(), points.points.size()));
+  }
+  const TileStore store(points.points.size(), options, run.executor.is_shared(),
+                        [&] { return text_of(points); });
+  return reconstruct_source(store, open, options, run, context);
 }
 
 }  // namespace
@@ -221,17 +278,6 @@ std::uint64_t enough_for_tiles(std::uint64_t points, std::uint64_t tile_points) 
   const std::uint64_t of_tile = kMemoryOfPoint * std::min(points, tile_points);
   return static_cast<std::uint64_t>(kForecastError * (points > tile_points ? kSeveralTiles : 1) *
                                     static_cast<double>(of_tile));
-}
-
-std::string advice_of_tiles(std::uint64_t max_memory) {
-  constexpr double kOfPoint = kForecastError * kSeveralTiles * static_cast<double>(kMemoryOfPoint);
-  const auto given = static_cast<double>(max_memory);
-  const double points = std::max(given, kLeastMemory) / kOfPoint;
-  const double unit = std::pow(10, std::floor(std::log10(points)) - 1);
-  const double tile = unit * std::floor(points / unit);
-  if (given >= kLeastMemory) return fmt::format("take smaller tiles (--tile-points {:.0f})", tile);
-  return fmt::format("{:.2g} GiB would do for tiles of {:.0f} points (--tile-points {:.0f})",
-                     rounded_up(kLeastMemory / kGibibyte), tile, tile);
 }
 
 Reconstruction reconstruct_tiles(const std::filesystem::path& points, const std::string& columns,
@@ -253,21 +299,15 @@ Reconstruction reconstruct_tiles(const std::filesystem::path& points, const std:
 Reconstruction reconstruct_tiles(const PointCloud& points, std::uint64_t dropped,
                                  const ReconstructOptions& options, const SharedRun& run,
                                  const Context& context) {
-  check_fields(options);
-  const auto fits = [&](std::size_t n) { return n == points.points.size(); };
-  if (!points.normals.empty() && !fits(points.normals.size())) {
-    refuse(fmt::format("there are {} normals for {} points", points.normals.size(),
-                       points.points.size()));
-  }
-  for (const Attribute& attribute : points.attributes) {
-    if (fits(attribute.values.size())) continue;
-    refuse(fmt::format("the attribute {} has {} values for {} points", attribute.name,
-                       attribute.values.size(), points.points.size()));
-  }
-  const TileStore store(points.points.size(), options, run.executor.is_shared(),
-                        [&] { return text_of(points); });
-  return reconstruct_source(
-      store, [&] { return points_in_memory(points, dropped); }, options, run, context);
+  return reconstruct_cloud(points, options, run, context,
+                           [&] { return points_in_memory(points, dropped); });
+}
+
+Reconstruction reconstruct_tiles(PointCloud&& points, std::uint64_t dropped,
+                                 const ReconstructOptions& options, const SharedRun& run,
+                                 const Context& context) {
+  return reconstruct_cloud(points, options, run, context,
+                           [&] { return points_in_memory(std::move(points), dropped); });
 }
 
 void help_reconstruct(const std::filesystem::path& folder, const ReconstructOptions& options,

@@ -1,16 +1,13 @@
-// Reconstruction in one piece, in tiles, and in tiles by several processes with one folder. Layer:
-// model, private.
+// Reconstruction by this process, and by several with one folder. Layer: reconstruct, private.
 #pragma once
 
 #include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "parts/executor.h"
-#include "reconstruct/points/point_source.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "rholm/reconstruct.h"
@@ -24,18 +21,20 @@ struct SharedRun {
   std::function<void(const std::filesystem::path& folder)> begun = {};
   // Called with what is thrown, before the folder goes: others may find nothing there then.
   std::function<void(const std::exception_ptr&)> failed = {};
-  // Asked before the work on tiles; what it makes of the points, if anything, is the result.
-  std::function<std::optional<Reconstruction>(PointSource& source)> instead = {};
 };
 
-// As reconstruct() of more points than options.tile_points, of a file that PointStream reads. The
-// output may have any name.
+// Reconstructs a file that PointStream can read, as reconstruct() does. The output may have any
+// name.
 Reconstruction reconstruct_tiles(const std::filesystem::path& points, const std::string& columns,
                                  const ReconstructOptions& options, const SharedRun& run,
                                  const Context& context);
 // The same of points in memory, which must not change meanwhile. `dropped` more were left out by
 // their reader.
 Reconstruction reconstruct_tiles(const PointCloud& points, std::uint64_t dropped,
+                                 const ReconstructOptions& options, const SharedRun& run,
+                                 const Context& context);
+// The same, without a copy of the points.
+Reconstruction reconstruct_tiles(PointCloud&& points, std::uint64_t dropped,
                                  const ReconstructOptions& options, const SharedRun& run,
                                  const Context& context);
 
@@ -47,8 +46,5 @@ void help_reconstruct(const std::filesystem::path& folder, const ReconstructOpti
 // Bytes of ReconstructOptions::max_memory that are enough for the work on tiles, beside what is
 // stored in memory: with what runs have taken beyond their forecast.
 std::uint64_t enough_for_tiles(std::uint64_t points, std::uint64_t tile_points);
-// "take smaller tiles (--tile-points 4900)", which fit into so much memory; where none do, how much
-// memory would be enough.
-std::string advice_of_tiles(std::uint64_t max_memory);
 
 }  // namespace rholm

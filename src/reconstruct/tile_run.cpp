@@ -13,6 +13,7 @@
 #include "atlas/cover/cap_cover.h"
 #include "atlas/cover/cap_size.h"
 #include "base/check_fields.h"
+#include "base/large_vector.h"
 #include "base/log_histogram.h"
 #include "reconstruct/caps/tile_caps.h"
 #include "reconstruct/cloud/tile_cloud.h"
@@ -33,6 +34,8 @@
 #include "reconstruct/surface/tile_surface.h"
 #include "rholm/atlas_model.h"
 #include "rholm/error.h"
+#include "rholm/shape_io.h"
+#include "shape/measure.h"
 #include "shape/points/crossings.h"
 #include "shape/points/sensors.h"
 #include "shape/points/wall_check.h"
@@ -46,13 +49,17 @@ namespace {
 constexpr std::size_t kTrees = 24;
 // What the stages cost, us a point on one thread: measured on 4 million points (bench/tiles), but
 // for confidence and simplify, which are chosen.
-std::vector<StageCost> costs(const ReconstructOptions& options) {
-  std::vector<StageCost> all = {
-      {"survey", 0.05}, {"signs", 0.8},    {"distribute", 0.1}, {"sort", 0.2},
-      {"sample", 0.3},  {"cap size", 0.3}, {"caps", 2.1},       {"bands", 0.1},
-      {"grid", 2.2},    {"holes", 0.8},    {"crossings", 0.3},  {"surface", 3.0},
-      {"handles", 0.3}, {"parts", 0.4},    {"walls", 0.2},      {"write", 1.2}};
+std::vector<StageCost> costs_of_caps(const ReconstructOptions& options) {
+  std::vector<StageCost> all = {{"survey", 0.05}, {"signs", 0.8},    {"distribute", 0.1},
+                                {"sort", 0.2},    {"sample", 0.3},   {"cap size", 0.3},
+                                {"caps", 2.1},    {"crossings", 0.3}};
   if (!options.keep_outliers) all.push_back({"strays", 0.9});
+  return all;
+}
+std::vector<StageCost> costs_of_surface(const ReconstructOptions& options, std::size_t n_tiles) {
+  if (n_tiles == 1) return {{"surface", options.simplify ? 11.0 : 6.0}, {"attributes", 0.3}};
+  std::vector<StageCost> all = {{"bands", 0.1},   {"grid", 2.2},  {"holes", 0.8}, {"surface", 3.0},
+                                {"handles", 0.3}, {"parts", 0.4}, {"walls", 0.2}, {"write", 1.2}};
   if (options.confidence) all.push_back({"confidence", 2});
   if (options.simplify) all.push_back({"simplify", 5});
   return all;
@@ -65,36 +72,129 @@ class TileRun {
       : source_(source),
         store_(store),
         options_(options.reconstruct),
-        stages_(executor, store, costs(options_), report_.times, context),
+        stages_(executor, store, costs_of_caps(options_), report_.times, context),
         context_(stages_.context()),
         cloud_(source, store, options_, options_.tile_points, stages_, report_),
         n_(cloud_.n_tiles()) {
     if (options.foreseen) options.foreseen(cloud_.survey(), n_);
+    stages_.add(costs_of_surface(options_, n_));
     open_blocks_ = options.open_blocks;
     rules_ = kept_rules(options_);
-    rules_.tiles = true;
+    rules_.tiles = n_ > 1;
   }
 
   Reconstruction run() {
     cloud_.prepare();
     TileCaps caps = fit();
-    cloud_.keep_no_scenes();
     set_scene(caps);
+    report_.bounds = cloud_.survey().bounds;
+    report_.tiles = n_;
+    report_.coefficients = coefficients_, report_.warnings = source_.warnings();
+    Reconstruction made = n_ == 1 ? make_at_once(caps) : make_in_parts(caps);
+    made.report = std::move(report_);
+    return made;
+  }
+
+ private:
+  Reconstruction make_in_parts(TileCaps& caps) {
+    cloud_.keep_no_scenes();
+    find_bands(caps);
     TileWinding winding(caps, n_, kTrees);
     TileSurface surface(store_, cloud_.plan(), caps, winding, origin_);
     make_surface(surface, winding);
     Reconstruction made;
     made.mesh = join_and_write(surface);
     if (keeps_model()) stages_.once("model", [&] { made.model = model_of(caps); });
-    report_.bounds = cloud_.survey().bounds;
-    report_.tiles = n_, report_.stored = store_.most_bytes();
+    report_.stored = store_.most_bytes();
     report_.vertices = whole_.vertices, report_.triangles = whole_.triangles;
-    report_.coefficients = coefficients_, report_.warnings = source_.warnings();
-    made.report = std::move(report_);
     return made;
   }
 
- private:
+  // Makes the surface of the only tile, which has all caps, without parts that must fit each other.
+  Reconstruction make_at_once(TileCaps& caps) {
+    const std::optional<TileSeen> sight = look();
+    std::shared_ptr<TileScene> scene;
+    Reconstruction made;
+    stages_.once("surface", [&] {
+      const std::optional<SeenSpace> seen = sight ? sight->join(context_) : std::nullopt;
+      scene = std::make_shared<TileScene>(cloud_.take_only());
+      if (!options_.confidence) release(scene->points), release(scene->normals);
+      made.model = empty_model();
+      made.model.atlas = caps.all();
+      caps.forget();
+      made.mesh = extract(made.model.atlas, *scene, seen ? &*seen : nullptr);
+      if (seen) rules_.seen = seen->kept();
+    });
+    stages_.once("attributes", [&] { carry(scene, made.mesh); });
+    stages_.once("write", [&] {
+      made.model.rules = std::move(rules_);
+      write(made);
+    });
+    return made;
+  }
+
+  Mesh extract(const Atlas& atlas, const TileScene& scene, const SeenSpace* seen) {
+    NotedSpacings noted;
+    const Resolution resolution{
+        .typical = std::max(cloud_.sample().median, report_.step), .at = [&](const Vec3& place) {
+          std::vector<Neighbor> near;
+          const double found = spacing_around(*scene.tree, scene.gaps, place, near);
+          noted.note(place, found);
+          return std::max(found, report_.step);
+        }};
+    const auto judge = [&](Mesh& mesh) {
+      note_walls(check_walls(patches_, mesh, report_.step, context_), report_);
+    };
+    AtlasSurface surface = extract_atlas(atlas,
+                                         {.step = report_.step,
+                                          .keep_holes = is_open(),
+                                          .min_component = options_.min_component,
+                                          .simplify = options_.simplify,
+                                          .resolution = &resolution,
+                                          .seen = seen,
+                                          .judge = judge,
+                                          .max_memory = options_.max_memory,
+                                          .memory_in_use = kMemoryOfOnly * scene.tree->size()},
+                                         context_);
+    if (surface.mesh.triangles.empty()) {
+      throw Error(ErrorCode::kInvalidInput,
+                  fmt::format("a grid with steps of {:.3g} finds no surface of these points, "
+                              "{:.3g} apart, with a diagonal of {:.3g}: take smaller steps",
+                              report_.step, atlas.spacing, atlas.diagonal));
+    }
+    report_.holes = surface.holes, report_.smooth_holes = surface.smooth_holes;
+    report_.cut_handles = surface.cut_handles;
+    report_.dropped_components = surface.dropped_components;
+    report_.faces = surface.faces, report_.simplify_error = surface.simplify_error;
+    report_.memory = surface.memory;
+    report_.vertices = surface.mesh.vertices.size();
+    report_.triangles = surface.mesh.triangles.size();
+    const Sizes sums =
+        measure_sizes(view_of(surface.mesh), unit_frame(bounds(surface.mesh.vertices)), context_);
+    report_.volume = sums.volume, report_.area = sums.area;
+    if (!is_open()) report_.closed_area = surface.guessed * report_.area;
+    keep_spacings(noted.take(), rules_);
+    return std::move(surface.mesh);
+  }
+
+  void carry(const std::shared_ptr<TileScene>& scene, Mesh& mesh) {
+    const TileOutput out(store_, stages_, options_, cloud_.survey().layout, n_,
+                         [&](std::size_t) { return scene; });
+    put_areas(out.carry(0, mesh), report_);
+    rules_.left_out = carried_names(mesh.attributes);
+  }
+
+  void write(Reconstruction& made) {
+    if (!options_.output.empty()) {
+      for (std::string& warning :
+           write_shape(made.mesh, options_.output, {.format = ShapeFormat::kPly}, context_)) {
+        report_.warnings.push_back(std::move(warning));
+      }
+    }
+    if (!options_.model.empty()) write_atlas(made.model, options_.model);
+    if (!options_.output.empty()) made.mesh = {}, made.model = {};
+  }
+
   // Caps for the points, without those near the surface that belong to none.
   TileCaps fit() {
     const auto n = static_cast<double>(cloud_.n_points()),
@@ -159,14 +259,14 @@ class TileRun {
       const auto scene = cloud_.load_for(tile, cloud_.size().neighbours);
       CoverOptions wanted = cover_options(options_, cloud_.size());
       wanted.foreign = scene->foreign;
-      const Cover found = cover(scene->ordered(), wanted, context_);
+      Cover found = cover(scene->ordered(), wanted, context_);
       std::vector<std::uint32_t> rejected;
       for (const std::uint32_t i : found.rejected) {
         if (scene->foreign[i] == 0) rejected.push_back(scene->tree->order()[i]);
       }
       std::sort(rejected.begin(), rejected.end());
       caps.write_rejected(tile, rejected);
-      caps.write(tile, found, context_);
+      caps.write(tile, std::move(found), context_);
     });
     caps.read_extents();
     patches_ = {};
@@ -218,6 +318,9 @@ class TileRun {
     scene.diagonal = cloud_.survey().bounds.diagonal(), scene.blend = options_.blend;
     scene.band = kBandOfNoise * cloud_.size().noise;
     caps.set_scene(scene, report_.step);
+  }
+
+  void find_bands(TileCaps& caps) {
     if (!caps.have_bands()) return;
     stages_.each("bands", n_, [&](std::size_t tile) {
       if (!caps.has_bands(tile)) caps.find_bands(tile, context_);
@@ -399,16 +502,20 @@ class TileRun {
                   fmt::format("a model of {} caps needs {:.2g} GiB", report_.caps,
                               static_cast<double>(bytes) / 0x1p30));
     }
-    AtlasModel model{.atlas = caps.all(),
-                     .step = report_.step,
-                     .tolerance = options_.tolerance,
-                     .errors = {},
-                     .input_numbers = 3 * report_.points,
-                     .unit = {},
-                     .method = "reconstruct",
-                     .rules = rules_};
+    AtlasModel model = empty_model();
+    model.atlas = caps.all();
+    model.rules = rules_;
     if (!options_.model.empty()) write_atlas(model, options_.model);
     if (!options_.output.empty()) return {};
+    return model;
+  }
+
+  // Returns a model without caps and rules.
+  AtlasModel empty_model() const {
+    AtlasModel model;
+    model.step = report_.step, model.tolerance = options_.tolerance;
+    model.input_numbers = 3 * report_.points;
+    model.method = "reconstruct";
     return model;
   }
 

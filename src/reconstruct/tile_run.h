@@ -14,6 +14,10 @@
 
 namespace rholm {
 
+// Bytes for each point of the only tile, with its part of trees and caps: 347
+// (scripts/memory-figures).
+inline constexpr std::uint64_t kMemoryOfOnly = 350;
+
 struct TileRunOptions {
   ReconstructOptions reconstruct = {};
   // Blocks with open cubes that are closed together, but for those of one hole. Chosen: of few

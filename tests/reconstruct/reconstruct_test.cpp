@@ -201,7 +201,12 @@ TEST(Reconstruct, a_bowl_that_is_kept_open_has_one_sheet) {
   expect_manifold(found);
   EXPECT_EQ(found.components, 1U);
   EXPECT_EQ(found.euler_characteristic, 1);  // a disc
-  for (const Vec3& v : made.mesh.vertices) EXPECT_NEAR(norm(v), 1, made.report.step);
+  // The sphere is known. Along the border caps have points on one side only: of 12 bowls with other
+  // points 9 leave the sphere there by more than a step, the farthest by 1.3, 0.8 of the spacing.
+  const double spacing = made.report.spacing;
+  for (const Vec3& v : made.mesh.vertices) {
+    EXPECT_NEAR(norm(v), 1, v.z < -0.5 - 2 * spacing ? 1e-3 : spacing);
+  }
 }
 
 TEST(Reconstruct, an_open_half_is_closed_or_kept) {
@@ -472,11 +477,12 @@ TEST(Reconstruct, direction_does_not_matter) {
 }
 
 TEST(Reconstruct, stops_when_asked) {
-  for (const char* stage : {"caps", "grid", "vertices"}) {
+  for (const char* stage : {"strays", "caps", "surface"}) {
     bool seen = false;
     const Context context{.progress = [&](std::string_view name, double) {
-      seen = seen || name == stage;
-      return name != stage;
+      const bool now = name.starts_with(stage);  // the time that is left may follow
+      seen = seen || now;
+      return !now;
     }};
     try {
       reconstruct(sphere_points(5000), {}, context);

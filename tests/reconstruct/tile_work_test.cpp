@@ -1,11 +1,14 @@
 #include "rholm/reconstruct.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "reconstruct/torus_in_tiles.h"
@@ -195,6 +198,43 @@ TEST_F(TileReconstructWork, gives_the_same_in_memory_and_in_files) {
   const AtlasModel model = read_atlas(path("model.h5"));
   EXPECT_EQ(model.atlas.caps.size(), report.caps);
   EXPECT_EQ(model.atlas.coefficients.size(), report.coefficients);
+}
+
+// A plan with one tile gives the same bytes for any order of the points, and for points from
+// memory, a file and a pipe. With a pipe, points and intermediate results are kept in a folder.
+TEST_F(TileReconstructWork, of_one_tile_depends_on_the_set_of_points_only) {
+  for (const bool directed : {true, false}) {
+    PointCloud cloud = with_outliers(torus_points(6000), 100);
+    if (!directed) cloud.normals.clear();
+    std::vector<double> heights;
+    for (const Vec3& p : cloud.points) heights.push_back(p.z);
+    cloud.attributes.push_back({"height", ScalarType::kFloat64, heights});
+    const ReconstructReport report =
+        run(cloud, kTilePoints, "a.ply", {.model = path("a.h5")}, /*threads=*/1);
+    EXPECT_EQ(report.tiles, 1U);
+    EXPECT_EQ(report.computed_normals, !directed);
+    EXPECT_GT(report.outliers, 0U);
+
+    std::reverse(cloud.points.begin(), cloud.points.end());
+    std::reverse(cloud.normals.begin(), cloud.normals.end());
+    std::reverse(cloud.attributes[0].values.begin(), cloud.attributes[0].values.end());
+    write_shape(cloud, path("points.ply"));
+    run(std::get<PointCloud>(read_shape(path("points.ply")).shape), kTilePoints, "b.ply",
+        {.model = path("b.h5")}, /*threads=*/3);
+    reconstruct(path("points.ply"), {.output = path("c.ply"), .model = path("c.h5")});
+
+    const std::string points = bytes("points.ply");
+    ASSERT_EQ(::mkfifo(path("pipe.ply").c_str(), 0600), 0);
+    std::thread writer([&] { std::ofstream(path("pipe.ply"), std::ios::binary) << points; });
+    reconstruct(path("pipe.ply"),
+                {.output = path("d.ply"), .model = path("d.h5"), .work_dir = path("")});
+    writer.join();
+    std::filesystem::remove(path("pipe.ply"));
+    for (const std::string name : {"b", "c", "d"}) {
+      EXPECT_TRUE(bytes("a.ply") == bytes(name + ".ply")) << name;
+      EXPECT_TRUE(bytes("a.h5") == bytes(name + ".h5")) << name;
+    }
+  }
 }
 
 // A mesh gives its vertices, with the mean normals of their faces.

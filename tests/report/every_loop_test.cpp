@@ -22,9 +22,10 @@
 #include "reconstruct/field/tile_grid.h"
 #include "reconstruct/normals/tile_fit.h"
 #include "reconstruct/normals/tile_normals.h"
-#include "reconstruct/reconstruct_points.h"
 #include "reconstruct/tile_run.h"
 #include "rholm/rholm.h"
+#include "shape/points/outliers.h"
+#include "shape/points/sampling_gaps.h"
 #include "shape/queries/sheet_gaps.h"
 #include "shape/queries/winding_tree.h"
 #include "support/bits.h"
@@ -314,14 +315,18 @@ TEST(every_loop, gives_the_same_bits_for_many_points_and_discs) {
   discs.reserve(5000);
   for (std::size_t i = 0; i < 5000; ++i) discs.push_back({cloud.points[i], cloud.normals[i], 0.02});
   expect_same_bits([&](const Context& context) {
-    ReconstructReport report;
-    WorkingPoints points(cloud, {}, report, context);
-    const Cover caps = cover(points.ordered(), {}, context);
+    const PointTree tree(cloud.points, context);
+    std::vector<Vec3> points, normals;
+    for (const std::uint32_t i : tree.order()) {
+      points.push_back(cloud.points[i]), normals.push_back(cloud.normals[i]);
+    }
+    const SamplingGaps gaps = find_gaps(tree, points, normals, context);
+    const Cover caps = cover({tree, points, normals, &gaps, false}, {}, context);
     const auto blocks = list_blocks({}, 0.05, discs, 10000, context);
     Bits bits;
-    bits.add(points.ordered().tree.order()).add(caps.coefficients).add(std::span(blocks));
-    points.remove_outliers(0, cloud.points.size(), {}, context);
-    return bits.add(points.ordered().points);
+    bits.add(tree.order()).add(caps.coefficients).add(std::span(blocks));
+    const std::vector<std::uint8_t> outliers = find_outliers(tree, points, normals, 0, context);
+    return bits.add(std::span(outliers));
   });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -84,42 +85,40 @@ std::vector<std::uint32_t> TileCaps::rejected(std::size_t tile) const {
   return store_.open(name_of("rejected", tile)).values<std::uint32_t>(0);
 }
 
-void TileCaps::write(std::size_t tile, const Cover& caps, const Context& context) {
-  const std::size_t n = caps.caps.size();
-  Atlas atlas;  // for cap_foot(), which asks for coefficients
-  atlas.coefficients = caps.coefficients;
+// The sections of a chunk are parts of the lists of all caps: a store in memory makes no copies.
+void TileCaps::write(std::size_t tile, Cover&& found, const Context& context) {
+  const auto atlas = std::make_shared<Atlas>();
+  atlas->caps = std::move(found.caps), atlas->coefficients = std::move(found.coefficients);
+  const std::size_t n = atlas->caps.size();
   std::vector<CapPatch> patches(n);
   parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
-      const Cap& cap = caps.caps[c];
-      const CapFoot foot = cap_foot(atlas, cap);
+      const Cap& cap = atlas->caps[c];
+      const CapFoot foot = cap_foot(*atlas, cap);
       patches[c] = {foot.point, foot.normal, cap.frame.support, cap.area, cap.error};
     }
   });
-  Index index;
-  std::vector<std::vector<std::byte>> sections(1);
+  std::vector<CapExtent> extents;
+  std::vector<SectionBytes> sections(1);
   for (std::size_t begin = 0; begin < n; begin += kChunk) {
-    std::vector<Cap> some;
-    std::vector<double> coefficients;
+    const std::size_t end = std::min(n, begin + kChunk), first = atlas->caps[begin].first,
+                      last = end < n ? atlas->caps[end].first : atlas->coefficients.size();
     CapExtent extent;
-    for (std::size_t c = begin; c < std::min(n, begin + kChunk); ++c) {
-      some.push_back(caps.caps[c]);
-      const std::span<const double> own = atlas.coefficients_of(caps.caps[c]);
-      some.back().first = coefficients.size();
-      coefficients.insert(coefficients.end(), own.begin(), own.end());
-      add(extent, extent_of(caps.caps[c]));
-      extent.coefficients += own.size();
+    for (std::size_t c = begin; c < end; ++c) {
+      add(extent, extent_of(atlas->caps[c]));
+      atlas->caps[c].first -= first;
     }
-    index.chunks.push_back(extent);
-    for (const std::span<const std::byte> bytes : {bytes_of(some), bytes_of(coefficients)}) {
-      sections.emplace_back(bytes.begin(), bytes.end());
-    }
+    extent.coefficients = last - first;
+    extents.push_back(extent);
+    sections.push_back(
+        {bytes_of(std::span<const Cap>(atlas->caps).subspan(begin, end - begin)), atlas});
+    sections.push_back(
+        {bytes_of(std::span<const double>(atlas->coefficients).subspan(first, last - first)),
+         atlas});
   }
-  const std::span<const std::byte> extents = bytes_of(index.chunks);
-  sections.front().assign(extents.begin(), extents.end());
-  const std::span<const std::byte> rows = bytes_of(patches);
-  store_.write(name_of("patches", tile), {{rows.begin(), rows.end()}});
-  store_.write(name_of("caps", tile), sections);
+  sections.front() = {bytes_of(extents)};
+  write_values(store_, name_of("patches", tile), std::move(patches));
+  store_.write(name_of("caps", tile), std::move(sections));
 }
 
 bool TileCaps::has(std::size_t tile) const { return store_.has(name_of("caps", tile)); }
@@ -177,8 +176,8 @@ void TileCaps::append(std::size_t tile, std::span<const Bounds> boxes, Which whi
   for (std::size_t k = 0; k < index.chunks.size(); first += index.chunks[k++].n) {
     const std::vector<Bounds> nearer = met_by(index.chunks[k].reach(least_band()), near);
     if (nearer.empty()) continue;
-    const std::vector<Cap> some = piece.values<Cap>(1 + 2 * k);
-    const std::vector<double> coefficients = piece.values<double>(2 + 2 * k);
+    const auto some = piece.values<Cap>(1 + 2 * k);
+    const auto coefficients = piece.values<double>(2 + 2 * k);
     for (std::size_t c = 0; c < some.size(); ++c) {
       Cap cap = some[c];
       if (which == Which::kEach && !meets(extent_of(cap).reach(least_band()), nearer)) continue;
@@ -197,10 +196,20 @@ Atlas TileCaps::all() const {
   constexpr double kAnywhere = std::numeric_limits<double>::infinity();
   const Bounds space{{-kAnywhere, -kAnywhere, -kAnywhere}, {kAnywhere, kAnywhere, kAnywhere}};
   Atlas atlas = scene_;
+  CapExtent whole;
+  for (const Index& index : indices_) add(whole, index.whole);
+  atlas.caps.reserve(whole.n), atlas.coefficients.reserve(whole.coefficients);
   for (std::size_t tile = 0; tile < indices_.size(); ++tile) {
     append(tile, std::span(&space, 1), Which::kChunks, atlas, nullptr);
   }
   return atlas;
+}
+
+void TileCaps::forget() {
+  if (store_.is_kept()) return;
+  for (std::size_t tile = 0; tile < indices_.size(); ++tile) {
+    for (const char* what : {"caps", "patches", "rejected"}) store_.remove(name_of(what, tile));
+  }
 }
 
 NearCaps TileCaps::near(std::span<const Bounds> boxes) const {

@@ -52,7 +52,7 @@ class TileCaps {
       : store_(store), indices_(n_tiles), round_(std::move(round)) {}
 
   // Puts the caps of a tile aside: "caps/TILE", and what they are as patches: "patches/TILE".
-  void write(std::size_t tile, const Cover& caps, const Context& context);
+  void write(std::size_t tile, Cover&& found, const Context& context);
   bool has(std::size_t tile) const;
   // Points that no cap fits, by their places in the tile, ascending: "rejected/TILE", before the
   // caps are written.
@@ -77,6 +77,8 @@ class TileCaps {
 
   // All caps of all tiles, in their order.
   Atlas all() const;
+  // Removes the caps from the store, unless the store is kept.
+  void forget();
   // All caps that reach some boxes, in the order of the tiles.
   NearCaps near(std::span<const Bounds> boxes) const;
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/large_vector.h"
 #include "base/parallel.h"
 #include "reconstruct/normals/tile_mending.h"
 #include "reconstruct/normals/tile_normals.h"
@@ -51,7 +52,7 @@ void turn_normals(const PieceStore& store, std::size_t tile, TileAndHalo& read) 
 }  // namespace
 
 TileScene load_tile(const PieceStore& store, const TilePlan& plan, std::size_t tile, double halo,
-                    const Context& context) {
+                    const Context& context, std::unique_ptr<PointTree> tree) {
   TileScene scene;
   TileAndHalo read = read_with_halo(store, plan, tile, halo);
   std::vector<float> confidence;
@@ -60,7 +61,8 @@ TileScene load_tile(const PieceStore& store, const TilePlan& plan, std::size_t t
   scene.computed_normals = have_normals(store);
   scene.n_own = read.n_own;
   scene.halo = std::move(read.halo);
-  scene.tree = std::make_unique<PointTree>(read.cloud.points, context);
+  const bool fits = tree && tree->size() == read.cloud.points.size();
+  scene.tree = fits ? std::move(tree) : std::make_unique<PointTree>(read.cloud.points, context);
   const std::size_t n = scene.tree->size();
   const bool directed = !read.cloud.normals.empty();
   scene.points.resize(n);
@@ -77,6 +79,7 @@ TileScene load_tile(const PieceStore& store, const TilePlan& plan, std::size_t t
     }
   });
   scene.attributes = std::move(read.cloud.attributes);
+  release(read.cloud.points), release(read.cloud.normals);
   if (n > 0) scene.gaps = find_gaps(*scene.tree, scene.points, scene.normals, context);
   return scene;
 }

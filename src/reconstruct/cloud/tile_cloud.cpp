@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/large_vector.h"
 #include "reconstruct/cloud/load_tile.h"
 #include "reconstruct/cloud/tile_removal.h"
 #include "reconstruct/normals/tile_mending.h"
@@ -15,6 +16,7 @@
 #include "rholm/error.h"
 #include "shape/points/local_shape.h"
 #include "shape/points/normals.h"
+#include "shape/points/strays.h"
 
 namespace rholm {
 namespace {
@@ -35,10 +37,14 @@ TileCloud::TileCloud(PointSource& source, PieceStore& store, const ReconstructOp
   survey_ = read_survey(store_).value();
   plan_ = make_plan(survey_, points_per_tile);
   n_ = plan_.n_tiles();
-  keeps_scenes_ = store_.in_memory();
+  keeps_scenes_ = n_ == 1 || store_.in_memory();
   scenes_.resize(n_), neighbors_.resize(n_);
   given_ = survey_.layout.normals;
-  if (!given_) stages_.add(costs_of_normals());
+  if (!given_) add_costs_of_normals();
+}
+
+void TileCloud::add_costs_of_normals() {
+  stages_.add(n_ == 1 ? std::vector<StageCost>{{"orient", 6}} : costs_of_normals());
 }
 
 void TileCloud::prepare() {
@@ -52,6 +58,7 @@ void TileCloud::prepare() {
   take_sample("sample");
   if (options_.holes == HolePolicy::kFill) check_sides(sample_.sides, points_);
   choose_size("size");
+  return_free_memory();
 }
 
 void TileCloud::measure_again() {
@@ -78,10 +85,9 @@ std::shared_ptr<const TileScene> TileCloud::load_for(std::size_t tile,
 }
 
 // A tile alone has no halo.
-std::shared_ptr<const TileScene> TileCloud::scene(std::size_t tile, double halo, bool keep) const {
+std::shared_ptr<TileScene> TileCloud::scene(std::size_t tile, double halo, bool keep) const {
   const auto made = [&] {
-    return std::make_shared<const TileScene>(
-        load_tile(store_, plan_, tile, halo, stages_.context()));
+    return std::make_shared<TileScene>(load_tile(store_, plan_, tile, halo, stages_.context()));
   };
   if (!keeps_scenes_ || !(keep || n_ == 1)) return made();
   {
@@ -89,6 +95,7 @@ std::shared_ptr<const TileScene> TileCloud::scene(std::size_t tile, double halo,
     if (scenes_[tile]) return scenes_[tile];
   }
   auto loaded = made();
+  if (n_ == 1) return_free_memory();
   const std::lock_guard lock(mutex_);
   return scenes_[tile] = std::move(loaded);
 }
@@ -103,22 +110,35 @@ void TileCloud::keep_no_scenes() {
   keeps_scenes_ = false;
 }
 
+TileScene TileCloud::take_only() {
+  const std::shared_ptr<TileScene> only = scene(0, 0, true);
+  keep_no_scenes();
+  if (!store_.is_kept()) {
+    for (const char* name : {"survey", "points/0", "normals/0", "turned/0"}) store_.remove(name);
+  }
+  return std::move(*only);
+}
+
 void TileCloud::find_survey(std::uint64_t points_per_tile) {
   if (read_survey(store_)) return;
-  write_survey(
-      rholm::survey(
-          source_, {.points_per_tile = points_per_tile, .drop_far_strays = !options_.keep_outliers},
-          stages_.context()),
-      store_);
+  Survey found = rholm::survey(
+      source_, {.points_per_tile = points_per_tile, .drop_far_strays = !options_.keep_outliers},
+      stages_.context());
+  if (found.points <= points_per_tile) release(found.sample);  // the only tile is not cut
+  write_survey(found, store_);
 }
 
 void TileCloud::sort() {
   stages_.once("distribute",
                [&] { distribute(source_, survey_, plan_, store_, {}, stages_.context()); });
+  source_.finish();
   stages_.each("sort", n_, [&](std::size_t tile) { sort_points(store_, tile); });
   report_.points = survey_.points + survey_.not_finite + survey_.dropped + survey_.far_strays;
   report_.outliers = survey_.far_strays;
-  spacings_ = spacings_of_sample(survey_, plan_, survey_.n_different);
+  // Spacings are needed for the width of halos.
+  spacings_.assign(n_, 0.0);
+  if (n_ > 1) spacings_ = spacings_of_sample(survey_, plan_, survey_.n_different);
+  return_free_memory();
 }
 
 // Before outliers near the surface are removed, also where a run before has done it.
@@ -142,22 +162,31 @@ void TileCloud::count_points() {
   if (box.at(1) != 0) refuse_one_line(points_);
 }
 
+// The only tile is loaded anew for each look. The scene of the last look is kept, and two scenes
+// are never in memory at the same time.
 void TileCloud::remove_strays() {
-  TileRemoval strays(store_, plan_, "strays");
-  stages_.each("strays", n_, [&](std::size_t tile) {
-    if (strays.has_found(tile)) return;
-    const bool asked = keeps_scenes_ && given_;  // signs of given normals need neighbours
-    strays.put(tile, find_tile_strays(*load(tile), stages_.context(),
-                                      asked ? &neighbors_[tile] : nullptr));
-  });
-  stages_.each("strays", n_, [&](std::size_t tile) { strays.remove(tile); });
-  const std::uint64_t n_strays = strays.count();
-  if (n_strays > 0) forget_scenes();
-  report_.outliers += n_strays;
+  const int times = n_ == 1 ? kStrayPasses : 1, looks = kStrayPasses / times;
+  for (int time = 0; time < times; ++time) {
+    TileRemoval strays(store_, plan_, "strays-" + std::to_string(time));
+    stages_.each("strays", n_, [&](std::size_t tile) {
+      if (strays.has_found(tile)) return;
+      const bool asked = keeps_scenes_ && given_;  // signs of given normals need neighbours
+      strays.put(tile, find_tile_strays(*load(tile), looks, stages_.context(),
+                                        asked ? &neighbors_[tile] : nullptr));
+    });
+    const std::uint64_t n_strays = strays.count();
+    if (n_strays == 0) return;
+    forget_scenes();  // before copies of all points are made
+    stages_.each("strays", n_, [&](std::size_t tile) { strays.remove(tile); });
+    report_.outliers += n_strays;
+  }
 }
 
 // Points that have no normals get them.
 void TileCloud::orient() {
+  std::unique_ptr<PointTree> tree;  // of the only tile, for its scene with normals
+  if (n_ == 1 && scenes_[0]) tree = std::move(scenes_[0]->tree);
+  forget_scenes();
   const TileNormalsReport normals =
       orient_tiles(store_, plan_, spacings_, {.sensor = options_.sensor}, stages_);
   report_.computed_normals = true;
@@ -171,8 +200,14 @@ void TileCloud::orient() {
     }
     undetermined.put(tile, flags);
   });
-  stages_.each("turn", n_, [&](std::size_t tile) { undetermined.remove(tile); });
+  report_.dropped_points += undetermined.count();
   forget_scenes();
+  stages_.each("turn", n_, [&](std::size_t tile) { undetermined.remove(tile); });
+  if (!tree) return;
+  stages_.all("turn", [&] {
+    scenes_[0] = std::make_shared<TileScene>(
+        load_tile(store_, plan_, 0, 0, stages_.context(), std::move(tree)));
+  });
 }
 
 // In some tiles, which are parts of one surface. Given normals that are off it are computed anew.
@@ -199,7 +234,7 @@ void TileCloud::look_at_shape() {
   report_.crooked_normals = crooked;
   if (!(crooked > kMostCrooked)) return;
   given_ = false, around_ = 0;
-  stages_.add(costs_of_normals());
+  add_costs_of_normals();
 }
 
 void TileCloud::mend() {

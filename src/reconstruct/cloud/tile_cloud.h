@@ -57,9 +57,13 @@ class TileCloud {
   void forget_scenes();
   // Scenes are no longer kept, also those that are loaded from here on.
   void keep_no_scenes();
+  // Returns the scene of the only tile, which the caller may change, and keeps no scenes from here
+  // on. Removes its points from the store, unless the store is kept.
+  TileScene take_only();
 
  private:
-  std::shared_ptr<const TileScene> scene(std::size_t tile, double halo, bool keep) const;
+  std::shared_ptr<TileScene> scene(std::size_t tile, double halo, bool keep) const;
+  void add_costs_of_normals();
   void find_survey(std::uint64_t points_per_tile);
   void sort();
   void remove_strays();
@@ -83,11 +87,11 @@ class TileCloud {
   bool given_ = false;
   std::size_t around_ = 0;        // neighbours that tell the area of a point
   std::vector<double> spacings_;  // in each tile
-  // Of each tile, where tiles are in memory: its scene, once loaded, and graph_neighbors() of it,
-  // once found.
+  // The scene of each tile, once loaded, and its graph_neighbors(), once found. They are kept if
+  // tiles are in memory or if there is only one.
   bool keeps_scenes_ = false;
   mutable std::mutex mutex_;  // of scenes_
-  mutable std::vector<std::shared_ptr<const TileScene>> scenes_;
+  mutable std::vector<std::shared_ptr<TileScene>> scenes_;
   std::vector<std::vector<std::uint32_t>> neighbors_;
   WholeSample sample_;
   CapSize size_;

@@ -16,7 +16,8 @@
 
 namespace rholm {
 
-// The groups of points of find_small_groups(), through all tiles.
+// Groups of points through all tiles: near neighbours with normals that agree (see
+// for_links_of_groups()).
 class TileGroups {
  public:
   TileGroups(PieceStore& store, std::size_t n_tiles) : store_(store), n_tiles_(n_tiles) {}
@@ -49,12 +50,14 @@ struct OutlierSearch {
   std::function<std::shared_ptr<const TileScene>(std::size_t tile)> load;
   // Called once points have been removed from tiles.
   std::function<void()> changed = [] {};
-  // Points of a tile that no cap fits, by their places there; none before there are caps.
+  // Returns the places in a tile of points that no cap fits; empty before there are caps. If more
+  // than `most` points look like outliers, they are fine features with few points: then only points
+  // that no cap fits are removed.
   std::function<std::vector<std::uint32_t>(std::size_t tile)> suspects = {};
 };
 
-// As WorkingPoints::remove_outliers(), which has the rule; returns how many were removed. Steps
-// that were done by a run before cost nothing: n_points is that of before.
+// Removes outliers near the surface, which their normals tell, and returns how many. Steps that an
+// earlier run has done are not repeated; `n_points` is the number before any removal.
 std::uint64_t remove_tile_outliers(PieceStore& store, const TilePlan& plan,
                                    const OutlierSearch& search, Stages& stages);
 

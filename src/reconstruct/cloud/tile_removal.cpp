@@ -77,7 +77,8 @@ void TileRemoval::remove(std::size_t tile) {
   store_.remove(found(tile));
 }
 
-std::vector<std::uint8_t> find_tile_strays(const TileScene& scene, const Context& context,
+std::vector<std::uint8_t> find_tile_strays(const TileScene& scene, int looks,
+                                           const Context& context,
                                            std::vector<std::uint32_t>* neighbors) {
   std::vector<std::uint8_t> flags(scene.n_own, 0);
   if (scene.points.empty()) return flags;
@@ -94,7 +95,7 @@ std::vector<std::uint8_t> find_tile_strays(const TileScene& scene, const Context
     for (std::size_t k = 0; k < left.size(); ++k) {
       found[k] == 0 ? rest.push_back(left[k]) : flag(left[k]);
     }
-    if (rest.size() == left.size() || rest.empty() || pass == kStrayPasses) break;
+    if (rest.size() == left.size() || rest.empty() || pass == looks) break;
     std::vector<Vec3> places, points, normals;
     for (const std::uint32_t i : rest) places.push_back(scene.points[i]);
     const PointTree tree(places, context);

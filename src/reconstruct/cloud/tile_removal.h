@@ -40,9 +40,11 @@ class TileRemoval {
   std::string name_;
 };
 
-// Those far from all others, alone or in small groups: find_strays(), one flag per own point.
+// Returns one flag per own point: 1 where the point is far from all others, alone or in a small
+// group (find_strays()). Each of the `looks` leaves out the points that those before have found.
 // `neighbors`, if it is given, gets graph_neighbors() of all points of the scene.
-std::vector<std::uint8_t> find_tile_strays(const TileScene& scene, const Context& context,
+std::vector<std::uint8_t> find_tile_strays(const TileScene& scene, int looks,
+                                           const Context& context,
                                            std::vector<std::uint32_t>* neighbors);
 
 }  // namespace rholm

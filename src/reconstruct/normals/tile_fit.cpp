@@ -11,7 +11,8 @@
 namespace rholm {
 namespace {
 
-// As of all points together (reconstruct_points.cpp).
+// The first decile of spacings over their median, for even random points. It is less if a part of
+// the points is denser.
 constexpr double kTenthOfEven = 0.8;
 
 // Of a value with a weight: the least one that at least this part of the weight does not exceed.

@@ -16,7 +16,7 @@ namespace rholm {
 
 // What some own points of a tile, evenly spread, tell of all.
 struct SamplePoint {
-  double spacing = 0;     // to its neighbours: spacing_of_circle()
+  double spacing = 0;     // of neighbours or rows: spacing_of_circle()
   double area = 0;        // that a point stands for, by those around
   double disc = 0;        // as balance_sides() has it
   double points = 0;      // for so many it speaks
@@ -28,8 +28,7 @@ struct SamplePoint {
 std::vector<SamplePoint> sample_tile(const TileScene& scene, std::size_t n, std::size_t around,
                                      const Context& context);
 
-// Around each place, between its nearest points or between their rows: see
-// WorkingPoints::spacing_at().
+// Returns the spacing around each place: of its nearest points, or of their rows.
 std::vector<double> spacings_at(const TileScene& scene, const std::vector<Vec3>& places);
 
 // Of all tiles together.

@@ -14,6 +14,7 @@
 #include "reconstruct/normals/tile_directions.h"
 #include "reconstruct/normals/tile_fit.h"
 #include "reconstruct/normals/tile_signs.h"
+#include "rholm/points.h"
 #include "shape/points/normals.h"
 #include "shape/points/orient_rules.h"
 #include "shape/points/orient_scene.h"
@@ -279,15 +280,45 @@ std::vector<StageCost> costs_of_normals() {
   return {{"directions", 3}, {"signs", 4}, {"match", 0.3}, {"sides", 0.5}, {"turn", 0.5}};
 }
 
+namespace {
+
+// Computes the normals of the only tile, which has all points, as orient() does.
+void orient_only(PieceStore& store, const TileNormalsOptions& options, const Context& context) {
+  PointCloud cloud = read_points(store, 0);
+  cloud.normals.clear();
+  const OrientReport found =
+      orient(cloud, {.sensor = options.sensor, .keep_outliers = true, .confidence = true}, context);
+  const std::vector<double>& sure = find_attribute(cloud.attributes, "confidence")->values;
+  TileNormalsReport report{.points = cloud.points.size(),
+                           .neighbors = static_cast<std::uint64_t>(found.neighbors),
+                           .components = found.components};
+  std::vector<TileNormal> normals(cloud.points.size());
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    normals[i] = make_normal(cloud.normals[i], sure[i]);
+    report.undetermined += normals[i].normal() == Vec3{} ? 1 : 0;
+    report.unsure += normals[i].confidence < kUnsure ? 1 : 0;
+  }
+  write_normals(store, 0, normals);
+  const std::span<const std::byte> sections[] = {
+      bytes_of(std::span<const TileNormalsReport>(&report, 1))};
+  store.write(kOriented, sections);
+}
+
+}  // namespace
+
 TileNormalsReport orient_tiles(PieceStore& store, const TilePlan& plan,
                                const std::vector<double>& spacings,
                                const TileNormalsOptions& options, Stages& stages) {
   if (have_normals(store)) {
     return only(store.open(kOriented).values<TileNormalsReport>(0));
   }
-  TileNormals normals(store, plan, spacings, options);
   const Context& context = stages.context();
   const std::size_t n = plan.n_tiles();
+  if (n == 1) {
+    stages.once("orient", [&] { orient_only(store, options, context); });
+    return only(store.open(kOriented).values<TileNormalsReport>(0));
+  }
+  TileNormals normals(store, plan, spacings, options);
   normals.refuse_points_on_line();
   stages.all("neighbours", [&] { normals.choose_neighbors(context); });
   stages.each("directions", n, [&](std::size_t b) { normals.find_directions(b, context); });

@@ -109,15 +109,15 @@ bool TileOutput::is_left_out(const std::string& attribute) const {
          std::find(kSensorAxes.begin(), kSensorAxes.end(), attribute) != kSensorAxes.end();
 }
 
-// What the points of a tile tell of its vertices.
-void TileOutput::carry(std::size_t tile, Mesh& vertices) const {
-  if (layout_.columns.empty() && !options_.confidence) return;
+ConfidenceAreas TileOutput::carry(std::size_t tile, Mesh& vertices) const {
+  if (layout_.columns.empty() && !options_.confidence) return {};
   const std::shared_ptr<const TileScene> scene = load_(tile);
   std::vector<Attribute> attributes = scene->attributes;
   if (options_.confidence) set_attribute(attributes, confidence_of(*scene));
   std::erase_if(attributes, [&](const Attribute& a) { return is_left_out(a.name); });
   carry_attributes(*scene->tree, attributes, vertices, stages_.context());
-  if (options_.confidence) add_confidence(scene->ordered(), vertices, stages_.context());
+  if (!options_.confidence) return {};
+  return add_confidence(scene->ordered(), vertices, stages_.context());
 }
 
 // Of the triangles of each tile.

@@ -44,10 +44,12 @@ class TileOutput {
   // vertices than a Mesh can number.
   Mesh collect(const TileParts& parts, const TileParts::Whole& whole) const;
   std::vector<Attribute> attributes() const;  // names and types of those of the surface
+  // Carries attributes of the points of a tile to vertices there. Returns the areas of
+  // add_confidence().
+  ConfidenceAreas carry(std::size_t tile, Mesh& vertices) const;
 
  private:
   bool is_left_out(const std::string& attribute) const;
-  void carry(std::size_t tile, Mesh& vertices) const;
 
   PieceStore& store_;
   Stages& stages_;

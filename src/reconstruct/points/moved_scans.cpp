@@ -156,6 +156,7 @@ class MovedScans final : public PointSource {
   double part_read() const override { return source_->part_read(); }
   std::uint64_t dropped() const override { return source_->dropped(); }
   std::vector<std::string> warnings() const override { return source_->warnings(); }
+  void finish() override { source_->finish(); }
 
  private:
   std::unique_ptr<PointSource> source_;

@@ -107,6 +107,8 @@ class KeptSource final : public PointSource {
 class MemorySource final : public PointSource {
  public:
   MemorySource(const PointCloud& cloud, std::uint64_t dropped) : cloud_(cloud), dropped_(dropped) {}
+  MemorySource(PointCloud&& cloud, std::uint64_t dropped)
+      : own_(std::move(cloud)), cloud_(own_), dropped_(dropped) {}
   void rewind() override { at_ = 0; }
   bool next(PointCloud& piece, const Context&) override {
     const std::size_t n = std::min(kAtATime, cloud_.points.size() - at_);
@@ -133,8 +135,10 @@ class MemorySource final : public PointSource {
     return static_cast<double>(at_) / static_cast<double>(cloud_.points.size());
   }
   std::uint64_t dropped() const override { return dropped_; }
+  void finish() override { own_ = {}; }
 
  private:
+  PointCloud own_;
   const PointCloud& cloud_;
   std::uint64_t dropped_;
   std::size_t at_ = 0;
@@ -154,6 +158,10 @@ std::unique_ptr<PointSource> open_points(const std::filesystem::path& path,
 
 std::unique_ptr<PointSource> points_in_memory(const PointCloud& cloud, std::uint64_t dropped) {
   return std::make_unique<MemorySource>(cloud, dropped);
+}
+
+std::unique_ptr<PointSource> points_in_memory(PointCloud&& cloud, std::uint64_t dropped) {
+  return std::make_unique<MemorySource>(std::move(cloud), dropped);
 }
 
 }  // namespace rholm

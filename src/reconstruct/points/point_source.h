@@ -29,6 +29,7 @@ class PointSource {
   // Points since the last rewind() that are not finite and in no piece.
   virtual std::uint64_t dropped() const { return 0; }
   virtual std::vector<std::string> warnings() const { return {}; }  // of the file
+  virtual void finish() {}  // frees memory: no more points will be read
 };
 
 // Of a file, as PointStream reads it. What can be read only once ("-", a pipe) goes to the store's
@@ -39,5 +40,7 @@ std::unique_ptr<PointSource> open_points(const std::filesystem::path& path,
 // Of points in memory, which are not copied and must stay. `dropped` is what the source says of
 // points that their reader has left out.
 std::unique_ptr<PointSource> points_in_memory(const PointCloud& cloud, std::uint64_t dropped = 0);
+// The same, with the points of its own until finish().
+std::unique_ptr<PointSource> points_in_memory(PointCloud&& cloud, std::uint64_t dropped = 0);
 
 }  // namespace rholm

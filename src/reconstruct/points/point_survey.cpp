@@ -13,6 +13,9 @@ namespace rholm {
 namespace {
 
 constexpr std::uint64_t kSamplesPerTile = 64;  // chosen: sizes of tiles differ by an eighth
+// Size of the sample if there is one tile (chosen): only find_far_ball() needs it, which takes the
+// 163rd place from either end along each axis.
+constexpr std::uint64_t kSampleOfOnly = std::uint64_t{1} << 15;
 
 // Counts that sums are made of, over points that are finite and not far.
 struct Tally {
@@ -57,6 +60,7 @@ void for_each_piece(PointSource& source, const Context& context, const Take& tak
 
 std::uint64_t sample_size(std::uint64_t points, const SurveyOptions& options) {
   const std::uint64_t per_tile = std::max<std::uint64_t>(options.points_per_tile, 1);
+  if (points <= per_tile) return std::min(kSampleOfOnly, options.least_sample);
   return std::max(options.least_sample, kSamplesPerTile * ((points + per_tile - 1) / per_tile));
 }
 
@@ -79,8 +83,9 @@ struct SurveyHead {
 
 Survey survey(PointSource& source, const SurveyOptions& options, const Context& context) {
   Survey result;
-  // Room for a sample that grows is not made again and again where the number is known.
-  PointSample sample(sample_size(source.size().value_or(0), options));
+  // If the number of points is known, the sample never has to grow. If it is not, there may be
+  // several tiles.
+  PointSample sample(sample_size(source.size().value_or(options.points_per_tile + 1), options));
   const auto count = [&](Tally& tally, const FarBall& ball, const PointCloud& piece, bool first) {
     for (std::size_t i = 0; i < piece.points.size(); ++i) {
       if (!tally.takes(piece.points[i], ball)) continue;
@@ -101,7 +106,7 @@ Survey survey(PointSource& source, const SurveyOptions& options, const Context& 
     sample.grow(sample_size(tally.points, options));
   });
   if (tally.points == 0) {
-    refuse(any ? "no point has finite coordinates" : "there are no points");
+    refuse(any ? "no point has finite coordinates" : "there are no points to make a surface of");
   }
   // By what was found: how many there are may be known before, or not.
   result.sample = sample.take(sample_size(tally.points, options));

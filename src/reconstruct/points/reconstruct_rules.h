@@ -1,4 +1,4 @@
-// What reconstructions in one piece and in tiles have in common. Layer: reconstruct, private.
+// Rules and figures of reconstructions. Layer: reconstruct, private.
 #pragma once
 
 #include <cstddef>

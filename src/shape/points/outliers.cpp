@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 
 namespace rholm {
@@ -21,11 +20,10 @@ constexpr double kOff = 0.5;
 // surface it varies by a tenth, however uneven.
 constexpr std::size_t kEighth = 8;
 constexpr double kIsolated = 3;
-// Number of points tested for wrong normals, and length of the mean of the normals around
-// from which on these agree with each other. On a flat surface with a tenth of random normals
-// it is 0.9, with a fifth 0.8.
-constexpr std::size_t kSeeds = 2000;
+// Length of the mean of the normals around from which on these agree with each other. On a flat
+// surface with a tenth of random normals it is 0.9, with a fifth 0.8.
 constexpr double kOneMind = 0.8;
+
 struct Scan {
   const PointTree& tree;
   std::span<const Vec3> points, normals;
@@ -91,21 +89,6 @@ bool has_wrong_normal(const PointTree& tree, std::span<const Vec3> normals, std:
   return agreed && dot(normals[point], normalized(sum)) < kAgree;
 }
 
-double share_of_wrong_normals(const PointTree& tree, std::span<const Vec3> normals,
-                              const Context& context) {
-  const std::size_t n = normals.size(), seeds = std::min(n, kSeeds);
-  if (n <= kNeighbours) return 0;
-  std::vector<std::uint8_t> wrong(seeds);
-  parallel_for(seeds, 128, context, {}, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbor> near;
-    for (std::size_t s = begin; s < end; ++s) {
-      wrong[s] = has_wrong_normal(tree, normals, s * n / seeds, near) ? 1 : 0;
-    }
-  });
-  const auto found = std::count(wrong.begin(), wrong.end(), 1);
-  return static_cast<double>(found) / static_cast<double>(seeds);
-}
-
 void for_links_of_groups(const PointTree& tree, std::span<const Vec3> normals,
                          const std::function<void(std::uint32_t, std::uint32_t)>& visit,
                          const Context& context) {
@@ -128,19 +111,6 @@ void for_links_of_groups(const PointTree& tree, std::span<const Vec3> normals,
       if (close && dot(normals[i], normals[j]) > 0.5) visit(i, j);
     }
   }
-}
-
-std::vector<std::uint8_t> find_small_groups(const PointTree& tree, std::span<const Vec3> normals,
-                                            std::size_t least, const Context& context) {
-  const std::size_t n = normals.size();
-  DisjointSets groups(n);
-  const auto unite = [&](std::uint32_t i, std::uint32_t j) { groups.unite(i, j); };
-  for_links_of_groups(tree, normals, unite, context);
-  std::vector<std::uint32_t> sizes(n, 0);
-  for (std::uint32_t i = 0; i < n; ++i) ++sizes[groups.find(i)];
-  std::vector<std::uint8_t> flags(n);
-  for (std::uint32_t i = 0; i < n; ++i) flags[i] = sizes[groups.find(i)] < least ? 1 : 0;
-  return flags;
 }
 
 }  // namespace rholm

@@ -21,22 +21,14 @@ std::vector<std::uint8_t> find_outliers(const PointTree& tree, std::span<const V
                                         std::span<const Vec3> normals, double noise,
                                         const Context& context = {});
 
-// Returns the share of points (estimated from some) whose normals differ from those around them,
-// although these agree with each other. It is almost 0 for a clean shape, however thin and sharp,
-// because where its normals differ, the neighbours' normals differ among each other too.
-double share_of_wrong_normals(const PointTree& tree, std::span<const Vec3> normals,
-                              const Context& context = {});
-
-// Returns true if the normal of one point differs from the agreeing normals around it.
+// Returns true if the normal of a point differs from the normals around it, although these agree
+// with each other. This is rare on a clean shape, however thin and sharp, because where its normals
+// differ, the neighbours' normals differ among each other too. `near` is reused memory.
 bool has_wrong_normal(const PointTree& tree, std::span<const Vec3> normals, std::size_t point,
                       std::vector<Neighbor>& near);
 
-// Returns one flag per point: 1 for a point of a group of fewer than `least` points. Near
-// neighbours, by the spacing of both, are of one group if their normals agree.
-std::vector<std::uint8_t> find_small_groups(const PointTree& tree, std::span<const Vec3> normals,
-                                            std::size_t least, const Context& context = {});
-
-// Calls visit(i, j) for near neighbours of one group, on one thread.
+// Calls visit(i, j), on one thread, for near neighbours of one group. Near neighbours, by the
+// spacing of both, are of one group if their normals agree.
 void for_links_of_groups(const PointTree& tree, std::span<const Vec3> normals,
                          const std::function<void(std::uint32_t, std::uint32_t)>& visit,
                          const Context& context = {});

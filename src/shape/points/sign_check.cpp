@@ -226,10 +226,6 @@ struct Part {
 
 }  // namespace
 
-AllPieces all_of(const SignPieces& part) {
-  return {.own = part.own, .pairs = part.pairs, .scatter = part.scatter};
-}
-
 bool SignCheck::counts(std::uint32_t a, std::uint32_t b, bool after) const {
   if (after && turned[a] != turned[b]) return false;
   const auto [least, most] = std::minmax({whole[a], whole[b]});

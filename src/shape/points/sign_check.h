@@ -38,9 +38,6 @@ struct AllPieces {
   double scatter = 0;  // median over the tiles
 };
 
-// Returns the pieces of a single part that has all points.
-AllPieces all_of(const SignPieces& part);
-
 // Tells which pieces to flip.
 struct SignCheck {
   std::vector<std::uint32_t> whole = {};      // per piece: the first piece of the same whole

@@ -64,7 +64,8 @@ Checked check(const PointCloud& cloud) {
   const Scene scene(cloud);
   const SignPieces pieces =
       find_sign_pieces(scene.tree, scene.points, scene.normals, scene.gaps, {}, {});
-  const MendedSigns mended = mend_signs(all_of(pieces), all_samples(scene, pieces), true, {});
+  const AllPieces all{.own = pieces.own, .pairs = pieces.pairs, .scatter = pieces.scatter};
+  const MendedSigns mended = mend_signs(all, all_samples(scene, pieces), true, {});
   Checked result{.signs = mended.check,
                  .left = contradicting_points(pieces, 0, mended.check, true).size(),
                  .inward = mended.inward,
