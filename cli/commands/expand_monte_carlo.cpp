@@ -53,7 +53,7 @@ Json json_of_run(const ExpandCommandOptions& options, const MonteCarlo& found,
   json["degree_deviation"] = found.degree_deviation;
   json["norm_squared"] = json_of(found.expansion.norm_squared);
   json["truncation_rms"] = json_of(found.truncation_rms);
-  json["truncation_rms_doubt"] = json_of(found.truncation_rms_doubt);
+  json["truncation_rms_uncertainty"] = json_of(found.truncation_rms_uncertainty);
   Json wall, cpu;
   for (const auto& [stage, time] : found.times) {
     wall[stage] = time.wall;

@@ -84,9 +84,9 @@ Json expand_json(const ExpandCommandOptions& options, const ExpandRun& run) {
   json["norm_squared"] = json_of(transform.expansion.norm_squared);
   json["tail_strength"] = json_of(transform.expansion.tail_strength);
   json["truncation_rms"] = json_of(transform.truncation_rms);
-  json["truncation_rms_doubt"] = json_of(transform.truncation_rms_doubt);
+  json["truncation_rms_uncertainty"] = json_of(transform.truncation_rms_uncertainty);
   // The difference of the exact norm and the norm of the coefficients, with its uncertainty.
-  json["kinds"] = {{"truncation_rms", "exact"}, {"truncation_rms_doubt", "bound"}};
+  json["kinds"] = {{"truncation_rms", "exact"}, {"truncation_rms_uncertainty", "bound"}};
   json["errors"] = json_of(transform.expansion.errors);
   json["tolerance"] =
       expanded.tolerance ? tolerance_json(options, *expanded.tolerance) : Json(nullptr);

@@ -65,20 +65,21 @@ Json json_of(const TruncationErrors& errors) {
 Json json_of(const FastReport& fast) {
   const bool measured = fast.measured_share > 0;
   const char* kind = measured ? "measured" : "estimate";
-  return {{"precision", fast.single ? "single" : "double"},
-          {"window_width", fast.width},
-          {"oversampling", fast.oversampling},
-          {"lumped_faces", fast.lumped_triangles},
-          {"vertices", fast.vertices},
-          {"nodes", fast.nodes},
-          {"passes", fast.passes},
-          {"precision_reached", fast.reached},
-          {"error", fast.error},
-          {"error_of_top_quarter", fast.band_error},
-          {"measured_share", fast.measured_share},
-          {"error_doubt", measured ? Json(fast.error_doubt) : Json(nullptr)},
-          {"kinds",
-           {{"error", kind}, {"error_of_top_quarter", "estimate"}, {"error_doubt", "estimate"}}}};
+  return {
+      {"precision", fast.single ? "single" : "double"},
+      {"window_width", fast.width},
+      {"oversampling", fast.oversampling},
+      {"lumped_faces", fast.lumped_triangles},
+      {"vertices", fast.vertices},
+      {"nodes", fast.nodes},
+      {"passes", fast.passes},
+      {"precision_reached", fast.reached},
+      {"error", fast.error},
+      {"error_of_top_quarter", fast.band_error},
+      {"measured_share", fast.measured_share},
+      {"error_uncertainty", measured ? Json(fast.error_uncertainty) : Json(nullptr)},
+      {"kinds",
+       {{"error", kind}, {"error_of_top_quarter", "estimate"}, {"error_uncertainty", "estimate"}}}};
 }
 
 void print_json(const Json& json) {

@@ -108,7 +108,7 @@ struct MonteCarlo {
   // the root mean square error of the function of degree l over the sphere.
   std::vector<double> degree_deviation;
   // Same meaning as in Transform; the uncertainty is 3 deviations. Empty without very many samples.
-  std::optional<double> truncation_rms, truncation_rms_doubt;
+  std::optional<double> truncation_rms, truncation_rms_uncertainty;
   StageTimes times;  // stages "samples", "sums", "norms"
 };
 
@@ -131,8 +131,8 @@ void visit_fields(FieldsOf<MonteCarlo>, const Visitor& field) {
   field(&M::truncation_rms, {.name = "truncation_rms",
                              .help = "root mean square truncation error over solid angle, in the "
                                      "unit of the function; None if too uncertain"});
-  field(&M::truncation_rms_doubt,
-        {.name = "truncation_rms_doubt",
+  field(&M::truncation_rms_uncertainty,
+        {.name = "truncation_rms_uncertainty",
          .help = "uncertainty of truncation_rms: three standard deviations"});
   field(&M::times,
         {.name = "times", .help = "wall and CPU time of each stage, in seconds: (wall, cpu)"});

@@ -20,11 +20,11 @@ struct RmsBeyond {
   // Uncertainty of 4 pi rms^2, from the coefficients' precision; empty without norm_squared. Known
   // errors take precedence: an exact error bounds it, and a measured error that differs from the
   // norm's shows the energy that the coefficients lack.
-  std::optional<double> doubt;
+  std::optional<double> uncertainty;
   double precision = 0;               // the expansion's, or TransformOptions' default
   bool precision_is_assumed = false;  // true if the expansion's precision is unknown
   // Returns true if rms includes degrees above the expansion's own, known from norm_squared.
-  bool includes_tail() const { return doubt.has_value(); }
+  bool includes_tail() const { return uncertainty.has_value(); }
   // Returns the values to show for each degree: rms, or rms_within if norm_squared is missing. Then
   // the last degree has no value.
   std::vector<std::optional<double>> figures() const;

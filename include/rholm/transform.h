@@ -41,8 +41,8 @@ struct FastReport {
   // mesh, as for small meshes. Below 1: rule errors come from a sample of a larger mesh (method
   // 3h). 0: both errors are estimates of the error model.
   double measured_share = 0;
-  double error_doubt = 0;  // the true error may exceed the measured error by this much
-  int passes = 0;          // number of passes over the triangles
+  double error_uncertainty = 0;  // the true error may exceed the measured error by this much
+  int passes = 0;                // number of passes over the triangles
   // True if the error, with its uncertainty, is within the wanted precision, or within the least
   // error that rounding allows.
   bool reached = true;
@@ -69,8 +69,8 @@ void visit_fields(FieldsOf<FastReport>, const Visitor& field) {
         {.name = "measured_share",
          .help = "share of the faces on which errors were measured; 1: a second, finer pass; less: "
                  "a sample; 0: errors are estimated"});
-  field(&F::error_doubt,
-        {.name = "error_doubt", .help = "possible excess of the true error over a measured error"});
+  field(&F::error_uncertainty, {.name = "error_uncertainty",
+                                .help = "possible excess of the true error over a measured error"});
   field(&F::passes, {.name = "passes", .help = "number of passes over the faces"});
   field(&F::reached, {.name = "reached",
                       .help = "true if the error is within the precision, or within the least "
@@ -136,7 +136,7 @@ struct Transform {
   // coefficients, which are as exact as the precision. Empty if the uncertainty is not below an
   // eighth of the error (its square is then known to a quarter). Empty also if the surface is not
   // star-shaped: there (M7) is not the norm.
-  std::optional<double> truncation_rms, truncation_rms_doubt;
+  std::optional<double> truncation_rms, truncation_rms_uncertainty;
 };
 
 // Lists the fields of Transform (fields.h), without the expansion.
@@ -157,8 +157,8 @@ void visit_fields(FieldsOf<Transform>, const Visitor& field) {
   field(&A::truncation_rms, {.name = "truncation_rms",
                              .help = "root mean square truncation error over solid angle, in the "
                                      "unit of the function; None if too uncertain"});
-  field(&A::truncation_rms_doubt,
-        {.name = "truncation_rms_doubt",
+  field(&A::truncation_rms_uncertainty,
+        {.name = "truncation_rms_uncertainty",
          .help = "uncertainty of truncation_rms, from the precision of the coefficients"});
 }
 

@@ -1609,7 +1609,7 @@ class FastReport:
         """
 
     @property
-    def error_doubt(self) -> float:
+    def error_uncertainty(self) -> float:
         """Possible excess of the true error over a measured error."""
 
     @property
@@ -1671,7 +1671,7 @@ class Analysis:
         """
 
     @property
-    def truncation_rms_doubt(self) -> float | None:
+    def truncation_rms_uncertainty(self) -> float | None:
         """Uncertainty of truncation_rms, from the precision of the coefficients."""
 
     @property
@@ -1925,7 +1925,7 @@ class MonteCarlo:
         """
 
     @property
-    def truncation_rms_doubt(self) -> float | None:
+    def truncation_rms_uncertainty(self) -> float | None:
         """Uncertainty of truncation_rms: three standard deviations."""
 
     @property

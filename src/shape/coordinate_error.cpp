@@ -169,8 +169,8 @@ Vec3 coordinate_error(const MeshView& mesh) {
   return error;
 }
 
-PlaneDoubt plane_doubt(const std::array<Vec3, 3>& corners, const FaceNormal& normal,
-                       const Vec3& error) {
+PlaneUncertainty plane_uncertainty(const std::array<Vec3, 3>& corners, const FaceNormal& normal,
+                                   const Vec3& error) {
   const double twice_area = norm(normal.twice_area);
   if (normal.degenerate || !(twice_area > 0)) return {.thin = true};
   Vec3 edge;
@@ -190,7 +190,7 @@ PlaneDoubt plane_doubt(const std::array<Vec3, 3>& corners, const FaceNormal& nor
 }
 
 bool is_thin(const std::array<Vec3, 3>& corners, const Vec3& error) {
-  return plane_doubt(corners, face_normal(corners), error).thin;
+  return plane_uncertainty(corners, face_normal(corners), error).thin;
 }
 
 }  // namespace rholm

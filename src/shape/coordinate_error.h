@@ -27,7 +27,7 @@ Vec3 coordinate_error(const MeshView& mesh);
 bool is_in_single_precision(const MeshView& mesh);
 
 // Describes how far the errors of its corners leave the plane of a face uncertain.
-struct PlaneDoubt {
+struct PlaneUncertainty {
   bool thin = false;  // true if some triangle within the errors has no area: no plane
   // If not thin: upper bound of the tangent of the angle between this plane and the plane of any
   // triangle within the errors.
@@ -35,8 +35,8 @@ struct PlaneDoubt {
 };
 // Computes the uncertainty of a face's plane. `error` is a result of coordinate_error() in the unit
 // of the corners; `normal` is face_normal(corners).
-PlaneDoubt plane_doubt(const std::array<Vec3, 3>& corners, const FaceNormal& normal,
-                       const Vec3& error);
+PlaneUncertainty plane_uncertainty(const std::array<Vec3, 3>& corners, const FaceNormal& normal,
+                                   const Vec3& error);
 
 // Returns true if the face is thinner than the errors of its corners.
 bool is_thin(const std::array<Vec3, 3>& corners, const Vec3& error);

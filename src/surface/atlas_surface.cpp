@@ -155,10 +155,10 @@ HoleFilling fill(const Atlas& atlas, const CapBands& bands, const CapLists& list
     dipoles = dipoles_of(atlas, options.step, silent);
     winding.emplace(dipoles.points, dipoles.area_normals);
   };
-  const std::vector<std::uint64_t> doubtful =
+  const std::vector<std::uint64_t> uncertain =
       fill_grid(atlas, bands, lists, grid, context, make_tree);
   const WindingNumbers numbers = winding->numbers(context);
-  clear_refuted(grid, doubtful, numbers);
+  clear_refuted(grid, uncertain, numbers);
   HoleFillOptions filled{.max_blocks = blocks_within(options), .support = {}, .seen = options.seen};
   if (are_small(atlas)) filled.support = node_support(atlas, lists, grid, context);
   return fill_holes(

@@ -54,7 +54,7 @@ void set_truncation_rms(double norm_squared, Transform& transform) {
       coefficient_errors(norm_squared, c, transform.precision, known_error(transform));
   const ParsevalRest rest = parseval_rest(norm_squared, c, errors);
   transform.truncation_rms = rms_of(rest, kBelieved);
-  if (transform.truncation_rms) transform.truncation_rms_doubt = rms_doubt(rest);
+  if (transform.truncation_rms) transform.truncation_rms_uncertainty = rms_uncertainty(rest);
 }
 
 }  // namespace

@@ -59,15 +59,15 @@ TEST(coordinate_error, of_round_numbers_and_of_what_is_finer_is_that_of_double_p
 }
 
 // Corners are moved at random within the error: the bound holds, and is reached within a factor.
-TEST(plane_doubt, bounds_how_far_corners_within_their_errors_turn_the_plane) {
+TEST(plane_uncertainty, bounds_how_far_corners_within_their_errors_turn_the_plane) {
   const Vec3 error{1e-4, 2e-4, 5e-5};
   for (std::uint64_t i = 0; i < 200; ++i) {
     const double width = std::exp2(-random_in(0, 9, 1, i));
     const Vec3 a = random_direction(i, 0), b = random_direction(i, 1);
     const std::array<Vec3, 3> p = {a, b, 0.5 * (a + b) + width * random_direction(i, 2)};
     const FaceNormal normal = face_normal(p);
-    const PlaneDoubt doubt = plane_doubt(p, normal, error);
-    if (doubt.thin) continue;
+    const PlaneUncertainty uncertainty = plane_uncertainty(p, normal, error);
+    if (uncertainty.thin) continue;
     double most = 0;
     for (std::uint64_t k = 0; k < 200; ++k) {
       std::array<Vec3, 3> q = p;
@@ -80,12 +80,12 @@ TEST(plane_doubt, bounds_how_far_corners_within_their_errors_turn_the_plane) {
       const Vec3 other = face_normal(q).twice_area;
       most = std::max(most, norm(cross(other, normal.twice_area)) / dot(other, normal.twice_area));
     }
-    EXPECT_LE(most, 1.01 * doubt.turn);
-    EXPECT_GE(most, 0.1 * doubt.turn);
+    EXPECT_LE(most, 1.01 * uncertainty.turn);
+    EXPECT_GE(most, 0.1 * uncertainty.turn);
   }
 }
 
-TEST(plane_doubt, calls_a_face_thin_where_its_corners_may_lie_on_a_line) {
+TEST(plane_uncertainty, calls_a_face_thin_where_its_corners_may_lie_on_a_line) {
   const Vec3 error{1e-7, 1e-7, 1e-7};
   EXPECT_TRUE(is_thin({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5, 1.9e-7, 0}}, error));
   EXPECT_FALSE(is_thin({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5, 2.1e-7, 0}}, error));

@@ -47,10 +47,11 @@ bool LocalView::closed() const {
 FacePlane LocalView::plane(std::size_t triangle) const {
   const std::array<Vec3, 3> scaled = corners(triangle);
   const FaceNormal face = face_normal(scaled);
-  const PlaneDoubt doubt = plane_doubt(scaled, face, error);
-  if (doubt.thin) return {};
+  const PlaneUncertainty uncertainty = plane_uncertainty(scaled, face, error);
+  if (uncertainty.thin) return {};
   const Vec3 normal = normalized(face.twice_area);
-  return {.normal = normal, .offset = dot(normal, scaled[0] - frame.center), .turn = doubt.turn};
+  return {
+      .normal = normal, .offset = dot(normal, scaled[0] - frame.center), .turn = uncertainty.turn};
 }
 
 LocalView local_view(const MeshView& mesh, const Context& context) {

@@ -23,7 +23,7 @@ inline constexpr double kKnownPlane = 1e-2;
 struct FacePlane {
   Vec3 normal;
   double offset = 0;
-  double turn = 0;  // angle by which rounding may turn the plane, see PlaneDoubt::turn
+  double turn = 0;  // angle by which rounding may turn the plane, see PlaneUncertainty::turn
   bool exists() const { return normal != Vec3{}; }
   double distance(const Vec3& x) const { return offset - dot(normal, x); }  // d_T seen from x
   double slack() const { return turn > kKnownPlane ? turn : 0; }

@@ -121,7 +121,7 @@ void set_norms(const StarChart& chart, MonteCarlo& result) {
   expansion.precision = precision_of(*expansion.norm_squared, expansion.coefficients, errors);
   const ParsevalRest rest = parseval_rest(*expansion.norm_squared, expansion.coefficients, errors);
   result.truncation_rms = rms_of(rest, kBelieved);
-  if (result.truncation_rms) result.truncation_rms_doubt = rms_doubt(rest);
+  if (result.truncation_rms) result.truncation_rms_uncertainty = rms_uncertainty(rest);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ bool has_corner(const Triangle& t, std::uint32_t v) { return t[0] == v || t[1] =
 class RoundedVertices {
  public:
   RoundedVertices(const std::vector<Vec3>& vertices, const Vec3& error)
-      : vertices_(vertices), doubt_(2 * error) {}
+      : vertices_(vertices), uncertainty_(2 * error) {}
 
   double distance(std::uint32_t a, std::uint32_t b) const {
     return norm(vertices_[a] - vertices_[b]);
@@ -34,9 +34,9 @@ class RoundedVertices {
   bool is_on_edge(std::uint32_t p, std::uint32_t a, std::uint32_t b) const {
     const Vec3 to = vertices_[p] - vertices_[a], way = vertices_[b] - vertices_[a];
     double low = 0, high = 1;
-    narrow(to.x, way.x, doubt_.x, low, high);
-    narrow(to.y, way.y, doubt_.y, low, high);
-    narrow(to.z, way.z, doubt_.z, low, high);
+    narrow(to.x, way.x, uncertainty_.x, low, high);
+    narrow(to.y, way.y, uncertainty_.y, low, high);
+    narrow(to.z, way.z, uncertainty_.z, low, high);
     return low <= high && are_apart(p, a) && are_apart(p, b) && distance(p, a) < distance(a, b) &&
            distance(p, b) < distance(a, b);
   }
@@ -50,22 +50,23 @@ class RoundedVertices {
   }
 
  private:
-  static void narrow(double to, double way, double doubt, double& low, double& high) {
+  static void narrow(double to, double way, double uncertainty, double& low, double& high) {
     if (way == 0) {
-      if (std::abs(to) > doubt) high = -1;
+      if (std::abs(to) > uncertainty) high = -1;
       return;
     }
-    const double one = (to - doubt) / way, other = (to + doubt) / way;
+    const double one = (to - uncertainty) / way, other = (to + uncertainty) / way;
     low = std::max(low, std::min(one, other));
     high = std::min(high, std::max(one, other));
   }
   bool are_apart(std::uint32_t a, std::uint32_t b) const {
     const Vec3 d = vertices_[a] - vertices_[b];
-    return std::abs(d.x) > doubt_.x || std::abs(d.y) > doubt_.y || std::abs(d.z) > doubt_.z;
+    return std::abs(d.x) > uncertainty_.x || std::abs(d.y) > uncertainty_.y ||
+           std::abs(d.z) > uncertainty_.z;
   }
 
   const std::vector<Vec3>& vertices_;
-  Vec3 doubt_;  // error of the difference of two vertices
+  Vec3 uncertainty_;  // error of the difference of two vertices
 };
 
 // Drops triangles without width at edges that do not have two triangles, at first or after drops.

@@ -49,7 +49,7 @@ class ThinFaceSwaps {
   Shape shape(const Triangle& t) const {
     const std::array<Vec3, 3> p = {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]};
     const FaceNormal normal = face_normal(p);
-    return {normal.twice_area, plane_doubt(p, normal, error_).thin};
+    return {normal.twice_area, plane_uncertainty(p, normal, error_).thin};
   }
   bool is_thin_face(const Triangle& t) const { return shape(t).thin; }
   double length(std::uint32_t a, std::uint32_t b) const {

@@ -164,7 +164,7 @@ HWY_INLINE std::size_t NodesWithin(D d, const LaneCap& lane, const NodeSlices& s
 }
 
 void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps,
-               const Vec3& first_node, double step, float* values, std::uint64_t* doubtful) {
+               const Vec3& first_node, double step, float* values, std::uint64_t* uncertain) {
   const D d;
   const hn::RebindToSigned<D> di;
   const hn::CappedTag<float, 2> both;
@@ -197,7 +197,7 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
       }
     }
   }
-  const V near = hn::Set(d, static_cast<float>(kDoubtfulSteps));
+  const V near = hn::Set(d, static_cast<float>(kUncertainSteps));
   for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
     V g, w;
     hn::LoadInterleaved2(d, sums + 2 * i, g, w);
@@ -207,11 +207,11 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
                               hn::Set(d, BlockGrid::kUnknown)),
                d, values + i);
     const M weak =
-        hn::And(hn::And(known, hn::Lt(w, hn::Set(d, kDoubtfulWeight))), hn::Lt(hn::Abs(g), near));
+        hn::And(hn::And(known, hn::Lt(w, hn::Set(d, kUncertainWeight))), hn::Lt(hn::Abs(g), near));
     if (hn::AllFalse(d, weak)) continue;
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, weak, bytes);
-    doubtful[i >> 6] |= (bytes[0] | (std::uint64_t{bytes[1]} << 8)) << (i & 63);
+    uncertain[i >> 6] |= (bytes[0] | (std::uint64_t{bytes[1]} << 8)) << (i & 63);
   }
 }
 
@@ -413,7 +413,7 @@ std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapBands& bands,
                                      const CapLists& lists, BlockGrid& grid, const Context& context,
                                      const std::function<void()>& beside) {
   const Lanes lanes = make_lanes(atlas, bands, grid, context);
-  std::vector<std::uint64_t> doubtful(8 * grid.n_blocks(), 0);
+  std::vector<std::uint64_t> uncertain(8 * grid.n_blocks(), 0);
   constexpr std::size_t kGrain = 64;
   const std::size_t n = lists.first.size() - 1, chunks = (n + kGrain - 1) / kGrain;
   parallel_for(1 + chunks, 1, context, {.name = "grid"}, [&](std::size_t chunk, std::size_t) {
@@ -422,10 +422,10 @@ std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapBands& bands,
     for (std::size_t b = (chunk - 1) * kGrain; b < end; ++b) {
       HWY_DYNAMIC_DISPATCH(FillBlock)
       (lanes.caps.data(), lists.caps.data() + lists.first[b], lists.first[b + 1] - lists.first[b],
-       first_node(grid, b), grid.step, grid.block_values(b), &doubtful[8 * b]);
+       first_node(grid, b), grid.step, grid.block_values(b), &uncertain[8 * b]);
     }
   });
-  return doubtful;
+  return uncertain;
 }
 
 namespace {

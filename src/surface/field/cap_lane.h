@@ -41,9 +41,9 @@ struct NodeSlices {
 NodeSlices slices_near(const CapLane& cap, const Vec3& first_node);
 
 inline constexpr auto kNoWeight = static_cast<float>(kLeastWeight);
-// A node is uncertain if its sum of weights is less and the surface is within kDoubtfulSteps: the
+// A node is uncertain if its sum of weights is less and the surface is within kUncertainSteps: the
 // caps end there. Measured: three times the weight finds hardly more, for far more winding numbers.
-inline constexpr float kDoubtfulWeight = 0.1f;
-inline constexpr double kDoubtfulSteps = 1;
+inline constexpr float kUncertainWeight = 0.1f;
+inline constexpr double kUncertainSteps = 1;
 
 }  // namespace rholm

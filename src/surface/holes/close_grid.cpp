@@ -218,12 +218,12 @@ std::vector<std::uint32_t> open_blocks(const BlockGrid& grid, std::size_t n_bloc
   return open;
 }
 
-std::size_t clear_refuted(BlockGrid& grid, std::span<const std::uint64_t> doubtful,
+std::size_t clear_refuted(BlockGrid& grid, std::span<const std::uint64_t> uncertain,
                           const WindingNumbers& winding) {
   std::vector<float*> values;
   std::vector<Vec3> places;
-  for (std::size_t word = 0; word < doubtful.size(); ++word) {
-    for (std::uint64_t bits = doubtful[word]; bits != 0; bits &= bits - 1) {
+  for (std::size_t word = 0; word < uncertain.size(); ++word) {
+    for (std::uint64_t bits = uncertain[word]; bits != 0; bits &= bits - 1) {
       const std::size_t node = 64 * (word % 8) + std::countr_zero(bits);
       values.push_back(grid.block_values(word / 8) + node);
       places.push_back(grid.node(word / 8, node));

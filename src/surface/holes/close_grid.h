@@ -48,7 +48,7 @@ std::vector<std::uint32_t> open_blocks(const BlockGrid& grid, std::size_t n_bloc
 // Clears uncertain values (one bit per node, 8 words per block) whose sign the
 // winding number refutes. A cap that ends beyond a sharp edge or a thin tip has
 // wrong values there, which make horns. Returns the number of cleared values.
-std::size_t clear_refuted(BlockGrid& grid, std::span<const std::uint64_t> doubtful,
+std::size_t clear_refuted(BlockGrid& grid, std::span<const std::uint64_t> uncertain,
                           const WindingNumbers& winding);
 
 // Returns (1/2 - w) 2 step: one step for the winding numbers 0 and 1. In a hole it

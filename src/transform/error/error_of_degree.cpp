@@ -25,7 +25,7 @@ constexpr double kNear = 2.5;
 constexpr double kCloseFew = 1.04;
 // The largest error at all points is at most this many times the one at some points
 // (scripts/constants: 1.9).
-constexpr double kDoubt = 2;
+constexpr double kUncertainty = 2;
 // Root mean squares over some points and over all points differ by 0.7 %.
 constexpr double kClose = 1.05;
 // Points between vertices that are dense enough for one degree serve degrees up to this many times
@@ -169,7 +169,7 @@ double ErrorOfDegree::largest_of(const Expansion& expansion, int degree, double 
   if (first_ < 0) first_ = degree;
   if (degree <= first_ && degree_of_all_ < 0) {
     const double value = largest(sizes(measured(some_points(), expansion, degree, limit)));
-    if (value > kDoubt * limit) return value;
+    if (value > kUncertainty * limit) return value;
   }
   if (!is_distance() && witnesses_.size() > 0) {
     const double value = largest(sizes(measured(witnesses_, expansion, degree, limit)));

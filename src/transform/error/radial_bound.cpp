@@ -120,7 +120,7 @@ class Search {
         context_(context),
         seen_(scale_ * options.seen),
         enough_(scale_ * options.enough),
-        doubt_(scale_ * options.doubt),
+        uncertainty_(scale_ * options.uncertainty),
         most_cells_(options.most_cells),
         bend_(scale_ * second_derivative_bound(expansion.coefficients, context)) {}
 
@@ -144,7 +144,7 @@ class Search {
     const auto bounds_of = [&](std::size_t run, std::array<double, kRun>& bounds) {
       const std::size_t begin = run * kRun, end = std::min(mesh_.n_triangles, begin + kRun);
       corner_bounds(mesh_, begin, end, center_, scale_, bend_, bounds.data());
-      for (std::size_t i = 0; i < end - begin; ++i) bounds[i] += seen_ + doubt_;
+      for (std::size_t i = 0; i < end - begin; ++i) bounds[i] += seen_ + uncertainty_;
       return std::span(bounds).first(end - begin);
     };
     parallel_for(runs.size(), kGrain, context_, {}, [&](std::size_t begin, std::size_t end) {
@@ -235,7 +235,7 @@ class Search {
     if (!(plane.distance > 0 && cosine > 0 && least > 0 && h < 1)) return kInfinity;
     const double r = plane.distance / cosine;
     const Vec3 slope = -r / cosine * (plane.normal - cosine * u) - gradient;
-    return std::abs(r - value) + doubt_ + h * norm(slope) +
+    return std::abs(r - value) + uncertainty_ + h * norm(slope) +
            h * h / 2 * (plane_bend(plane.distance, least) + bend_);
   }
 
@@ -248,7 +248,7 @@ class Search {
   double scale_;
   const RadialModel& model_;
   const Context& context_;
-  double seen_, enough_, doubt_;  // times the scale, like the bounds of cells
+  double seen_, enough_, uncertainty_;  // times the scale, like the bounds of cells
   std::size_t most_cells_;
   double bend_;
   std::vector<Cell> open_;

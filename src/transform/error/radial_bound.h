@@ -15,7 +15,7 @@ namespace rholm {
 struct BoundOptions {
   double seen = 0;             // no error at a vertex is larger
   double enough = 0;           // parts of faces whose bound is no larger are not divided
-  double doubt = 0;            // largest error of the model's values, in the mesh's unit
+  double uncertainty = 0;      // largest error of the model's values, in the mesh's unit
   std::size_t most_cells = 0;  // about the largest number of cells to measure
 };
 struct RadialBound {

@@ -56,7 +56,7 @@ constexpr std::size_t kMostWorst = 2048;
 
 // The search for a bound ends within this part of the largest error (chosen). Values may be off by
 // this many times the precision with which they are computed (chosen).
-constexpr double kEnoughAbove = 1.01, kValueDoubt = 10;
+constexpr double kEnoughAbove = 1.01, kValueUncertainty = 10;
 
 // Points that are examined closely: `extreme` worst ones of the extreme points, then the worst
 // points over the area.
@@ -172,7 +172,7 @@ std::optional<double> bound_of_largest(const Expansion& expansion, const RadialM
       radial_bound(sites.mesh(), sites.scan(), expansion, model,
                    {.seen = largest_found,
                     .enough = kEnoughAbove * largest_found,
-                    .doubt = kValueDoubt * precision * size,
+                    .uncertainty = kValueUncertainty * precision * size,
                     .most_cells = static_cast<std::size_t>(std::clamp(waves, 1e4, 1e5))},
                    context)
           .value;

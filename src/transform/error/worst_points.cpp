@@ -289,8 +289,8 @@ WorstPoints worst_points(const MeshView& mesh, const FaceScan& scan, const Expan
     const auto first = order.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = order.begin() + static_cast<std::ptrdiff_t>(end);
     if (begin > 0) {
-      const double doubt = kDeviations * std::sqrt(squares / static_cast<double>(begin));
-      if (kept.rough[*std::min_element(first, order.end(), worse)] + doubt < distance) break;
+      const double uncertainty = kDeviations * std::sqrt(squares / static_cast<double>(begin));
+      if (kept.rough[*std::min_element(first, order.end(), worse)] + uncertainty < distance) break;
     }
     std::partial_sort(first, last, order.end(), worse);
     const ErrorPoints points = kept.points.subset({first, last});

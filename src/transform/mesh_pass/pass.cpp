@@ -86,18 +86,18 @@ double measure(const PassInput& input, const MeshPlan& plan, const Context& cont
   const double unscale = 1 / plan.block.scale;
   const int degree = plan.divided.degree;
   const double band = norm_of_degrees(result.coefficients, 3 * degree / 4 + 1, degree);
-  const double rules = unscale * sample.rules, doubt = unscale * sample.doubt;
+  const double rules = unscale * sample.rules, uncertainty = unscale * sample.uncertainty;
   const double windows = unscale * sample.windows;
   const auto with_all_else = [&](double measured) {
     return std::hypot(measured, result.error_beside) / norm;
   };
   report.measured_share = sample.share;
   report.error = with_all_else(std::hypot(rules, windows));
-  report.error_doubt = with_all_else(std::hypot(rules + doubt, windows)) - report.error;
+  report.error_uncertainty = with_all_else(std::hypot(rules + uncertainty, windows)) - report.error;
   report.band_error =
       band > 0 ? std::hypot(unscale * sample.band, result.band_error_beside) / band : 0;
   return with_all_else(
-      std::hypot(std::max(kSampleMargin * rules, rules + doubt), kSampleMargin * windows));
+      std::hypot(std::max(kSampleMargin * rules, rules + uncertainty), kSampleMargin * windows));
 }
 
 }  // namespace

@@ -381,7 +381,7 @@ class Sampler {
     };
     const auto [error, most] = from(1);
     found.rules = error;
-    found.doubt = most - error;
+    found.uncertainty = most - error;
     found.band = from(3 * halves[0].degree() / 4 + 1)[0];
   }
 

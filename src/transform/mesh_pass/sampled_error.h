@@ -13,11 +13,11 @@ namespace rholm {
 
 // l2 norms over the degrees, in scaled lengths.
 struct SampledError {
-  double rules = 0;    // error of rules, 1 <= l <= L
-  double band = 0;     // error of rules for l > 3L/4
-  double doubt = 0;    // with twice its standard deviation `rules` is at most this much larger
-  double windows = 0;  // error of windows beyond the error of random sources
-  double share = 0;    // part of the faces on which `rules` is measured
+  double rules = 0;        // error of rules, 1 <= l <= L
+  double band = 0;         // error of rules for l > 3L/4
+  double uncertainty = 0;  // with twice its standard deviation `rules` is at most this much larger
+  double windows = 0;      // error of windows beyond the error of random sources
+  double share = 0;        // part of the faces on which `rules` is measured
 };
 
 // Part of the faces that is sampled, chosen for 1.6 to 2 million faces; see RunCount.

@@ -111,12 +111,13 @@ double measure(const MeshPassResult& finer, double precision, MeshPassResult& re
   report.band_error = std::hypot(relative(3 * degree / 4 + 1), finer.report.band_error);
   // The model of the finer reading may be wrong by the same factor as the coarser one's.
   const double wrong = modelled > 0 ? report.error / modelled : 1.0;
-  report.error_doubt = finer.report.error * std::max(1.0, wrong);
+  report.error_uncertainty = finer.report.error * std::max(1.0, wrong);
   const double mean = std::abs(result.coefficients.c(0, 0));
   const double least =
       result.least_error * (result.least_error > kMostlyRounding ? kOfTwoReadings : 1.0);
-  report.reached = kMargin * report.error + report.error_doubt <= std::max(precision, least) &&
-                   std::abs(error.c(0, 0)) <= std::max(precision, kLumpRounding) * mean;
+  report.reached =
+      kMargin * report.error + report.error_uncertainty <= std::max(precision, least) &&
+      std::abs(error.c(0, 0)) <= std::max(precision, kLumpRounding) * mean;
   return wrong;
 }
 

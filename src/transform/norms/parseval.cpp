@@ -50,17 +50,18 @@ ParsevalRest parseval_rest(double norm_squared, const Coefficients& coefficients
   for (const double value : coefficients.values().subspan(1)) varying.add(value * value);
   const double size = std::sqrt(varying.value());
   return {.value = rest.value(),
-          .doubt = 2 * mean * errors.mean + errors.mean * errors.mean + 2 * size * errors.varying +
-                   errors.varying * errors.varying + kNormRounding * norm_squared};
+          .uncertainty = 2 * mean * errors.mean + errors.mean * errors.mean +
+                         2 * size * errors.varying + errors.varying * errors.varying +
+                         kNormRounding * norm_squared};
 }
 
 std::optional<double> rms_of(const ParsevalRest& rest, double least) {
-  if (!(rest.value >= least * rest.doubt)) return std::nullopt;
+  if (!(rest.value >= least * rest.uncertainty)) return std::nullopt;
   return rms(rest.value);
 }
 
-double rms_doubt(const ParsevalRest& rest) {
-  return rms(rest.value) - rms(rest.value - rest.doubt);
+double rms_uncertainty(const ParsevalRest& rest) {
+  return rms(rest.value) - rms(rest.value - rest.uncertainty);
 }
 
 }  // namespace rholm

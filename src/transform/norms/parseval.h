@@ -22,10 +22,10 @@ CoefficientErrors coefficient_errors(double norm_squared, const Coefficients& co
                                      double mean, double varying);
 
 struct ParsevalRest {
-  double value = 0;  // ||f||^2 - sum |c|^2; negative at most by `doubt`
+  double value = 0;  // ||f||^2 - sum |c|^2; negative at most by `uncertainty`
   // Bound on the difference from the rest of exact coefficients: 2 |c| |dc| + |dc|^2 for c_00 and,
   // by Cauchy and Schwarz, for the other coefficients. It includes the rounding of the norms.
-  double doubt = 0;
+  double uncertainty = 0;
 };
 ParsevalRest parseval_rest(double norm_squared, const Coefficients& coefficients,
                            const CoefficientErrors& errors);
@@ -35,6 +35,6 @@ std::optional<double> rms_of(const ParsevalRest& rest, double least);
 // A rest is reported from 4 times its error bound on: its root is then off by 13 % at most.
 inline constexpr double kBelieved = 4;
 // Returns the largest error of sqrt(rest / 4 pi), for a rest above its error bound.
-double rms_doubt(const ParsevalRest& rest);
+double rms_uncertainty(const ParsevalRest& rest);
 
 }  // namespace rholm

@@ -17,12 +17,13 @@ double rms_of_energy(double energy) {
   return std::sqrt(std::max(0.0, energy) / (4 * std::numbers::pi));
 }
 
-double doubt_of(const Expansion& expansion, const ParsevalRest& rest) {
+double uncertainty_of(const Expansion& expansion, const ParsevalRest& rest) {
   const std::optional<TruncationErrors>& errors = expansion.errors;
-  if (!errors || !errors->rms || expansion.function != RadialFunction::kRadius) return rest.doubt;
-  if (errors->rms_is_exact) return std::min(rest.doubt, std::abs(rest.value) / kExact);
+  if (!errors || !errors->rms || expansion.function != RadialFunction::kRadius)
+    return rest.uncertainty;
+  if (errors->rms_is_exact) return std::min(rest.uncertainty, std::abs(rest.value) / kExact);
   const double measured = 4 * std::numbers::pi * *errors->rms * *errors->rms;
-  return std::max(rest.doubt, std::abs(rest.value - measured));
+  return std::max(rest.uncertainty, std::abs(rest.value - measured));
 }
 
 }  // namespace
@@ -46,8 +47,8 @@ RmsBeyond rms_beyond(const Expansion& expansion) {
   ParsevalRest rest = parseval_rest(
       norm_squared, expansion.coefficients,
       coefficient_errors(norm_squared, expansion.coefficients, result.precision, result.precision));
-  rest.doubt = doubt_of(expansion, rest);
-  result.doubt = rest.doubt;
+  rest.uncertainty = uncertainty_of(expansion, rest);
+  result.uncertainty = rest.uncertainty;
   for (std::size_t l = energy.size(); l-- > 0;) {
     result.rms[l] = rms_of(rest, kBelieved);
     rest.value += energy[l];
@@ -64,14 +65,14 @@ std::vector<std::optional<double>> RmsBeyond::figures() const {
 
 bool RmsBeyond::is_exact(int l) const {
   const std::optional<double>& value = rms[static_cast<std::size_t>(l)];
-  return value && 4 * std::numbers::pi * *value * *value >= kExact * *doubt;
+  return value && 4 * std::numbers::pi * *value * *value >= kExact * *uncertainty;
 }
 
 // A rest that is not reported is below kBelieved error bounds; the true rest may be one bound
 // larger.
 std::optional<double> RmsBeyond::bound() const {
-  if (!doubt) return std::nullopt;
-  return rms_of_energy((kBelieved + 1) * *doubt);
+  if (!uncertainty) return std::nullopt;
+  return rms_of_energy((kBelieved + 1) * *uncertainty);
 }
 
 std::optional<int> RmsBeyond::degree_within(double tolerance) const {

@@ -32,7 +32,7 @@ constexpr double kFinalByEnergies = 1.014;
 // little too good (chosen).
 constexpr double kFinalByWitnesses = 1.03;
 // Largest error at points because of errors of coefficients, in root mean squares (chosen).
-constexpr double kDoubt = 10;
+constexpr double kUncertainty = 10;
 
 // A distance that is this many times too large to first order is too large in fact (chosen).
 constexpr double kTooFar = 2;
@@ -152,7 +152,7 @@ class Search {
     const Transform all = result_.transform;
     const Coefficients& coefficients = all.expansion.coefficients;
     std::vector<double> least = least_errors(coefficients);
-    const auto may_be_good = [&](double error) { return error <= result_.allowed + doubt(); };
+    const auto may_be_good = [&](double error) { return error <= result_.allowed + uncertainty(); };
     int tried = -1;
     for (;;) {
       const auto good = std::ranges::find_if(least, may_be_good);
@@ -199,8 +199,9 @@ class Search {
   }
 
   // Returns the amount that errors of coefficients may add to errors at points.
-  double doubt() const {
-    return kDoubt * precisions_.final * std::sqrt(problem_.norm_squared / (4 * std::numbers::pi));
+  double uncertainty() const {
+    return kUncertainty * precisions_.final *
+           std::sqrt(problem_.norm_squared / (4 * std::numbers::pi));
   }
 
   // Takes the first degrees of final coefficients. If these may be good enough, computes
@@ -211,7 +212,7 @@ class Search {
     const bool cut = degree < highest();
     if (cut) expansion().coefficients = expansion().coefficients.resized(degree);
     measure(&worst);
-    if (!cut || result_.reached > result_.allowed + doubt()) return;
+    if (!cut || result_.reached > result_.allowed + uncertainty()) return;
     take(problem_.transform({degree, precisions_.final}));
     measure(&worst);
   }

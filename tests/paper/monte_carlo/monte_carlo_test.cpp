@@ -289,7 +289,7 @@ TEST(monte_carlo, a_relative_deviation_of_few_points_is_not_given) {
 }
 
 // Above degree 1 a box has a larger rest than the scatter of many samples.
-TEST(monte_carlo, the_truncation_error_is_none_or_within_its_doubt) {
+TEST(monte_carlo, the_truncation_error_is_none_or_within_its_uncertainty) {
   const StarChart chart = chart_about(box({2, 1.6, 1.2}), {});
   const Transform expected =
       expand(chart, {.degree = 1, .engine = Engine::kDirect, .precision = 1e-13});
@@ -299,11 +299,11 @@ TEST(monte_carlo, the_truncation_error_is_none_or_within_its_doubt) {
       for (const std::size_t samples : {4, 4096}) {
         const MonteCarlo run = monte_carlo(
             chart, {.degree = 1, .places = places, .seed = seed, .samples = samples}, kOneThread);
-        ASSERT_EQ(run.truncation_rms.has_value(), run.truncation_rms_doubt.has_value());
+        ASSERT_EQ(run.truncation_rms.has_value(), run.truncation_rms_uncertainty.has_value());
         if (!run.truncation_rms) continue;
         if (samples == 4096) ++given;
-        EXPECT_NEAR(*run.truncation_rms, *expected.truncation_rms, *run.truncation_rms_doubt);
-        EXPECT_LT(*run.truncation_rms_doubt, *run.truncation_rms / 7);
+        EXPECT_NEAR(*run.truncation_rms, *expected.truncation_rms, *run.truncation_rms_uncertainty);
+        EXPECT_LT(*run.truncation_rms_uncertainty, *run.truncation_rms / 7);
       }
     }
     // Points on edges scatter three times as much (measured).

@@ -59,7 +59,7 @@ Sum blend_at(const Atlas& atlas, double band, const Vec3& x) {
 
 void expect_blend(const Atlas& atlas, double step, double band) {
   Field field = make_field(atlas, step);
-  const std::vector<std::uint64_t> doubtful =
+  const std::vector<std::uint64_t> uncertain =
       fill_grid(atlas, CapBands(atlas, field.grid.step), field.lists, field.grid, {});
   std::size_t known = 0;
   for (std::size_t b = 0; b < field.grid.n_blocks(); b += 3) {
@@ -67,11 +67,11 @@ void expect_blend(const Atlas& atlas, double step, double band) {
       const Sum sum = blend_at(atlas, band, field.grid.node(b, i));
       const float value = field.grid.block_values(b)[i];
       // A node is unsure if its weight is below 0.1 within a step of the surface.
-      const bool doubted = (doubtful[8 * b + (i >> 6)] >> (i & 63) & 1) != 0;
+      const bool is_uncertain = (uncertain[8 * b + (i >> 6)] >> (i & 63) & 1) != 0;
       if (sum.weight > 0.101 || !(std::abs(value) < 1.001 * step)) {
-        EXPECT_FALSE(doubted);
+        EXPECT_FALSE(is_uncertain);
       } else if (sum.weight > 1e-3 && sum.weight < 0.099 && std::abs(value) < 0.999 * step) {
-        EXPECT_TRUE(doubted);
+        EXPECT_TRUE(is_uncertain);
       }
       if (sum.weight < 1e-6) {
         EXPECT_FALSE(std::isfinite(value));
@@ -121,14 +121,14 @@ TEST(CapField, what_is_done_beside_is_done_once_and_changes_nothing) {
   const double step = 0.7 * atlas.spacing;
   Field alone = make_field(atlas, step);
   const CapBands bands(atlas, step);
-  const std::vector<std::uint64_t> doubtful =
+  const std::vector<std::uint64_t> uncertain =
       fill_grid(atlas, bands, alone.lists, alone.grid, {.threads = 1});
   for (const int threads : {1, 2, 3}) {
     Field field = make_field(atlas, step);
     std::atomic<int> calls = 0;
     EXPECT_EQ(
         fill_grid(atlas, bands, field.lists, field.grid, {.threads = threads}, [&] { ++calls; }),
-        doubtful);
+        uncertain);
     EXPECT_EQ(calls, 1);
     const std::size_t n = field.grid.n_blocks() * BlockGrid::kNodes * sizeof(float);
     EXPECT_EQ(std::memcmp(field.grid.values.data(), alone.grid.values.data(), n), 0);

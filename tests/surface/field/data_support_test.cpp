@@ -118,19 +118,19 @@ TEST(DataSupport, is_positive_within_the_data_and_negative_beyond) {
   const std::vector<double> support =
       data_support(atlas, field.lists, surface, CapBands(atlas, kStep), {});
   const double margin = largest_support(atlas);
-  std::size_t inside = 0, doubtful = 0;
+  std::size_t inside = 0, uncertain = 0;
   for (std::size_t v = 0; v < support.size(); ++v) {
     const double z = surface.mesh.vertices[v].z;
     EXPECT_LE(support[v], 1);
     if (z < kBorder - margin) {
       ++inside;
-      doubtful += support[v] <= 0;
+      uncertain += support[v] <= 0;
     } else if (z > kBorder + margin) {
       EXPECT_LT(support[v], 0);
     }
   }
   EXPECT_GT(inside, 1000U);
-  EXPECT_LT(100 * doubtful, inside);  // gaps between random points
+  EXPECT_LT(100 * uncertain, inside);  // gaps between random points
 }
 
 }  // namespace

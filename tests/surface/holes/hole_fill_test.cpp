@@ -93,11 +93,11 @@ TEST(CloseGrid, a_hole_is_closed_by_the_winding_number) {
   }
 }
 
-TEST(CloseGrid, doubtful_values_on_the_wrong_side_become_unknown) {
+TEST(CloseGrid, uncertain_values_on_the_wrong_side_become_unknown) {
   OpenSphere sphere = open_sphere(0, 0.04, 8000);
   const WindingTree tree(sphere.points, sphere.area_normals);
   BlockGrid& grid = sphere.grid;
-  std::vector<std::uint64_t> doubtful(8 * grid.n_blocks(), 0);
+  std::vector<std::uint64_t> uncertain(8 * grid.n_blocks(), 0);
   std::vector<float> expected;
   std::size_t n_wrong = 0;
   for (std::size_t b = 0; b < grid.n_blocks(); ++b) {
@@ -105,16 +105,16 @@ TEST(CloseGrid, doubtful_values_on_the_wrong_side_become_unknown) {
       float& value = grid.block_values(b)[n];
       // Nodes are wrong and unsure; wrong and sure; right and unsure; right. Farther than 0.022,
       // the radius of a dipole, the winding number is 0 or 1.
-      const bool wrong = std::abs(value) > 0.03F && (n & 2) == 0, doubted = (n & 1) == 0;
+      const bool wrong = std::abs(value) > 0.03F && (n & 2) == 0, is_uncertain = (n & 1) == 0;
       if (wrong) value = -value;
-      if (doubted && std::isfinite(value))
-        doubtful[8 * b + (n >> 6)] |= std::uint64_t{1} << (n & 63);
-      expected.push_back(wrong && doubted ? BlockGrid::kUnknown : value);
-      n_wrong += wrong && doubted ? 1 : 0;
+      if (is_uncertain && std::isfinite(value))
+        uncertain[8 * b + (n >> 6)] |= std::uint64_t{1} << (n & 63);
+      expected.push_back(wrong && is_uncertain ? BlockGrid::kUnknown : value);
+      n_wrong += wrong && is_uncertain ? 1 : 0;
     }
   }
   EXPECT_GT(n_wrong, 1000U);
-  EXPECT_EQ(clear_refuted(grid, doubtful, tree.numbers()), n_wrong);
+  EXPECT_EQ(clear_refuted(grid, uncertain, tree.numbers()), n_wrong);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const float value = grid.block_values(i / BlockGrid::kNodes)[i % BlockGrid::kNodes];
     EXPECT_TRUE(value == expected[i] || (std::isnan(value) && std::isnan(expected[i]))) << i;
@@ -129,12 +129,12 @@ TEST(CloseGrid, a_side_is_refuted_beyond_0_15_from_a_half) {
     SCOPED_TRACE(w);
     BlockGrid grid =
         make_block_grid({0, 0, -std::sqrt(100 / (4 * std::numbers::pi * w))}, 1, {{0, 0, 0}});
-    std::vector<std::uint64_t> doubtful(8, 0);
-    doubtful[0] = 1;
+    std::vector<std::uint64_t> uncertain(8, 0);
+    uncertain[0] = 1;
     const float side = w < 0.5 ? -0.5F : 0.5F;  // the less likely sign
     grid.block_values(0)[0] = side;
     const bool refuted = w < 0.35 || w > 0.65;
-    EXPECT_EQ(clear_refuted(grid, doubtful, tree.numbers()), refuted ? 1U : 0U);
+    EXPECT_EQ(clear_refuted(grid, uncertain, tree.numbers()), refuted ? 1U : 0U);
     EXPECT_EQ(std::isnan(grid.block_values(0)[0]), refuted);
   }
 }

@@ -169,7 +169,7 @@ TEST(sampled_error, of_windows_where_vertices_crowd) {
 }
 
 // Errors that add up (needles and walls around an axis), and errors that do not.
-TEST(sampled_error, of_some_triangles_are_right_within_their_doubt) {
+TEST(sampled_error, of_some_triangles_are_right_within_their_uncertainty) {
   const std::pair<Mesh, int> cases[] = {
       {elongated(300, 100, 30), 12}, {gear(240, 100, 24, 0.2), 12}, {elongated(200, 200, 1.5), 16}};
   for (const auto& [mesh, degree] : cases) {
@@ -178,7 +178,7 @@ TEST(sampled_error, of_some_triangles_are_right_within_their_doubt) {
     double mean2 = 0;
     for (const SampledError& said : sampled.said) {
       EXPECT_LT(said.share, 1);
-      EXPECT_GT(said.rules + said.doubt, sampled.truth - 0.5 * sampled.beside);
+      EXPECT_GT(said.rules + said.uncertainty, sampled.truth - 0.5 * sampled.beside);
       mean2 += said.rules * said.rules / static_cast<double>(sampled.said.size());
     }
     EXPECT_GT(std::sqrt(mean2), 0.5 * sampled.truth - 0.5 * sampled.beside);
@@ -201,10 +201,10 @@ TEST(sampled_error, of_large_meshes_keep_the_wish) {
       EXPECT_GT(found.report.measured_share, 0);
       EXPECT_LT(found.report.measured_share, 0.1);
       EXPECT_LE(error, wish);
-      EXPECT_GT(found.report.error + found.report.error_doubt, 0.5 * error);
+      EXPECT_GT(found.report.error + found.report.error_uncertainty, 0.5 * error);
       const MeshPassResult again = mesh_pass(view_of(mesh), options, {.threads = 3});
       EXPECT_EQ(found.report.error, again.report.error);
-      EXPECT_EQ(found.report.error_doubt, again.report.error_doubt);
+      EXPECT_EQ(found.report.error_uncertainty, again.report.error_uncertainty);
     }
   }
 }

@@ -30,22 +30,22 @@ constexpr double kBeyond = 0.5, kNorm = 9 + 16 + kBeyond;
 TEST(parseval_rest, is_what_the_coefficients_leave_of_the_norm) {
   const ParsevalRest rest = parseval_rest(kNorm, known(), {});
   EXPECT_NEAR(rest.value, kBeyond, 1e-14);
-  EXPECT_LT(rest.doubt, 1e-12);
+  EXPECT_LT(rest.uncertainty, 1e-12);
   EXPECT_NEAR(*rms_of(rest, kBelieved), std::sqrt(kBeyond / kSphere), 1e-14);
 }
 
 // The worst errors are parallel to the coefficients: then the uncertainty equals the error of the
 // remainder. It may differ by twice the squared error, because it is computed from the inexact
 // norm.
-TEST(parseval_rest, is_off_by_its_doubt_where_errors_are_worst) {
+TEST(parseval_rest, is_off_by_its_uncertainty_where_errors_are_worst) {
   for (const double relative : {-1e-2, -1e-6, 1e-6, 1e-2}) {
     Coefficients c = known();
     for (double& value : c.values()) value *= 1 + relative;
     const double size = std::abs(relative);
     const ParsevalRest rest = parseval_rest(kNorm, c, {.mean = 3 * size, .varying = 4 * size});
     const double off = std::abs(rest.value - kBeyond);
-    EXPECT_LE(off, rest.doubt * (1 + 1e-9)) << relative;
-    EXPECT_GE(off, rest.doubt * (1 - 3 * size)) << relative;
+    EXPECT_LE(off, rest.uncertainty * (1 + 1e-9)) << relative;
+    EXPECT_GE(off, rest.uncertainty * (1 - 3 * size)) << relative;
   }
 }
 
@@ -55,16 +55,16 @@ TEST(parseval_rest, of_relative_errors_is_that_of_the_mean_and_the_rest) {
   EXPECT_DOUBLE_EQ(errors.varying, 1e-5 * std::sqrt(16 + kBeyond));
 }
 
-TEST(rms_of, is_none_where_the_doubt_is_above_a_quarter) {
-  EXPECT_FALSE(rms_of({.value = 1, .doubt = 0.26}, kBelieved));
-  EXPECT_FALSE(rms_of({.value = -1, .doubt = 0.2}, kBelieved));
-  EXPECT_FALSE(rms_of({.value = std::nan(""), .doubt = 0.2}, kBelieved));
-  const ParsevalRest rest{.value = 1, .doubt = 0.25};
+TEST(rms_of, is_none_where_the_uncertainty_is_above_a_quarter) {
+  EXPECT_FALSE(rms_of({.value = 1, .uncertainty = 0.26}, kBelieved));
+  EXPECT_FALSE(rms_of({.value = -1, .uncertainty = 0.2}, kBelieved));
+  EXPECT_FALSE(rms_of({.value = std::nan(""), .uncertainty = 0.2}, kBelieved));
+  const ParsevalRest rest{.value = 1, .uncertainty = 0.25};
   ASSERT_TRUE(rms_of(rest, kBelieved));
-  EXPECT_NEAR(rms_doubt(rest), (1 - std::sqrt(0.75)) / std::sqrt(kSphere), 1e-15);
+  EXPECT_NEAR(rms_uncertainty(rest), (1 - std::sqrt(0.75)) / std::sqrt(kSphere), 1e-15);
 }
 
-// Degree 1 has 4, degree 2 has 12, and 0.5 lie beyond. The remainder is uncertain by `doubt`,
+// Degree 1 has 4, degree 2 has 12, and 0.5 lie beyond. The remainder is uncertain by `uncertainty`,
 // through an exact error or through a measured error that differs by this amount.
 Expansion known_expansion() {
   Expansion e;
@@ -79,10 +79,10 @@ Expansion measured_expansion(double beyond) {
   return e;
 }
 
-TEST(rms_beyond, is_by_parseval_where_the_rest_is_four_times_its_doubt) {
+TEST(rms_beyond, is_by_parseval_where_the_rest_is_four_times_its_uncertainty) {
   const RmsBeyond all = rms_beyond(measured_expansion(0.8 * kBeyond));
   ASSERT_EQ(all.rms.size(), 3U);
-  EXPECT_NEAR(all.doubt.value(), 0.2 * kBeyond, 1e-14);
+  EXPECT_NEAR(all.uncertainty.value(), 0.2 * kBeyond, 1e-14);
   EXPECT_NEAR(all.rms[0].value(), std::sqrt((16 + kBeyond) / kSphere), 1e-15);
   EXPECT_NEAR(all.rms[1].value(), std::sqrt((12 + kBeyond) / kSphere), 1e-15);
   EXPECT_NEAR(all.rms[2].value(), std::sqrt(kBeyond / kSphere), 1e-14);
@@ -93,10 +93,10 @@ TEST(rms_beyond, is_by_parseval_where_the_rest_is_four_times_its_doubt) {
 }
 
 // Without measured errors the uncertainty follows from the default precision: 2 |c| |dc|.
-TEST(rms_beyond, has_the_doubt_of_the_default_precision_or_of_an_exact_error) {
+TEST(rms_beyond, has_the_uncertainty_of_the_default_precision_or_of_an_exact_error) {
   Expansion e = known_expansion();
   const double varying = std::sqrt(16 + kBeyond);
-  EXPECT_NEAR(rms_beyond(e).doubt.value(), 2e-8 * (9 + 4 * varying), 1e-11);
+  EXPECT_NEAR(rms_beyond(e).uncertainty.value(), 2e-8 * (9 + 4 * varying), 1e-11);
   e.norm_squared = 25 + 1e-7;  // four times the uncertainty is 2e-6
   EXPECT_FALSE(rms_beyond(e).rms[2].has_value());
   e.errors.emplace().rms = std::sqrt(1e-7 / kSphere);
@@ -113,10 +113,10 @@ TEST(rms_beyond, judges_by_the_precision_that_the_expansion_has) {
     const RmsBeyond beyond = rms_beyond(e);
     EXPECT_EQ(beyond.precision, precision);
     EXPECT_FALSE(beyond.precision_is_assumed);
-    EXPECT_NEAR(beyond.doubt.value(), 2 * precision * (9 + 4 * varying),
+    EXPECT_NEAR(beyond.uncertainty.value(), 2 * precision * (9 + 4 * varying),
                 26 * precision * precision + 1e-12);
-    EXPECT_EQ(beyond.rms[2].has_value(), kBeyond >= 4 * beyond.doubt.value());
-    EXPECT_EQ(beyond.is_exact(2), kBeyond >= 50 * beyond.doubt.value());
+    EXPECT_EQ(beyond.rms[2].has_value(), kBeyond >= 4 * beyond.uncertainty.value());
+    EXPECT_EQ(beyond.is_exact(2), kBeyond >= 50 * beyond.uncertainty.value());
   }
   EXPECT_FALSE(rms_beyond(e).rms[2].has_value());
 }
@@ -144,7 +144,7 @@ TEST(rms_beyond, degree_within_a_tolerance_rests_on_what_is_known) {
 }
 
 // For any precision: no error is given, or it is within its uncertainty of the exact one.
-TEST(truncation_rms, is_none_or_within_its_doubt) {
+TEST(truncation_rms, is_none_or_within_its_uncertainty) {
   int given = 0;
   for (const Mesh& mesh : {box({2, 1.6, 1.2}), test::rotated(bumpy_sphere(2, 0.3)),
                            test::rotated(icosphere(2)), test::random_octahedron(5)}) {
@@ -158,12 +158,14 @@ TEST(truncation_rms, is_none_or_within_its_doubt) {
         for (const double precision : {1e-1, 1e-2, 1e-3, 1e-5, 1e-8}) {
           const Transform coarse =
               expand(chart, {.degree = degree, .engine = engine, .precision = precision});
-          ASSERT_EQ(coarse.truncation_rms.has_value(), coarse.truncation_rms_doubt.has_value());
+          ASSERT_EQ(coarse.truncation_rms.has_value(),
+                    coarse.truncation_rms_uncertainty.has_value());
           if (!coarse.truncation_rms) continue;
           ++given;
-          EXPECT_NEAR(*coarse.truncation_rms, *exact.truncation_rms, *coarse.truncation_rms_doubt)
+          EXPECT_NEAR(*coarse.truncation_rms, *exact.truncation_rms,
+                      *coarse.truncation_rms_uncertainty)
               << degree << ' ' << to_string(engine) << ' ' << precision;
-          EXPECT_LT(*coarse.truncation_rms_doubt, 0.14 * *coarse.truncation_rms);
+          EXPECT_LT(*coarse.truncation_rms_uncertainty, 0.14 * *coarse.truncation_rms);
         }
       }
     }
