@@ -17,6 +17,7 @@
 #include "support/executor_by.h"
 #include "support/packed_mesh.h"
 #include "support/random_data.h"
+#include "support/sizes.h"
 #include "support/test_meshes.h"
 #include "support/test_shapes.h"
 #include "transform/mesh_pass/pass.h"
@@ -93,9 +94,9 @@ Mesh rows_of_vertices() {
 
 // With lumps of both precisions and with Hessians, in common or not; as many parts as pay, up to
 // eight grids, and one that all are added to; a mesh of one part is not shared.
-// Without `all` each mesh meets each precision and each number of parts, and these meet each other
-// on some mesh.
-void check_bits_of_one_process(bool all) {
+// Without `nightly` each mesh meets each precision and each number of parts, and these meet each
+// other on some mesh.
+TEST_OF_TWO_SIZES(shared_parts, give_the_bits_of_one_process) {
   const Mesh fine = bumpy_sphere(7), rough = rough_sphere(5), rows = rows_of_vertices(),
              small = bumpy_sphere(4);
   ASSERT_TRUE(parts_overlap(view_of(fine), divide_triangles(fine.triangles.size(), 8)));
@@ -109,7 +110,7 @@ void check_bits_of_one_process(bool all) {
     for (std::size_t j = 0; j < precisions.size(); ++j) {
       const double precision = precisions[j];
       for (std::size_t k = 0; k < all_parts.size(); ++k) {
-        if (!all && (i + j + k) % 3 != 0) continue;
+        if (!nightly && (i + j + k) % 3 != 0) continue;
         MeshPassOptions options{.degree = 12,
                                 .precision = precision,
                                 .center = {0.05, 0.02, 0.01},
@@ -128,10 +129,6 @@ void check_bits_of_one_process(bool all) {
   }
   EXPECT_EQ(rounds, (std::set<std::size_t>{0, 2}));
 }
-
-TEST(shared_parts, give_the_bits_of_one_process) { check_bits_of_one_process(false); }
-
-TEST(shared_parts, give_the_bits_of_one_process_nightly) { check_bits_of_one_process(true); }
 
 // Others do not know the order that they are brought into.
 TEST(shared_parts, triangles_in_random_order_are_not_shared) {
