@@ -64,7 +64,7 @@ class Atlas(CliTest):
 
     def test_wrong_sides_are_turned_or_said(self):
         """One face of an octahedron, all faces, points with normals inwards."""
-        words = ["--atlas", "--tolerance", "0.05", "--max-degree", "4", "-o", "m.h5"]
+        words = ["--atlas", "--tolerance", "0.1", "--max-degree", "4", "-o", "m.h5"]
         self.write("mixed.off", off(V, [F[0][::-1], *F[1:]]))
         self.assertIn("faces disagree about their sides at 3 edges",
                       self.rholm("analyze", "mixed.off", *words, code=3).err)
