@@ -1,6 +1,6 @@
-// The centre of the kernel on one thread: ns per triangle of a mesh that lies as in a binary PLY
-// file (float coordinates, 13 bytes a face). Beside it what one pass costs, and a plain copy of the
-// same bytes.
+// The centre of the kernel on one thread: ns per triangle of a mesh in the layout of a binary PLY
+// file (float coordinates, 13 bytes per face). For comparison: the time of one pass, and of a plain
+// copy of the same bytes.
 #include <benchmark/benchmark.h>
 
 #include <cstring>
@@ -18,7 +18,7 @@ namespace {
 
 const Context kOneThread{.threads = 1, .progress = {}};
 
-// Float vertices and 13-byte faces, owned.
+// A mesh that owns float vertices and faces of 13 bytes.
 struct PackedMesh {
   std::vector<std::byte> vertices, triangles;
   MeshView view;
@@ -49,7 +49,7 @@ PackedMesh packed(const Mesh& mesh) {
   return result;
 }
 
-// 20 * 4^subdivisions triangles; made once for all benchmarks of a size.
+// Returns 20 * 4^subdivisions triangles, made once for all benchmarks of a size.
 const PackedMesh& bumpy(std::int64_t subdivisions) {
   static std::int64_t size = -1;
   static std::unique_ptr<const PackedMesh> mesh;
@@ -61,7 +61,7 @@ const PackedMesh& bumpy(std::int64_t subdivisions) {
   return *mesh;
 }
 
-// Seconds per triangle, printed with a unit: "8.1n".
+// Reports seconds per triangle, printed with a unit: "8.1n".
 void report_per_triangle(benchmark::State& state, std::size_t triangles) {
   state.counters["per_triangle"] = benchmark::Counter(
       static_cast<double>(triangles),
@@ -85,7 +85,7 @@ void frame(benchmark::State& state) {
   report_per_triangle(state, mesh.n_triangles);
 }
 
-// A pass that finds nothing.
+// Measures a pass that finds nothing.
 void pass(benchmark::State& state) {
   const LocalView view = local_view(bumpy(state.range(0)).view, kOneThread);
   for (auto _ : state) {
@@ -95,7 +95,7 @@ void pass(benchmark::State& state) {
   report_per_triangle(state, view.mesh.n_triangles);
 }
 
-// All of it, from bytes to the point.
+// Measures the whole search, from bytes to the point.
 void center(benchmark::State& state) {
   const MeshView& mesh = bumpy(state.range(0)).view;
   KernelCenter found;
@@ -107,7 +107,7 @@ void center(benchmark::State& state) {
   state.counters["scans"] = found.scans;
 }
 
-// From the kernel on.
+// Measures the search for the slope centre after the kernel is known.
 void slope(benchmark::State& state) {
   const LocalView view = local_view(bumpy(state.range(0)).view, kOneThread);
   const KernelCenter kernel = chebyshev_center(view, kOneThread);
@@ -118,7 +118,7 @@ void slope(benchmark::State& state) {
   report_per_triangle(state, view.mesh.n_triangles);
 }
 
-// One pass for the derivative at one or four places.
+// Measures one pass for the derivative at one or four places.
 template <std::size_t kPlaces>
 void slope_pass(benchmark::State& state) {
   const LocalView view = local_view(bumpy(state.range(0)).view, kOneThread);
@@ -130,7 +130,7 @@ void slope_pass(benchmark::State& state) {
   report_per_triangle(state, view.mesh.n_triangles);
 }
 
-// The centroid of the solid.
+// Measures the centroid of the solid.
 void centroid(benchmark::State& state) {
   const LocalView view = local_view(bumpy(state.range(0)).view, kOneThread);
   for (auto _ : state) {

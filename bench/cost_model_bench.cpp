@@ -1,6 +1,6 @@
-// The constants of src/harmonic/nonuniform/cost_model.cpp measured anew on one thread: a table of
-// those in use, those measured here, and their ratio. Only ratios of the constants matter: on a
-// machine that is twice as fast all say 0.5.
+// Measures the constants of src/harmonic/nonuniform/cost_model.cpp on one thread. Prints a table of
+// the constants in use, the measured ones, and their ratio. Only ratios of the constants matter: on
+// a machine that is twice as fast all ratios are 0.5.
 #include <array>
 #include <cmath>
 #include <complex>
@@ -27,7 +27,8 @@ namespace {
 
 const Context kOneThread{.threads = 1, .progress = {}};
 
-// Least processor nanoseconds of some runs, which together take a tenth of a second.
+// Returns the smallest processor time, in ns, of several runs that together take a tenth of a
+// second.
 double least_time(const std::function<void()>& run) {
   double least = std::numeric_limits<double>::infinity();
   const double until = cpu_seconds() + 0.1;
@@ -44,7 +45,7 @@ void row(const std::string& what, double used, double measured) {
   std::fflush(stdout);
 }
 
-// Least squares of relative errors: y = a u + b v.
+// Fits y = a u + b v by least squares of relative errors.
 struct Fit {
   double uu = 0, uv = 0, vv = 0, uy = 0, vy = 0;
   void add(double u, double v, double y) {
@@ -143,7 +144,7 @@ Coefficients some_coefficients(int degree) {
   return f;
 }
 
-// Fresh memory is part of a grid.
+// Allocation of memory is part of the time of a grid.
 double adjoint_time(const SphereFourier& stage, std::size_t n_grids) {
   Coefficients sum = some_coefficients(stage.degree);
   return least_time([&] {
@@ -197,7 +198,7 @@ void direct() {
   }
 }
 
-// What a face costs beyond that of a mesh whose faces all end at vertices.
+// Additional cost of a face, compared with a mesh whose faces are all lumped.
 struct Faces {
   double beyond = 0, nodes = 0;  // nanoseconds; number
   bool all_lumped = false, none_lumped = false;

@@ -1,11 +1,11 @@
-// A search for meshes on which the error of the fast engine is above the wish, or reported wrongly.
+// A search for meshes on which the fast engine exceeds the requested error, or reports a wrong one.
 //
 //   build/release/bench/counterexamples [SECONDS] [SEED] [FILE.off]
 //
-// Half of the bodies are random, the others are changed from those with the largest error so far.
-// Prints a line for each body that is worse than all before, and at the end how the reported errors
-// compare with the true ones. Ends with 1 at the first error above the wish; that body is written
-// to the file, its centre in the origin.
+// Half of the bodies are random; the others are variations of the bodies with the largest error so
+// far. Prints a line for each body that is worse than all before. At the end, prints how the
+// reported errors compare with the true ones. Exits with 1 at the first error above the request,
+// and writes the body to the file, with its centre at the origin.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -26,7 +26,7 @@ using namespace rholm;
 
 struct Tried {
   test::BodyGenes genes;
-  double true_error = 0;  // both in units of the wish
+  double true_error = 0;  // both in units of the requested precision
   double reported = 0;
   bool reached = true;
 };
@@ -40,7 +40,7 @@ Tried try_body(const test::BodyGenes& genes) {
   MeshPassResult found = mesh_pass(view_of(moved), wanted, one);
   verify_pass(view_of(moved), wanted, one, found);
   const StarChart chart{.mesh = moved, .edges = pair_edges(moved), .report = {}};
-  // Relative, by direct sums.
+  // Returns the relative error by direct sums.
   const auto error_by = [&](Method method) {
     const Coefficients exact = analyze(chart,
                                        {.degree = body.degree,
@@ -55,8 +55,8 @@ Tried try_body(const test::BodyGenes& genes) {
     return norm > 0 ? norm_of_degrees(error, 1, body.degree) / norm : 0;
   };
   double error = error_by(Method::kEdge);
-  // Sums over edges have terms that cancel where the surface is near; cubature of the faces has
-  // not.
+  // Sums over edges have terms that cancel where the surface is near. Cubature of the faces has no
+  // terms that cancel.
   if (error > body.precision) error = error_by(Method::kArea);
   return {.genes = genes,
           .true_error = error / body.precision,

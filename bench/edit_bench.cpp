@@ -1,5 +1,5 @@
-// Edits on one thread: analysis of patches of 10 000 vertices that may move, and their updates,
-// against the wavelength in edges. CPU time; `vertices` and `caps` beside it.
+// Edits on one thread: analysis and update of patches of 10 000 movable vertices, as a function of
+// the wavelength in edges. Prints CPU time, and the counters `vertices` and `caps`.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -13,8 +13,8 @@ namespace rholm {
 namespace {
 
 const Context kOneThread{.threads = 1, .progress = {}};
-constexpr double kEdge = 0.0083;  // mean on this sphere
-constexpr double kRadius = 0.49;  // of a disc of 10 000 vertices
+constexpr double kEdge = 0.0083;  // mean edge on this sphere
+constexpr double kRadius = 0.49;  // radius of a disc with 10 000 vertices
 const Vec3 kTop = {0, 0, 1};
 
 const Mesh& sphere() {

@@ -1,5 +1,5 @@
-// Complex transforms by our own passes and by FFTW, of the lengths that plans ask for, of ones with
-// a factor 3, which they do not, and of primes; and what it takes to plan them.
+// Complex transforms by our own passes and by FFTW, and the time of planning them. Plans use some
+// of these lengths; others have a factor 3, which plans do not use, or are prime.
 //   fft_bench --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true
 #include <benchmark/benchmark.h>
 #include <fftw3.h>

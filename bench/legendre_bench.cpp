@@ -1,6 +1,6 @@
 // The Legendre stage on L + 1 Gauss rings, and whole transforms of the smallest grids of degree L.
-// Beside them, where the build has found it, libsharp: a whole transform, and one with a single
-// longitude, which is its Legendre stage and a pass over its phases.
+// If the build has found libsharp, it is compared. One of its transforms is whole, and one has a
+// single longitude, which amounts to its Legendre stage and a pass over its phases.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ HalfRings gauss_rings(int degree) {
   return HalfRings(colatitudes);
 }
 
-// [order][even_re, even_im, odd_re, odd_im][ring]
+// The rows are indexed [order][even_re, even_im, odd_re, odd_im][ring].
 AlignedArray<double> some_rows(int degree, const HalfRings& rings) {
   AlignedArray<double> rows((degree + std::size_t{1}) * 4 * rings.padded);
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -96,7 +96,7 @@ BENCHMARK_CAPTURE(grids, equiangular_analysis, GridKind::kEquiangular, Way::kAdj
     ->Apply(degrees);
 
 #ifdef RHOLM_HAS_LIBSHARP
-// Runs on as many threads as OMP_NUM_THREADS says when the program starts.
+// Runs on the number of threads that OMP_NUM_THREADS has when the program starts.
 void libsharp(benchmark::State& state, Way way, bool whole) {
   const int degree = static_cast<int>(state.range(0));
   const int n_phi = whole ? smallest_grid(GridKind::kGaussLegendre, degree).n_phi : 1;

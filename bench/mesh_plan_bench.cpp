@@ -1,11 +1,11 @@
-// What windows leave of vertices and nodes in step with the grid, against the same rules with
-// windows a thousand times as good: in units of the share of the wish that the plan gives windows
-// (below 1 wherever the constants of src/transform/mesh_pass/plan/plan.cpp are right), of the
-// window's error of the norm (kLatticeShare, kAlignedTimes) and of the moduli of nodes in rows
-// (kRowsInStep), and, in single precision, of the moduli of all sources (kSingleInStep).
+// Window errors of vertices and nodes whose spacing matches the grid, relative to the same rules
+// with windows a thousand times as precise. The first unit is the share of the precision that the
+// plan allows windows: below 1 if the constants of src/transform/mesh_pass/plan/plan.cpp are right.
+// Others are the window's error of the norm (kLatticeShare, kAlignedTimes), the moduli of nodes in
+// rows (kRowsInStep) and, in single precision, the moduli of all sources (kSingleInStep).
 //
-// With the operand `turned`: what turning the mesh by a generic rotation and the coefficients back
-// would take and leave instead, on aligned bodies.
+// With the operand `turned`: time and error if the mesh is turned by a generic rotation and the
+// coefficients are turned back, on aligned bodies.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -35,7 +35,7 @@ struct Case {
   std::vector<int> degrees;
 };
 
-// l2 over 1 <= l <= L.
+// Returns the l2 norm over 1 <= l <= L.
 double distance(const Coefficients& a, const Coefficients& b) {
   Coefficients difference = a;
   for (std::size_t i = 0; i < a.values().size(); ++i) difference.values()[i] -= b.values()[i];
@@ -52,7 +52,7 @@ void measure(const Case& given, int degree, double precision) {
   const MeshView mesh = view_of(given.mesh);
   const MeshPassResult found = pass(given.mesh, degree, precision, 1);
   const MeshPassResult exact = pass(given.mesh, degree, precision, 1e-3);
-  // A pass that was repeated with other rules says nothing about windows.
+  // A pass repeated with other rules gives no information about windows.
   if (found.report.nodes != exact.report.nodes ||
       found.report.lumped_triangles != exact.report.lumped_triangles) {
     return;
@@ -89,7 +89,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-// Processor time in milliseconds of one thread, and what was found.
+// Processor time in milliseconds of one thread, and the coefficients.
 struct Timed {
   double time = 0;
   Coefficients found;
@@ -128,7 +128,7 @@ void compare_turned(const Case& given, int degree, double precision) {
   std::fflush(stdout);
 }
 
-// Of about as many faces.
+// Returns bodies with about `faces` faces.
 std::vector<Case> aligned_bodies(double faces) {
   using namespace test::adversarial;
   using namespace test::random_bodies;

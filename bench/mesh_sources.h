@@ -1,5 +1,5 @@
-// Sources as they come in a mesh, for benchmarks: rows of points on the faces of a cube, each moved
-// a little.
+// Sources in the order of a mesh, for benchmarks: rows of points on the faces of a cube, each moved
+// by a small random offset.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace rholm {
 
-// 6 n^2 unit vectors, face by face, row by row.
+// Returns 6 n^2 unit vectors, face by face, row by row.
 inline std::vector<Vec3> mesh_directions(std::size_t n) {
   std::vector<Vec3> directions;
   directions.reserve(6 * n * n);
@@ -42,8 +42,8 @@ inline const std::vector<Vec3>& directions_of(std::size_t n) {
   return large;
 }
 
-// One sixteenth of the medium mesh, in runs of eight batches from all latitudes: as local as a
-// mesh, and small enough to stay in the cache.
+// Returns one sixteenth of the medium mesh, in runs of eight batches from all latitudes: as local
+// as a mesh, and small enough to stay in the cache.
 template <typename T>
 std::vector<SourceBatch<T>> some_batches() {
   constexpr std::size_t kSize = SourceBatch<T>::kSize;

@@ -1,6 +1,6 @@
-// Monte Carlo on edges and on triangles, one thread: seconds per sample, and the error of both at
-// equal total numbers of samples on five shapes. Counters: the relative l2 errors over 1 <= l <= L
-// (one seed), and how many times less that of the edges is.
+// Monte Carlo on edges and on triangles, one thread: seconds per sample, and the errors at equal
+// total numbers of samples on five shapes. Counters are the relative l2 errors over 1 <= l <= L
+// (one seed), and the error on triangles divided by the error on edges.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -24,7 +24,7 @@ Mesh octahedron() {
   return mesh;
 }
 
-// Elongated, with hills, and 6 % of noise from vertex to vertex.
+// Returns an elongated body with hills and 6 % of noise from vertex to vertex.
 Mesh rough_asteroid() {
   Mesh mesh = bumpy_sphere(4, 0.35, 7);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -68,7 +68,7 @@ double relative_error(const Coefficients& a, const Coefficients& b) {
   return std::sqrt(error / norm);
 }
 
-// 16 points on each edge, 24 on each triangle: there are three edges to two triangles.
+// 16 points on each edge and 24 on each triangle: there are three edges per two triangles.
 void edges_against_triangles(benchmark::State& state) {
   const Shape& s = shape(static_cast<std::size_t>(state.range(0)));
   const int degree = static_cast<int>(state.range(1));

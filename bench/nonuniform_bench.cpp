@@ -1,9 +1,9 @@
 // The nonuniform transforms, stage by stage, on one thread. Counters are seconds per source, per
-// source and coefficient ("term"), per cell of the grid.
+// source and coefficient ("term"), and per cell of the grid.
 //
-// Beside them the floors: `rows` updates the same cells with windows that are constant, `copy`
-// moves memory. Sources come as in a mesh: rows of points on the faces of a cube, each moved a
-// little.
+// Lower bounds for comparison: `rows` updates the same cells with constant windows, `copy` moves
+// memory. Sources are in the order of a mesh: rows of points on the faces of a cube, each moved
+// slightly.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -63,7 +63,7 @@ BENCHMARK(sources<double, true>)->Name("spread/double")->Apply(widths_and_deriva
 BENCHMARK(sources<float, false>)->Name("interpolate/single")->Apply(widths_and_gradients);
 BENCHMARK(sources<double, false>)->Name("interpolate/double")->Apply(widths_and_gradients);
 
-// What is left of spreading without the windows: row updates of sources that are placed already.
+// Spreading without windows: row updates of sources whose cells are known.
 struct Placement {
   std::vector<std::size_t> cell;
   std::size_t stride = 0;
@@ -101,7 +101,7 @@ RHOLM_CLONES void update_rows(const Placement& placement, int width, int taps,
   }
 }
 
-// Argument: width; eight taps a row up to that width, sixteen beyond.
+// Argument: width. A row has eight taps up to width 8, and sixteen beyond.
 void rows(benchmark::State& state) {
   const int width = static_cast<int>(state.range(0));
   const GridLayout layout = fourier_of<double>(width, kDegree, 1.5).layout;
@@ -137,7 +137,7 @@ Coefficients some_coefficients(int degree) {
   return f;
 }
 
-// The stage between grid and coefficients. Argument: degree.
+// Measures the stage between grid and coefficients. Argument: degree.
 void fourier_adjoint(benchmark::State& state) {
   const int degree = static_cast<int>(state.range(0));
   const SphereFourier stage = fourier_of<double>(6, degree, 1.4);
@@ -172,8 +172,8 @@ BENCHMARK(fourier_adjoint)->Apply(degrees);
 BENCHMARK(fourier_forward<float>)->Name("fourier_forward/single")->Apply(degrees);
 BENCHMARK(fourier_forward<double>)->Name("fourier_forward/double")->Apply(degrees);
 
-// Whole transforms by the library's own plan. Arguments: points along a cube's edge, degree,
-// decimal digits wanted, derivatives.
+// Measures whole transforms with the library's own plan. Arguments: points along a cube's edge,
+// degree, number of decimal digits, derivatives.
 void adjoint(benchmark::State& state, Engine engine) {
   const std::vector<Vec3>& directions = directions_of(state.range(0));
   const int degree = static_cast<int>(state.range(1));

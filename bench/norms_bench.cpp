@@ -1,6 +1,6 @@
-// Exact norms and error measures on one thread: ns per triangle of a mesh that lies as in a binary
-// PLY file (float coordinates, 13 bytes a face). Beside them what one pass over the triangles
-// costs, and the closed form one triangle at a time.
+// Exact norms and error measures on one thread: ns per triangle of a mesh in the layout of a binary
+// PLY file (float coordinates, 13 bytes per face). For comparison: the time of one pass over the
+// triangles, and of the closed form for one triangle at a time.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -19,7 +19,7 @@ namespace {
 
 const Context kOneThread{.threads = 1, .progress = {}};
 
-// Float vertices and 13-byte faces, owned.
+// A mesh that owns float vertices and faces of 13 bytes.
 struct PackedMesh {
   std::vector<std::byte> vertices, triangles;
   MeshView view;
@@ -50,7 +50,7 @@ PackedMesh packed(const Mesh& mesh) {
   return result;
 }
 
-// 20 * 4^subdivisions triangles; made once for all benchmarks of a size.
+// Returns 20 * 4^subdivisions triangles, made once for all benchmarks of a size.
 const MeshView& bumpy(std::int64_t subdivisions) {
   static std::int64_t size = -1;
   static std::unique_ptr<const PackedMesh> mesh;
@@ -62,7 +62,7 @@ const MeshView& bumpy(std::int64_t subdivisions) {
   return mesh->view;
 }
 
-// Seconds per triangle, printed with a unit: "8.1n".
+// Reports seconds per triangle, printed with a unit: "8.1n".
 template <typename Run>
 void per_triangle(benchmark::State& state, const Run& run) {
   const MeshView& mesh = bumpy(state.range(0));
@@ -85,7 +85,7 @@ void norms(benchmark::State& state) {
   per_triangle(state, [](const MeshView& mesh) { return exact_norms(mesh, {}, kOneThread); });
 }
 
-// d_T Phi_T by (M7) as it stands, one triangle at a time.
+// Evaluates d_T Phi_T by (M7), one triangle at a time.
 double closed_form(const std::array<Vec3, 3>& p) {
   const Vec3 twice_area = cross(p[1] - p[0], p[2] - p[0]), n = normalized(twice_area);
   const double d = dot(n, p[0]), r[3] = {norm(p[0]), norm(p[1]), norm(p[2])};

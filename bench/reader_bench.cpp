@@ -1,8 +1,8 @@
-// Throughput of the readers of shapes against a plain copy of the same file, one thread, from the
-// page cache. bytes_per_second is the size of the file over the time.
+// Throughput of the readers of shapes, compared with a plain copy of the same file, on one thread
+// from the page cache. The counter bytes_per_second is the size of the file over the time.
 //
-// The copy is what no reader can beat: read() into fresh memory, then memcpy to other fresh memory
-// (a reader too must fill arrays of its own).
+// The copy is a lower bound for the time of a reader. It consists of read() into new memory, then
+// memcpy to other new memory, because a reader must fill its own arrays, too.
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
 #include <unistd.h>
@@ -27,12 +27,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A bumpy sphere as a grid of 1000 x 1200 vertices: 1.2 million vertices, twice as many triangles,
-// which makes files of 40 ... 350 MB.
+// A bumpy sphere as a grid of 1000 x 1200 vertices: 1.2 million vertices and twice as many
+// triangles, which give files of 40 ... 350 MB.
 constexpr std::uint32_t kRings = 1000;
 constexpr std::uint32_t kColumns = 1200;
 
-// `step` > 0 rounds coordinates to multiples of it: six decimals are what most text files have.
+// If `step` > 0, coordinates are multiples of it: most text files have six decimals.
 Mesh grid_sphere(double step) {
   Mesh mesh;
   const auto round = [step](double x) { return step > 0 ? std::round(x / step) * step : x; };
@@ -46,7 +46,7 @@ Mesh grid_sphere(double step) {
                                round(r * std::cos(theta))});
     }
   }
-  // Through text once, so that 0.1234560000000001 becomes 0.123456.
+  // Converts to text and back, so that 0.1234560000000001 becomes 0.123456.
   if (step > 0) {
     char digits[32];
     for (Vec3& v : mesh.vertices) {
@@ -75,7 +75,7 @@ void put(OutputBuffer& out, T value, bool big_endian) {
   out.advance(to + sizeof(T));
 }
 
-// The layout of most files: float x y z, lists of three ints.
+// Writes the layout of most files: float x y z, lists of three ints.
 void write_float_ply(const Mesh& mesh, const fs::path& path, bool big_endian) {
   AtomicFile file(path);
   OutputBuffer out(&file);

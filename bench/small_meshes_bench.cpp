@@ -1,5 +1,5 @@
-// What one small mesh costs, for bench/python/overhead.py to compare with: CPU and wall time of
-// `count` calls of encode() at 320 faces and degree 16, JSON on standard output. Usage:
+// The cost of one small mesh, which bench/python/overhead.py compares with Python: CPU and wall
+// time of `count` calls of encode() at 320 faces and degree 16, as JSON on standard output. Usage:
 // small_meshes_bench [COUNT [THREADS]]
 #include <chrono>
 #include <cstdio>
@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   const long count = argc > 1 ? std::strtol(argv[1], nullptr, 10) : 1000;
   const int threads = argc > 2 ? static_cast<int>(std::strtol(argv[2], nullptr, 10)) : 1;
   const rholm::Mesh mesh = rholm::bumpy_sphere(2);  // 320 faces
-  double sum = 0;                                   // so that nothing is left out
+  double sum = 0;                                   // keeps the compiler from removing calls
   const auto begin = std::chrono::steady_clock::now();
   const std::clock_t cpu = std::clock();
   for (long i = 0; i < count; ++i) {

@@ -1,10 +1,10 @@
-// A displaced sphere of any number of triangles as a binary PLY on standard output, a ring at a
-// time: for meshes larger than memory.
+// Writes a displaced sphere of any number of triangles as binary PLY to standard output, ring by
+// ring: for meshes larger than memory.
 //
 //   build/release/bench/sphere_stream 11180 | rholm analyze - --degree 480 -o large.h5
 //
-// The octahedron, each edge cut into n: 8 n^2 triangles, 4 n^2 + 2 vertices, in rings from the
-// north pole, on a sphere of radius 1 + a sum of waves whose lengths go down to 1/30.
+// The mesh is an octahedron with each edge cut into n: 8 n^2 triangles, 4 n^2 + 2 vertices, in
+// rings from the north pole. The radius is 1 + a sum of waves whose lengths go down to 1/30.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -41,7 +41,7 @@ struct Wave {
   double x, y, z, phase, height;
 };
 
-// Directions by the golden angle.
+// Directions of waves follow the golden angle.
 std::array<Wave, 8> waves() {
   std::array<Wave, 8> all;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -65,7 +65,7 @@ void put_vertex(double x, double y, double z, Output& out) {
   out.add(static_cast<float>(r * z));
 }
 
-// Rings 0 ... 2n; of ring k, whose quarters have `size` edges each.
+// Rings k = 0 ... 2n; each quarter of ring k has `size` edges.
 struct Rings {
   std::uint32_t n;
   std::uint32_t size(std::uint32_t k) const { return k <= n ? k : 2 * n - k; }
@@ -75,7 +75,7 @@ struct Rings {
     const std::uint64_t m = size(k);
     return k <= n ? 1 + 2 * m * (m - 1) : all - 1 - 2 * m * (m + 1);
   }
-  // Edge i of quarter q.
+  // Returns the vertex at the beginning of edge i of quarter q.
   std::uint32_t vertex(std::uint32_t k, std::uint32_t q, std::uint32_t i) const {
     const std::uint64_t m = size(k);
     return static_cast<std::uint32_t>(first(k) + (m == 0 ? 0 : (q * m + i) % (4 * m)));

@@ -1,4 +1,4 @@
-// Direct sums: nanoseconds per source and coefficient, and whole transforms of a bumpy sphere, on
+// Direct sums: nanoseconds per source and coefficient; and whole transforms of a bumpy sphere, on
 // one thread.
 #include <benchmark/benchmark.h>
 
@@ -21,7 +21,7 @@ Coefficients some_coefficients(int degree) {
   return f;
 }
 
-// 40 962 directions in the order of a mesh, the order that sources of edges and faces have.
+// Returns 40 962 directions in the order of a mesh, as for sources of edges and faces.
 const std::vector<Vec3>& directions() {
   static const std::vector<Vec3> vertices = icosphere(6).vertices;
   return vertices;
@@ -68,7 +68,7 @@ void values_and_gradients(benchmark::State& state) {
 }
 BENCHMARK(values_and_gradients)->Arg(64)->Arg(180)->Unit(benchmark::kMillisecond);
 
-// A mesh of 5 120 triangles to degree 64 with the default precision.
+// Measures a mesh of 5 120 triangles to degree 64, with the default precision.
 void analyze_by(benchmark::State& state, Method method) {
   const StarChart chart = make_star_chart(bumpy_sphere(4));
   std::size_t nodes = 0;

@@ -1,9 +1,9 @@
-// What windows leave of sums over scattered directions, against direct sums: random weights, even
-// directions, l2 over all coefficients relative to the norm of such a sum. In units of what
-// window_error() says, for values, and for gradients and Hessians that count as much as weights
-// (gradient_factor(), hessian_factor(), gradient_as_weight()); at the end in single precision, with
-// windows whose own error is below it, in units of 1 (single_rounding()): all that
-// src/harmonic/nonuniform/window_error.h says.
+// Window errors of sums over scattered directions, compared with direct sums: random weights and
+// even directions. Errors are l2 norms over all coefficients, relative to the norm of a random sum.
+// The table has ratios to window_error(), for values, and for gradients and Hessians that count as
+// much as weights (gradient_factor(), hessian_factor(), gradient_as_weight()). At the end come
+// ratios to 1 (single_rounding()) in single precision, with windows of smaller error. They test all
+// statements of src/harmonic/nonuniform/window_error.h.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -39,7 +39,7 @@ double sign(std::uint64_t stream, std::size_t j) {
   return random_uniform(stream, j) < 0.5 ? -1 : 1;
 }
 
-// Along the sphere, of the size of a weight 1: L |g| = 1, L^2 |h| = 1.
+// Derivatives along the sphere have the size of a weight 1: L |g| = 1, L^2 |h| = 1.
 Sources random_sources(std::size_t n, int degree) {
   Sources sources;
   const double l = std::max(degree, 1);
@@ -75,7 +75,7 @@ class Judge {
     }
   }
 
-  // l2 of what windows leave, relative to the sum of values.
+  // Returns the l2 norm of the window error, relative to the sum of values.
   double error(int derivatives, int width, double sigma, bool single) const {
     NonuniformPlan plan = plan_nonuniform({.degree = degree_,
                                            .allowed = single ? 1e-4 : 1e-6,
@@ -128,7 +128,7 @@ void singles() {
       "|---|---|---|---|---|---|\n");
   for (const int degree : {16, 64, 256}) {
     const Judge judge(3000, degree);
-    constexpr int kWidth = 10;  // the widest in single precision
+    constexpr int kWidth = 10;  // the widest window in single precision
     std::printf("| %d | %d |", degree, kWidth);
     for (int d = 0; d < 3; ++d) std::printf(" %.1e |", judge.error(d, kWidth, 2.5, true));
     std::printf(" %.1e, %.1e |\n", single_rounding(degree), single_rounding(degree, 2));

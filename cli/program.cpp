@@ -74,7 +74,7 @@ int dispatch(const ProgramText& program, std::span<const Command> commands,
   return dispatch(command_of(commands, first), rest);
 }
 
-// What was printed may still wait in a buffer, and the disk may be full.
+// Flushes standard output: printed text may be in a buffer, and the disk may be full.
 int flushed(int code) {
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
   throw Error(ErrorCode::kIo, "standard output cannot be written: the report is incomplete");

@@ -13,7 +13,7 @@ namespace rholm::cli {
 // Runs `words` (without the program's name) and returns the exit code (exit_code.h); never throws.
 int run_program(const std::vector<std::string>& words);
 
-// The same of a program with other commands; who calls says what became of it.
+// Runs a program with other commands; the caller reports the outcome.
 Outcome run_program(const ProgramText& program, const std::vector<Command>& commands,
                     const std::vector<std::string>& words);
 // Runs a program that is one command without a name.

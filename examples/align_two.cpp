@@ -1,4 +1,4 @@
-// The turn that lays one shape on another.
+// Finds the rotation that aligns one shape with another.
 // Usage: align_two MESH ONTO_MESH OUT_MESH
 #include <rholm/rholm.h>
 
@@ -17,7 +17,7 @@ rholm::Expansion expansion_of(const std::string& path) {
 void run(const std::string& path, const std::string& onto, const std::string& out) {
   const rholm::Expansion a = expansion_of(path);
   const rholm::Expansion b = expansion_of(onto);
-  // Both are seen from the centroids of their solids: those move with the shape.
+  // Both surfaces are expanded about the centroids of their solids, which move with the shape.
   const rholm::Placement placement = rholm::align(a, b, rholm::AlignCenters::kVolume);
   const rholm::Alignment& found = placement.alignment;
   const rholm::Expansion moved = rholm::placed(a, placement);

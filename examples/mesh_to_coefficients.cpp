@@ -1,4 +1,4 @@
-// A mesh as spherical harmonics, kept in a file, and as a mesh again.
+// Computes spherical harmonics of a mesh, stores them in a file, and makes a mesh of them.
 // Usage: mesh_to_coefficients MESH DEGREE MODEL.h5 OUT_MESH
 #include <rholm/rholm.h>
 
@@ -11,18 +11,18 @@
 namespace {
 
 void run(const std::string& mesh, int degree, const std::string& model, const std::string& out) {
-  // From triangles to coefficients. The mesh must be closed, and star-shaped from some centre.
+  // From faces to coefficients. The mesh must be closed, and star-shaped from some centre.
   rholm::EncodeOptions options;
   options.analyze.degree = degree;
   const rholm::Encoded encoded = rholm::encode_file(mesh, options);
   rholm::write_model(encoded.analysis.expansion, model);
 
-  // The model file has all that is needed to get the surface back.
+  // The model file has everything that the surface needs.
   const rholm::Expansion expansion = rholm::read_model(model);
   const rholm::Mesh surface = rholm::synthesize(expansion, rholm::icosphere(5));
   rholm::write_shape(surface, out);
 
-  // Inside the library harmonics are orthonormal: c_00 is the mean radius times sqrt(4 pi).
+  // The library's harmonics are orthonormal: c_00 is the mean radius times sqrt(4 pi).
   const double mean_radius = expansion.coefficients.c(0, 0) / std::sqrt(4 * std::numbers::pi);
   const rholm::SurfaceMeasures measures = rholm::measure(expansion);
   std::printf("faces %zu\n", encoded.faces);
@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
   } catch (const rholm::Error& error) {
     std::fprintf(stderr, "mesh_to_coefficients: %s\n", error.what());
     return 1;
-  } catch (const std::logic_error&) {  // by main, or by stoi of what is no number
+  } catch (const std::logic_error&) {  // thrown by main, or by stoi for a text that is no number
     std::fprintf(stderr, "usage: mesh_to_coefficients MESH DEGREE MODEL.h5 OUT_MESH\n");
     return 2;
   }

@@ -1,4 +1,4 @@
-// A scan, or any points on a surface, as a closed mesh.
+// Reconstructs a closed mesh from a scan, or from any points on a surface.
 // Usage: points_to_surface POINTS OUT_MESH
 #include <rholm/rholm.h>
 
@@ -14,7 +14,7 @@ void run(const std::string& points, const std::string& out) {
   if (cloud == nullptr) {
     throw rholm::Error(rholm::ErrorCode::kInvalidInput, points + " has faces, not points");
   }
-  // Without normals the points get some first; noise and size of detail are found in the data.
+  // Missing normals are computed first. Noise and size of detail are estimated from the data.
   const rholm::Reconstruction surface = rholm::reconstruct(*cloud);
   rholm::write_shape(surface.mesh, out);
 

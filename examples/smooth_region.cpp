@@ -1,4 +1,4 @@
-// Detail finer than a wavelength taken from a region of a mesh; the rest stays as it is.
+// Removes detail finer than a wavelength from a region of a mesh; other vertices do not change.
 // Usage: smooth_region MESH REGION WAVELENGTH OUT_MESH    (REGION as ball:X,Y,Z,RADIUS)
 #include <rholm/rholm.h>
 
@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
   } catch (const rholm::Error& error) {
     std::fprintf(stderr, "smooth_region: %s\n", error.what());
     return 1;
-  } catch (const std::logic_error&) {  // by main, or by stod of what is no number
+  } catch (const std::logic_error&) {  // thrown by main, or by stod for a text that is no number
     std::fprintf(stderr, "usage: smooth_region MESH REGION WAVELENGTH OUT_MESH\n");
     return 2;
   }

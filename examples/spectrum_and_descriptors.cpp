@@ -1,4 +1,4 @@
-// Energy per degree of two shapes, and how alike they are however they are turned.
+// Prints the energy per degree of two shapes, and their similarity regardless of rotation.
 // Usage: spectrum_and_descriptors MESH OTHER_MESH DEGREE
 #include <rholm/rholm.h>
 
@@ -9,7 +9,7 @@
 
 namespace {
 
-// About the centroid of the solid: a centre that turns with the shape.
+// Expands about the centroid of the solid, a centre that rotates with the shape.
 rholm::Coefficients coefficients_of(const std::string& path, int degree) {
   rholm::EncodeOptions options;
   options.analyze.degree = degree;
@@ -27,7 +27,7 @@ void run(const std::string& path, const std::string& other, int degree) {
   for (int l = 0; l <= degree; ++l) {
     std::printf("%6d  %.6e  %.6e\n", l, energy_a[l], energy_b[l]);
   }
-  // The roots of the energies are descriptors that no rotation changes.
+  // The square roots of the energies are descriptors that do not depend on rotation.
   std::printf("distance %.6g\n", rholm::distance(a, b));
   std::printf("distance of descriptors %.6g\n", rholm::descriptor_distance(a, b));
 }
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   } catch (const rholm::Error& error) {
     std::fprintf(stderr, "spectrum_and_descriptors: %s\n", error.what());
     return 1;
-  } catch (const std::logic_error&) {  // by main, or by stoi of what is no number
+  } catch (const std::logic_error&) {  // thrown by main, or by stoi for a text that is no number
     std::fprintf(stderr, "usage: spectrum_and_descriptors MESH OTHER_MESH DEGREE\n");
     return 2;
   }

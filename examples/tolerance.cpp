@@ -1,4 +1,4 @@
-// The smallest degree whose surface is near enough to a mesh.
+// Finds the smallest degree whose surface is within a tolerance of a mesh.
 // Usage: tolerance MESH PERCENT    (root mean square error, in percent of the mean radius)
 #include <rholm/rholm.h>
 
@@ -23,7 +23,7 @@ void run(const std::string& mesh, double percent) {
   std::printf("allowed %.4g\n", report.allowed);
   std::printf("reached %.4g\n", report.reached);
   std::printf("kept %s\n", report.met ? "yes" : "no: the degree was limited to 512");
-  // The same expansion knows the largest error as well: measured on the mesh.
+  // The expansion has the largest error as well, measured on the mesh.
   if (expansion.errors && expansion.errors->measured_max) {
     std::printf("largest %.4g\n", *expansion.errors->measured_max);
   }
@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
   } catch (const rholm::Error& error) {
     std::fprintf(stderr, "tolerance: %s\n", error.what());
     return 1;
-  } catch (const std::logic_error&) {  // by main, or by stod of what is no number
+  } catch (const std::logic_error&) {  // thrown by main, or by stod for a text that is no number
     std::fprintf(stderr, "usage: tolerance MESH PERCENT\n");
     return 2;
   }

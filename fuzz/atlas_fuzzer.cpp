@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
     }
   } catch (const rholm::Error& refused) {
-    if (refused.what()[0] == '\0') __builtin_trap();  // it says why
+    if (refused.what()[0] == '\0') __builtin_trap();  // the error must have a message
   }
   return 0;
 }

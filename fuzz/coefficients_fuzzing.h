@@ -1,4 +1,4 @@
-// What must hold for any bytes given to a reader of coefficients.
+// Conditions that hold for any bytes given to a reader of coefficients.
 #pragma once
 
 #include <cmath>
@@ -33,10 +33,10 @@ inline bool same(const Expansion& a, const Expansion& b) {
          a.tail_strength == b.tail_strength && a.gravity == b.gravity && a.precision == b.precision;
 }
 
-// A sound expansion survives every format.
+// Checks that a valid expansion survives every format.
 inline void check_expansion_survives(const Expansion& expansion) {
   check_expansion(expansion, "fuzz");
-  constexpr int kEnough = 64;  // larger ones only cost time
+  constexpr int kEnough = 64;  // larger degrees only cost time
   if (expansion.coefficients.degree() > kEnough) return;
   const Convention orthonormal{Normalization::kOrthonormal, 1};
   for (const CoefficientsFormatLine& format : coefficients_format_table()) {
@@ -49,7 +49,7 @@ inline void check_expansion_survives(const Expansion& expansion) {
   }
 }
 
-// Either an Error is thrown, or the expansion is sound.
+// Checks that the reader throws an Error or returns a valid expansion.
 inline void check_coefficients_reader(const std::uint8_t* data, std::size_t size) {
   const std::span<const char> bytes(reinterpret_cast<const char*>(data), size);
   looks_like_coefficients(bytes);

@@ -5,7 +5,7 @@
 namespace rholm::fuzzing {
 namespace {
 
-// A file whose faces lie as they should has the triangles, and the vertices, that are read of it.
+// Checks that a mapped file shows the same triangles and vertices as the reader of whole files.
 void check(std::span<const char> bytes) {
   const NamedBytes file(bytes);
   std::optional<MappedPolygons> polygons;
@@ -22,7 +22,7 @@ void check(std::span<const char> bytes) {
   try {
     whole = parse_shape(bytes, file.name());
   } catch (const Error&) {
-    return;  // of coordinates that are not finite
+    return;  // coordinates that are not finite
   }
   const auto& mesh = std::get<Mesh>(whole.shape);
   require(mesh.triangles == triangles);

@@ -1,4 +1,4 @@
-// Bytes for readers that take the name of a file.
+// Bytes in memory, for readers that take the name of a file.
 #pragma once
 
 #include <sys/mman.h>
@@ -11,7 +11,7 @@
 
 namespace rholm::fuzzing {
 
-// A file in memory that has a name.
+// A file in memory that can be opened by its name.
 class NamedBytes {
  public:
   explicit NamedBytes(std::span<const char> bytes) : file_(::memfd_create("fuzz", 0)) {

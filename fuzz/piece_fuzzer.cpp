@@ -3,7 +3,7 @@
 #include "io/spill/piece_file.h"
 #include "rholm/error.h"
 
-// Either an Error is thrown, or the sections fill the file but for what is around them.
+// Checks that an Error is thrown, or that head, sections, table and end fill the file exactly.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto read = [&](std::uint64_t at, std::span<std::byte> bytes) {
     if (at > size || size - at < bytes.size()) return false;

@@ -23,7 +23,8 @@ std::optional<std::vector<Vec3>> read_in_pieces(const std::string& name, std::si
   return points;
 }
 
-// Either an Error is thrown, or the points are those of the whole file, if that can be read.
+// Checks that an Error is thrown, or that the points equal the ones of the whole file, if it can be
+// read.
 void check(std::span<const char> bytes) {
   const NamedBytes file(bytes);
   const auto found = read_in_pieces(file.name(), 1 + bytes.size() % 50);
@@ -34,7 +35,7 @@ void check(std::span<const char> bytes) {
     const ShapeView view = view_of(whole);
     require(*found == all_of(view.points));
   } catch (const Error&) {
-    return;  // of what lies behind the points
+    return;  // an error in the bytes after the points
   }
 }
 

@@ -1,4 +1,4 @@
-// What must hold for any bytes given to a reader of shapes.
+// Conditions that hold for any bytes given to a reader of shapes.
 #pragma once
 
 #include <algorithm>
@@ -39,8 +39,8 @@ std::vector<T> all_of(const RowRange<T>& range) {
   return all;
 }
 
-// What was written reads back with the same bits of positions, normals of points and triangles.
-// (A mesh all of whose faces were skipped becomes points.)
+// Checks that positions, normals of points and triangles are read back with the same bits. (A mesh
+// all of whose faces were skipped is read back as points.)
 inline void check_round_trip(const ShapeView& shape, ShapeFormat format) {
   const std::vector<char> bytes = formatted(shape, format);
   const ShapeFile again = parse_shape(bytes, to_string(format));
@@ -53,8 +53,8 @@ inline void check_round_trip(const ShapeView& shape, ShapeFormat format) {
   }
 }
 
-// `extension` chooses the reader where the content does not. Either an Error is thrown, or the
-// shape is valid and survives writing in the same format and as PLY.
+// Checks that an Error is thrown, or that the shape is valid and survives writing in the same
+// format and as PLY. `extension` chooses the reader where the content does not.
 inline void check_reader(const std::uint8_t* data, std::size_t size, const std::string& extension) {
   const std::span<const char> bytes(reinterpret_cast<const char*>(data), size);
   ShapeFile file;
@@ -64,11 +64,11 @@ inline void check_reader(const std::uint8_t* data, std::size_t size, const std::
     return;
   }
   std::visit([](const auto& shape) { validate(shape); }, file.shape);
-  // Memory within a small multiple of the file: no number takes less than a byte of it.
+  // Memory is at most a small multiple of the file: each number takes a byte of it or more.
   const ShapeView shape = view_of(file);
   require(shape.points.size() <= size && shape.triangles.size() <= size);
   check_round_trip(shape, ShapeFormat::kPly);
-  // Formats that round to float or have no triangles: their own round trips are tests.
+  // Formats that round to float or have no triangles are tested by their own round trips.
   const ShapeFormatInfo& format = shape_format_info(file.format);
   const bool exact = format.faces && !format.single_precision;
   if (exact || !shape.is_mesh) check_round_trip(shape, file.format);

@@ -3,7 +3,7 @@
 #include "parts/memory_store.h"
 #include "rholm/error.h"
 
-// A sorted tile whose first byte says where the index ends; the rest are rows of one chunk.
+// Reads a sorted tile. The first byte says where the index ends; then follow rows of one chunk.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const auto* const bytes = reinterpret_cast<const std::byte*>(data) + 1;

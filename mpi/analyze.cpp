@@ -15,8 +15,8 @@
 namespace rholm::mpi {
 namespace {
 
-// Ranks share one expansion by the fast engine with the method edge; of all else they would wait
-// for rank 0.
+// Ranks share one expansion by the fast engine with the method edge. For other options they would
+// wait for rank 0.
 void keep_what_is_shared(cli::Command& command) {
   static const std::set<std::string> others = {"atlas",     "fit",          "extension", "samples",
                                                "deviation", "most-samples", "seed",      "weld"};

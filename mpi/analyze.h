@@ -1,4 +1,4 @@
-// rholm analyze with the pass over the mesh shared by ranks. Layer: mpi.
+// rholm analyze with the pass over the mesh distributed over ranks. Layer: mpi.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace rholm::mpi {
 inline constexpr const char* kAnalyzeService = "analyze";
 
 cli::Command analyze_command(Ranks* ranks);
-// On other ranks, called for by the command; keeps the mesh from one call to the next.
+// Returns the service of other ranks for the command; it keeps the mesh between calls.
 std::function<void(Ranks& ranks, const std::string& bytes)> analyze_service();
 
 }  // namespace rholm::mpi

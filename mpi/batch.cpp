@@ -20,7 +20,7 @@
 namespace rholm::mpi {
 namespace {
 
-// What another rank needs to make the job anew.
+// Returns the bytes from which another rank makes the same job.
 std::string bytes_of(const cli::BatchJob& job, const std::string& rows, int threads) {
   const cli::BatchOptions& o = job.options;
   return ByteWriter()
@@ -57,7 +57,7 @@ Part part_of(const std::string& bytes) {
   return part;
 }
 
-// How to go on, for as long as there is a journal.
+// Progress, and the way to continue after an interruption as long as the journal exists.
 struct Progress {
   std::mutex mutex;
   std::string journal;

@@ -1,4 +1,4 @@
-// rholm batch with its rows over ranks. Layer: mpi.
+// rholm batch with its rows distributed over ranks. Layer: mpi.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace rholm::mpi {
 inline constexpr const char* kBatchService = "batch";
 
 cli::Command batch_command(Ranks* ranks);
-// On other ranks, called for by the command.
+// Serves the command on other ranks.
 void serve_batch(Ranks& ranks, const std::string& bytes);
 
 }  // namespace rholm::mpi

@@ -23,7 +23,7 @@ Command over_ranks(Command command, Ranks* ranks, const std::shared_ptr<RankOpti
   return command;
 }
 
-// Only described.
+// Returns the commands for descriptions only.
 std::vector<Command> own_commands() { return commands(nullptr, std::make_shared<RankOptions>()); }
 
 Command man_page_command() {

@@ -13,14 +13,14 @@
 
 namespace rholm::mpi {
 
-// On rank 0: each runs there and calls the others. `ranks` may be null where commands are only
-// described.
+// Returns the commands of rank 0: each runs there and calls the other ranks. `ranks` may be null if
+// commands are only described.
 std::vector<cli::Command> commands(Ranks* ranks, const std::shared_ptr<RankOptions>& options);
 
-// What other ranks are called for.
+// Returns the services of other ranks.
 Services services();
 
-// What the program says of itself.
+// Returns the program's description of itself.
 cli::ProgramText about();
 
 }  // namespace rholm::mpi

@@ -20,7 +20,7 @@ std::string fingerprints(const Mesh& a, const Mesh& b) {
   return ByteWriter().number(fingerprint(view_of(a))).number(fingerprint(view_of(b))).take();
 }
 
-// What the command line says but for the command, for ranks that say nothing.
+// Returns the command line without the command, for ranks that print nothing.
 std::vector<std::string> quiet(std::vector<std::string> words) {
   words.erase(words.begin());
   std::erase(words, "--quiet");

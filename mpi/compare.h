@@ -1,4 +1,4 @@
-// rholm compare with its samples measured by ranks. Layer: mpi.
+// rholm compare with its measurements distributed over ranks. Layer: mpi.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace rholm::mpi {
 inline constexpr const char* kCompareService = "compare";
 
 cli::Command compare_command(Ranks* ranks, const std::shared_ptr<RankOptions>& options);
-// On other ranks, called for by the command.
+// Serves the command on other ranks.
 void serve_compare(Ranks& ranks, const std::string& bytes);
 
 }  // namespace rholm::mpi

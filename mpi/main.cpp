@@ -40,7 +40,7 @@ RanksProgram program(const RankOptions& options) {
           .interrupted = cli::interrupting_signal,
           .stop =
               [](int code) {
-                // Whatever the reason: computations end as if they were interrupted.
+                // For any reason: computations end as if they were interrupted.
                 if (code != 0) cli::interrupt(SIGTERM);
               },
           .error = cli::print_error,
@@ -57,7 +57,7 @@ int run(const std::vector<std::string>& words) {
   const auto options = std::make_shared<RankOptions>();
   options->words = words;
   Ranks ranks(program(*options));
-  // After MPI, which has handlers of its own.
+  // Installed after MPI, which has its own handlers.
   cli::install_signal_handlers();
   cli::install_bus_error_handler();
   return ranks.run(

@@ -1,4 +1,4 @@
-// Options and inputs that all commands of rholm-mpi share. Layer: mpi.
+// Options and inputs of all commands of rholm-mpi. Layer: mpi.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace rholm::mpi {
 
-// What every command can be told besides --threads and --quiet.
+// Options of every command besides --threads and --quiet.
 struct RankOptions {
   double patience = 300;
   bool timings = false;
   std::vector<std::string> words = {};  // the command line itself
 };
-// --threads is of each rank.
+// Returns the options; --threads applies to each rank.
 std::vector<cli::Option> rank_options(RankOptions& options);
 
-// A file that every rank can open, where there are several: throws UsageError for standard input
-// and pipes.
+// Checks that every rank can open a file, if there are several: throws UsageError for standard
+// input and pipes.
 void check_input(const Ranks& ranks, const std::string& path);
 
 }  // namespace rholm::mpi

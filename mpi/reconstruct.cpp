@@ -18,7 +18,7 @@
 namespace rholm::mpi {
 namespace {
 
-// What another rank needs.
+// Data that another rank needs.
 struct Part {
   std::filesystem::path folder;
   ReconstructOptions options;

@@ -1,4 +1,4 @@
-// "rholm-mpi reconstruct": tiles over ranks. Layer: mpi.
+// "rholm-mpi reconstruct": tiles distributed over ranks. Layer: mpi.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@ namespace rholm::mpi {
 
 inline constexpr const char* kReconstructService = "reconstruct";
 
-// On rank 0.
+// Returns the command of rank 0.
 cli::Command reconstruct_command(Ranks* ranks);
-// On the others.
+// Serves the command on other ranks.
 void serve_reconstruct(Ranks& ranks, const std::string& bytes);
 
 }  // namespace rholm::mpi

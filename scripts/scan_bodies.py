@@ -1,4 +1,4 @@
-"""What scan-figures and scan-limits measure: twelve bodies, and the inputs sampled from them."""
+"""Twelve bodies and the inputs sampled from them, which scan-figures and scan-limits measure."""
 
 import math
 
@@ -6,15 +6,16 @@ import numpy as np
 
 import rholm
 
-# Points and the ratio between directions; of each body those of SIXTY, unless others are asked for.
+# Numbers of points and ratios between directions. Each body has the inputs SIXTY, unless others are
+# requested.
 INPUTS = {"1k": (1000, 1), "3k": (3000, 1), "10k": (10000, 1), "100k": (100000, 1),
           "r5": (30000, 5), "r20": (60000, 20)}
 SIXTY = ("1k", "10k", "100k", "r5", "r20")
-AXIS = (0.3, 0.5, 1)  # of slices; rings of the torus are about its own
+AXIS = (0.3, 0.5, 1)  # axis of slices; rings of the torus have its own axis
 
 
 def tube(curve, radius, n=600, m=48):
-    """A closed curve, thickened, with a frame carried along it and closed by an even twist."""
+    """Returns a tube around a closed curve, with a frame moved along it and closed by an even twist."""
     c = curve(np.linspace(0, 2 * math.pi, n, endpoint=False))
     along = np.roll(c, -1, 0) - np.roll(c, 1, 0)
     along /= np.linalg.norm(along, axis=1)[:, None]
@@ -38,7 +39,7 @@ def tube(curve, radius, n=600, m=48):
 
 
 def gear(teeth=16, root=1.0, tip=1.25, bore=0.45, half=0.35):
-    """A spur gear with a bore."""
+    """Returns a spur gear with a bore."""
     part = np.array([0, 0.2, 0.3, 0.55, 0.65, 0.8])
     angle = (2 * math.pi / teeth * (np.arange(teeth)[:, None] + part)).ravel()
     radius = np.tile([root, root, tip, tip, root, root], teeth)
@@ -72,7 +73,8 @@ def trefoil(t):
 
 
 def bodies(folder, names=""):
-    """Name: (body, components, Euler characteristic); those of `names`, with commas between, or all."""
+    """Returns {name: (body, components, Euler characteristic)} for `names`, separated by commas, or for
+    all."""
     ball = rholm.icosphere(6)
     links = [tube(circle(m, np.array(u), np.array(v)), 0.3)
              for m, u, v in (((0, 0, 0), (2, 0, 0), (0, 2, 0)), ((2, 0, 0), (2, 0, 0), (0, 0, 2)))]
@@ -90,15 +92,15 @@ def bodies(folder, names=""):
 
 
 def sample(name, mesh, points, ratio, seed=1):
-    """Random points, or rows a ratio farther apart than the points along them."""
+    """Samples random points, or rows whose distance is `ratio` times the step along them."""
     rows = {"pattern": "rings" if name == "torus" else "slices", "pattern_ratio": ratio,
             "pattern_axis": (0, 0, 1) if name == "torus" else AXIS}
     return rholm.sample_surface(mesh, points, seed=seed, **(rows if ratio > 1 else {}))
 
 
 def planes_of_rows(name, points):
-    """At points (N, 3): unit normals of the planes that rows lie in (N, 3), and what a length along those is to be
-    multiplied by to have the steps between rows all the same (N,)."""
+    """Returns for points (N, 3) the unit normals of the planes of rows (N, 3), and factors (N,). A length
+    along a normal times its factor gives equal steps between rows everywhere."""
     if name == "torus":
         around = np.cross((0, 0, 1), points)
         radius = np.linalg.norm(around, axis=1)
@@ -107,7 +109,8 @@ def planes_of_rows(name, points):
 
 
 def with_smooth_normals(mesh):
-    """With attributes smooth_x, smooth_y, smooth_z: of each vertex, the mean normal of its faces by area."""
+    """Adds attributes smooth_x, smooth_y, smooth_z: the mean normal of the faces at each vertex, weighted
+    by area."""
     vertices, triangles = np.asarray(mesh.vertices), np.asarray(mesh.triangles).astype(int)
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     sums = np.zeros_like(vertices)

@@ -1,11 +1,11 @@
-"""Local fits that know which points lie on the same sheet: for scan-figures --angles and --bound."""
+"""Local fits with known sheets of points, for scan-figures --angles and --bound."""
 
 import math
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-SIZES = (6, 8, 10, 12, 16, 20, 24, 32, 48)  # of neighbourhoods, the point itself among them
+SIZES = (6, 8, 10, 12, 16, 20, 24, 32, 48)  # sizes of neighbourhoods, with the point itself
 FITS = {"plane": (1, False), "weighted plane": (1, True), "quadric": (2, False)}  # degree, weights
 MORE = {"weighted quadric": (2, True), "cubic": (3, False), "weighted cubic": (3, True)}
 SAME = math.cos(math.radians(60))  # the least cosine between normals of neighbours
@@ -13,16 +13,18 @@ AT_ONCE = 1_000_000  # pairs of points
 
 
 def angles(a, b):
-    """Degrees between lines (N, 3), exact where small."""
+    """Returns angles between lines (N, 3) in degrees, exact where small."""
     return np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), np.abs((a * b).sum(-1))))
 
 
 def neighbours(tree, points, normals, seeds, k, wanted, planes=None, scale=None, stretch=1):
-    """The k + 1 nearest of each seed on its own sheet: ways there (S, k + 1, 3), distances (S, k + 1): inf, none.
+    """Returns the k + 1 nearest points of each seed on its own sheet: offsets (S, k + 1, 3) and distances
+    (S, k + 1), where infinite distances mark missing points.
 
-    On the same sheet: normals within 60 degrees, and the way to it as flat as that allows on a circle, so that folds
-    and teeth that face the same way are other sheets. Nearest: in space, or with planes (S, 3) of rows with distances
-    across them divided by `stretch`; of the `wanted` nearest in space. The seed is the first of them."""
+    Points of the same sheet have normals within 60 degrees, and an offset as flat as a circle allows for
+    this angle. Thus folds and teeth that face the same way are other sheets. Nearest means in space or, with
+    planes (S, 3) of rows, with distances across them divided by `stretch`. Candidates are the `wanted`
+    nearest in space. The seed is the first point."""
     ways, lengths = [], []
     for part in np.array_split(np.arange(len(seeds)), math.ceil(len(seeds) * wanted / AT_ONCE)):
         here, n = points[seeds[part]], normals[seeds[part]]
@@ -46,7 +48,8 @@ def neighbours(tree, points, normals, seeds, k, wanted, planes=None, scale=None,
 
 
 def falling(length):
-    """Weights (1 - (d / R)^2)^2 of the first k of (S, k + 1) distances, R the last; infinite ones are no points."""
+    """Returns weights (1 - (d / R)^2)^2 of the first k of (S, k + 1) distances; R is the last. Infinite
+    distances are missing points."""
     there = np.isfinite(length)
     reach = np.where(there[:, -1], length[:, -1], 1.001 * np.where(there, length, 0).max(1))
     part = np.where(there[:, :-1], length[:, :-1], 0) / np.maximum(reach, 1e-300)[:, None]
@@ -54,14 +57,15 @@ def falling(length):
 
 
 def frames(ways, weights):
-    """Of planes by total least squares, axes as columns, the normal last (S, 3, 3)."""
+    """Fits planes by total least squares; returns axes as columns (S, 3, 3), the normal last."""
     mean = np.einsum("sk,skj->sj", weights, ways) / np.maximum(weights.sum(1), 1e-300)[:, None]
     apart = ways - mean[:, None]
     return np.linalg.eigh(np.einsum("sk,ski,skj->sij", weights, apart, apart))[1][:, :, ::-1]
 
 
 def heights(ways, weights, axes, degree=2):
-    """Least squares of heights over planes: coefficients of 1, x, y, x^2, xy, y^2, ... at the seed (S, 6 or 10)."""
+    """Fits heights over planes by least squares: coefficients of 1, x, y, x^2, xy, y^2, ... at the seed (S,
+    6 or 10)."""
     x, y, z = np.moveaxis(np.einsum("ski,sij->skj", ways, axes), 2, 0)
     columns = np.stack([x ** (n - m) * y ** m for n in range(degree + 1) for m in range(n + 1)], 2)
     weighted = columns * weights[..., None]
@@ -73,7 +77,7 @@ def heights(ways, weights, axes, degree=2):
 
 
 def fitted(ways, lengths, degree, weighted):
-    """Normals of fits to the first k of (S, k + 1) neighbours (S, 3)."""
+    """Returns normals of fits to the first k of (S, k + 1) neighbours (S, 3)."""
     ways = ways[:, :-1]
     flat = np.isfinite(lengths[:, :-1]).astype(float)
     weights = falling(lengths) if weighted else flat
@@ -86,11 +90,11 @@ def fitted(ways, lengths, degree, weighted):
 
 
 def fits(points, normals, seeds, planes, scale, ratio):
-    """Normals of all fits at the seeds: fit, k, metric, (S, 3).
+    """Yields normals of all fits at the seeds: fit, k, metric, (S, 3).
 
-    In "space" k points; of rows with a ratio between steps also in "rows": k points by steps along rows and between
-    them, in a "disc": ratio k points in space, which reach as many rows, and in an "oval": sqrt(ratio) k points,
-    between the two."""
+    The metric "space" has k points. For rows with a ratio between steps there are three more metrics. "rows"
+    has k points by steps along rows and between them. "disc" has ratio k points in space, which reach
+    equally many rows. "oval" has sqrt(ratio) k points, between the two."""
     tree, most, middle = cKDTree(points), max(SIZES), math.sqrt(ratio)
     ways = {"space": (1, None)}
     if ratio > 1:
@@ -107,8 +111,9 @@ def fits(points, normals, seeds, planes, scale, ratio):
 
 
 def curvatures(points, normals, seeds, planes, radius):
-    """Normal curvatures at the seeds across the planes of rows (S,), of quadrics fitted to all points within a radius
-    but those of opposite sheets, weighted: edges have what rows so far apart can see of them."""
+    """Returns normal curvatures at the seeds across the planes of rows (S,). They belong to weighted
+    quadrics fitted to all points within a radius except for opposite sheets. Edges have the curvature
+    that rows at this distance can resolve."""
     tree, found = cKDTree(points), []
     for i, near in zip(seeds, tree.query_ball_point(points[seeds], radius)):
         near = np.array(near)[normals[near] @ normals[i] > -0.2]
@@ -125,6 +130,7 @@ def curvatures(points, normals, seeds, planes, radius):
 
 
 def edges(points, normals, seeds, radius):
-    """Seeds with points within a radius whose normals are more than 60 degrees from their own: edges, thin places."""
+    """Returns seeds with points within a radius whose normals differ by more than 60 degrees: edges, thin
+    places."""
     near = cKDTree(points).query_ball_point(points[seeds], radius)
     return np.array([(normals[j] @ normals[i]).min() < SAME for i, j in zip(seeds, near)])

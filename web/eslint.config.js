@@ -16,7 +16,7 @@ export default tseslint.config(
     },
   },
   {
-    // three.js only draws: what it draws is decided without it.
+    // three.js only draws; other code decides what is drawn.
     files: ["src/**/*.ts", "src/**/*.tsx"],
     ignores: ["src/scene/**"],
     rules: {

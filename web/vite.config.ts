@@ -1,4 +1,4 @@
-// The page of `rholm studio`: index.html, one script, one style sheet, all by relative addresses.
+// Builds the page of `rholm studio`: index.html, one script, one style sheet, with relative addresses only.
 import { defineConfig } from "vitest/config";
 
 export default defineConfig({
@@ -7,7 +7,7 @@ export default defineConfig({
     outDir: "dist",
     target: "es2022",
     modulePreload: false,
-    chunkSizeWarningLimit: 2000, // kB; three.js is most of it
+    chunkSizeWarningLimit: 2000, // kB; three.js is the largest part
     rolldownOptions: {
       output: {
         codeSplitting: false,

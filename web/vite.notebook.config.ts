@@ -1,4 +1,4 @@
-// The studio of notebooks: one ES module with the page of vite.config.ts, made before, in it.
+// Builds the studio of notebooks: one ES module that contains the page built by vite.config.ts.
 import { defineConfig } from "vite";
 
 export default defineConfig({

@@ -1,4 +1,4 @@
-// The viewer of static pages and notebooks: one ES module that needs nothing else.
+// Builds the viewer of static pages and notebooks: one ES module without dependencies.
 import { defineConfig } from "vite";
 
 export default defineConfig({

@@ -1,6 +1,6 @@
-// The variance of one triangle's estimate is half the mean square of the difference of two points'
-// contributions Omega r conj(Y)(u), over the number of points. Summed over all coefficients, the
-// addition theorem leaves
+// The variance of one triangle's estimate follows from pairs of points and their contributions
+// Omega r conj(Y)(u). It is half the mean square of the difference of two contributions, divided by
+// the number of points. Summed over all coefficients, the addition theorem gives
 //   Omega^2 / 2 (r1^2 K(1) + r2^2 K(1) - 2 r1 r2 K(u1 . u2)),  K(t) = sum_l (2l+1)/(4 pi) P_l(t).
 // Triangles are independent: their variances add up.
 #include "expected_error.h"
@@ -18,8 +18,8 @@
 namespace rholm::paper {
 namespace {
 
-// Chosen: at most so many triangles, evenly over the mesh, and pairs of points on each. Both errors
-// of the mean over them are below 1 % on the meshes of Table 1.
+// Chosen: the largest number of triangles, taken evenly from the mesh, and pairs of points on each.
+// The resulting errors of the mean are both below 1 % on the meshes of Table 1.
 constexpr std::size_t kMostTriangles = 40'000;
 constexpr int kPairs = 4;
 
@@ -58,7 +58,7 @@ double expected_triangle_error(const StarChart& chart, int degree, int samples) 
         r[i] = face.d / dot(normal, u[i]);
         ++counter;
       }
-      // Of unit vectors that nearly agree, 1 - |u - v|^2 / 2 keeps the digits.
+      // For unit vectors that nearly agree, 1 - |u - v|^2 / 2 keeps the digits.
       const Vec3 apart = u[1] - u[0];
       const double t12 = 1 - dot(apart, apart) / 2;
       sum += face.solid_angle * face.solid_angle / 2 *

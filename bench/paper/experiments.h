@@ -1,4 +1,4 @@
-// The paper's experiments: each gives its figures as JSON and writes its pictures.
+// The paper's experiments: each returns its figures as JSON and writes its pictures.
 #pragma once
 
 #include <cmath>
@@ -19,13 +19,13 @@ using Json = nlohmann::json;
 struct Settings {
   Data data;
   bool quick = false;            // small generated bodies and low degrees
-  std::filesystem::path images;  // where pictures go
+  std::filesystem::path images;  // folder of pictures
 };
 
 inline const Context kOneThread = {.threads = 1, .progress = {}};
 
-// The error of coefficients: root mean square over directions of the difference of the two radii,
-// over the mean radius.
+// Returns the error of coefficients: the root mean square over directions of the difference of the
+// two radii, divided by the mean radius.
 inline double radius_error(const Coefficients& found, const Coefficients& exact) {
   double sum = 0;
   for (std::size_t i = 0; i < exact.values().size(); ++i) {

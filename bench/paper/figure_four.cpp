@@ -1,5 +1,5 @@
-// Figure 4: the error of points on edges and of points on triangles at the same number of points,
-// random ones and nodes of Gauss rules.
+// Figure 4: the error of points on edges and of points on triangles at the same number of points.
+// Points are random, or nodes of Gauss rules.
 #include <vector>
 
 #include "experiments.h"
@@ -17,7 +17,7 @@ namespace {
 struct Case {
   Subject shape;
   int degree;
-  std::size_t most_points;  // random ones, in all: what a minute or so allows
+  std::size_t most_points;  // random points in total: a minute or so
   std::size_t most_nodes;
 };
 
@@ -51,13 +51,13 @@ std::vector<Case> cases(const Settings& settings) {
 
 Json point(std::size_t samples, double error) { return {{"samples", samples}, {"error", error}}; }
 
-// `on_edge` points on each edge, or half as many again on each triangle: of these there are two for
-// three edges.
+// Uses `on_edge` points on each edge, or one and a half times as many on each triangle: there are
+// two triangles per three edges.
 Json random_points(const Case& c, SamplePlaces places, const Coefficients& exact) {
   Json series = Json::array();
   const std::size_t edges = c.shape.chart.edges.size();
   for (std::size_t on_edge = 4; on_edge * edges <= c.most_points; on_edge *= 4) {
-    // Few faces: errors scatter from seed to seed.
+    // With few faces, errors scatter from seed to seed.
     const std::uint64_t seeds = on_edge * edges < 20'000 ? 8 : 1;
     double squares = 0;
     std::size_t drawn = 0;
@@ -81,12 +81,12 @@ Coefficients unscaled(Coefficients f, const StarGeometry& geometry) {
   return f;
 }
 
-// Where the plot ends: nodes converge so fast that nothing more is to be seen.
+// Smallest error of the plot: nodes converge so fast that smaller errors show nothing new.
 constexpr double kSmallest = 1e-9;
 
 Json edge_nodes(const Case& c, const StarGeometry& geometry, const Coefficients& exact) {
   Json series = Json::array();
-  // More than the mesh has: faces that contain a pole are cut there.
+  // There are more edges than in the mesh, because faces that contain a pole are cut there.
   const std::size_t edges = field_edges(geometry).edges.size();
   for (int n = 1; n * edges <= c.most_nodes; n = std::max(n + 1, n * 4 / 3)) {
     const double error =
@@ -114,8 +114,8 @@ Json triangle_nodes(const Case& c, const StarGeometry& geometry, const Coefficie
   return series;
 }
 
-// How many times less error random points on edges leave, degree by degree, at the same number of
-// points in all: what decides is how many waves fit on a face.
+// Returns the error ratio of random points on triangles and on edges, degree by degree, at the same
+// total number of points. It depends on the number of waves per face.
 Json by_degree(const Settings& settings) {
   const struct {
     const char* name;
@@ -131,10 +131,10 @@ Json by_degree(const Settings& settings) {
   Json result = Json::array();
   for (const auto& body : bodies) {
     Case c{subject_of(body.name, "made here", body.mesh, body.center, {}), 0, 0, 0};
-    c.most_points = 4 * c.shape.chart.edges.size();  // four on each
+    c.most_points = 4 * c.shape.chart.edges.size();  // four points on each edge
     Json ratios = Json::array();
     for (const int degree : degrees) {
-      // Random points are direct sums: minutes.
+      // Random points use direct sums, which take minutes.
       if (c.most_points * degree * degree > std::size_t{100'000'000'000}) break;
       std::fprintf(stderr, "Figure 4: %s, degree %d\n", body.name, degree);
       c.degree = degree;

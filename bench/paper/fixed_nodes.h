@@ -1,4 +1,4 @@
-// The integrals of monte_carlo.h by rules of fixed nodes: what random points compare with.
+// The integrals of monte_carlo.h by rules with fixed nodes, to compare with random points.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace rholm::paper {
 
-// Of the scaled geometry. `points` Gauss nodes on each edge, the field started as in (M2): smooth
-// along an edge but near the axis, where this converges slowly.
+// Integrates over the scaled geometry with `points` Gauss nodes on each edge. The field starts as
+// in (M2): it is smooth along an edge except near the axis, where the rule converges slowly.
 Coefficients edge_rule_sum(const StarGeometry& geometry, int degree, int points,
                            const Context& context);
 
-// r dOmega on flat faces by a rule exact to `exactness`, of triangle_rule_points() nodes.
+// Integrates r dOmega over flat faces by a rule that is exact to `exactness`.
 Coefficients triangle_rule_sum(const StarGeometry& geometry, int degree, int exactness,
                                const Context& context);
 std::size_t triangle_rule_points(int exactness);

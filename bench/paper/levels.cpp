@@ -1,5 +1,5 @@
-// Figures 1 and 5: levels of detail with their errors. And the picture of Figure 4: a vase by
-// points on triangles and by points on edges.
+// Figures 1 and 5: levels of detail with their errors. Also makes the picture of Figure 4: a vase
+// from points on triangles and from points on edges.
 #include <fmt/format.h>
 
 #include <deque>
@@ -43,7 +43,7 @@ void draw(const Scene& scene, const View& view, const std::string& file, const S
   options.height = view.height;
   options.view = view.direction;
   options.up = view.up;
-  options.occlusion_rays = settings.quick ? 2 : 16;  // smooth shades, and smaller files
+  options.occlusion_rays = settings.quick ? 2 : 16;  // smooth shading gives smaller files
   write_png(settings.images / file, render(scene.panels, options));
 }
 
@@ -56,7 +56,7 @@ Json level(const Mesh& shape, const Mesh& surface, int degree, const Settings& s
           {"max", found.hausdorff / found.diagonal}};
 }
 
-// Vertices closer together than the finest wave of the largest degree.
+// Vertices are closer together than the shortest wave of the largest degree.
 int subdivisions_for(int degree) {
   return degree > 300 ? 8 : degree > 100 ? 7 : degree > 40 ? 6 : 5;
 }
@@ -87,11 +87,11 @@ Json figure(const std::string& file, const Subject& shape, const std::vector<int
           {"levels", levels}};
 }
 
-// The same number of points in all on the triangles and on the edges.
+// The total number of points is the same on triangles and on edges.
 Json vase_picture(const std::string& file, const View& view, const Settings& settings) {
   std::fprintf(stderr, "Picture of Figure 4\n");
   const std::size_t faces = settings.quick ? 12'000 : 136'000;
-  // Half the paper's degree: at 200 so many points leave four times as much noise.
+  // Half the paper's degree: at 200 this number of points leaves four times as much noise.
   const int degree = settings.quick ? 20 : 100;
   const Subject shape =
       subject("Vase", "vase", settings.data, faces, vase(faces, {}), "made here", {});
@@ -125,14 +125,14 @@ Json levels_of_detail(const Settings& settings) {
   const bool quick = settings.quick;
   const int width = quick ? 400 : 1200, height = quick ? 140 : 380;
   const std::size_t faces = quick ? 12'000 : 270'000;
-  // Igea for the Thai statue, which no one centre sees; a file may be turned any way.
+  // Igea replaces the Thai statue, which no single centre sees. A file may have any orientation.
   const Subject first = subject("Figure 1", "igea", settings.data, 0,
                                 rough_body(faces, quick ? 40 : 512, 3, {}), "made here", {});
   const Subject fifth = subject("Figure 5", "max-planck", settings.data, 0,
                                 rough_body(faces, quick ? 40 : 512, 4, {}), "made here", {});
   const View of_first = {{-0.2, -0.25, -1}, {0, 1, 0}, width, height};
   const View of_fifth = {{-0.2, -0.25, -1}, {0, 1, 0}, width, height};
-  // Noise compresses badly: a smaller picture.
+  // Noise compresses badly, so that the picture is smaller.
   const View of_vase = {{-0.3, 0.9, -0.3}, {0, 0, 1}, width * 7 / 8, height * 7 / 8};
   return {
       {"one", figure("paper-figure-1.png", first,

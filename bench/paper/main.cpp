@@ -1,8 +1,8 @@
-// Runs the paper's experiments: `run`, beside this file, calls it and writes the document.
+// Runs the paper's experiments. The script `run` beside this file calls it and writes the document.
 //
 // Usage: paper_experiments OUTPUT [--data DIR] [--quick] [--only table|plot|levels]
 //
-// Figures go to OUTPUT/results.json, pictures to OUTPUT; both must be there or can be made.
+// Figures go to OUTPUT/results.json, pictures to OUTPUT; the folder is made if it does not exist.
 #include <cstring>
 #include <exception>
 #include <fstream>

@@ -3,10 +3,10 @@
 import math
 
 COLUMNS = 4
-WIDTH, HEIGHT = 300, 260            # of one diagram
+WIDTH, HEIGHT = 300, 260            # size of one diagram
 LEFT, RIGHT, TOP, BOTTOM = 50, 12, 44, 40
 INK, GRID = "#222", "#e6e6e6"
-# Key, colour, dashes, label.
+# Key, colour, dashes and label of each series.
 SERIES = [("random_triangles", "#c0532a", "", "random points on triangles"),
           ("random_edges", "#1f5fa8", "", "random points on edges"),
           ("nodes_triangles", "#c0532a", "5 3", "Gauss nodes on triangles"),
@@ -18,7 +18,7 @@ def logs(series):
 
 
 def slope(series):
-    """Least squares of log error over log samples."""
+    """Returns the slope of log error over log samples, by least squares."""
     points = logs(series)
     if len(points) < 2:
         return float("nan")
@@ -28,7 +28,7 @@ def slope(series):
 
 
 def until_floor(points, floor):
-    """The points above the floor, and where the line meets it."""
+    """Returns the points above the floor, and the point where the line reaches it."""
     shown = []
     for x, y in points:
         if y < floor:
@@ -41,19 +41,19 @@ def until_floor(points, floor):
 
 
 def ratio(above, below):
-    """Error of the first point over that of the second at the same number of samples: a few more on
-    edges, for faces that contain a pole are cut there."""
+    """Returns the ratio of both points' errors at the same number of samples. Edges have slightly more
+    samples, because faces that contain a pole are cut there."""
     return above["error"] / below["error"] * math.sqrt(above["samples"] / below["samples"])
 
 
 def mean_ratio(above, below):
-    """The geometric mean of such ratios."""
+    """Returns the geometric mean of the ratios of pairs of points."""
     logarithms = [math.log(ratio(a, b)) for a, b in zip(above, below)]
     return math.exp(sum(logarithms) / len(logarithms))
 
 
 def samples_for(series, error):
-    """Where the line through the points comes down to that error; none where it does not."""
+    """Returns the number of samples at which the line through the points reaches that error, or None."""
     points = until_floor(logs(series), math.log10(error))
     return 10 ** points[-1][0] if points and points[-1][1] <= math.log10(error) else None
 
@@ -78,7 +78,7 @@ def diagram(case, x, y):
     points = [p for key, *_ in SERIES for p in logs(case[key])]
     x0, x1 = math.floor(min(p[0] for p in points)), math.ceil(max(p[0] for p in points))
     y0, y1 = math.floor(min(p[1] for p in points)), math.ceil(max(p[1] for p in points))
-    y0 = max(y0, -8)  # nodes go on down to rounding
+    y0 = max(y0, -8)  # nodes converge down to rounding
     left, right, top, bottom = x + LEFT, x + WIDTH - RIGHT, y + TOP, y + HEIGHT - BOTTOM
 
     def at(point):
@@ -121,7 +121,7 @@ def convergence(cases):
            f'<rect width="{width}" height="{height}" fill="#fff"/>\n')
     for i, case in enumerate(cases):
         out += diagram(case, i % columns * WIDTH, i // columns * HEIGHT)
-    # What the lines are, and the axes.
+    # Key of the lines, and titles of the axes.
     bottom = rows * HEIGHT + 4
     out += text(width / 2, bottom, "middle", 11.5,
                 "error of the radius / mean radius, over the number of points in all", "#444")

@@ -1,4 +1,5 @@
-"""Runs the paper's experiments quickly: the document and pictures are made, the figures sane."""
+"""Runs the paper's experiments quickly: the document and pictures are made, and the figures are
+plausible."""
 
 import json
 import os
@@ -45,18 +46,19 @@ class QuickTest(unittest.TestCase):
                          ["Igea", "Max-Planck", "Dinosaur", "Tyra", "Buddha", "Thai", "Vase"])
         for row in rows:
             self.assertAlmostEqual(row["faces"] / (2 * row["points"] / 50), 1, delta=0.1)
-            # Errors here are relative to the mean radius, those promised to the norm without the
-            # mean, which is smaller on these bodies.
+            # Errors here are relative to the mean radius. The requested precision is relative to the norm
+            # without the mean, which is smaller on these bodies.
             self.assertLess(row["coarse"]["error"], 1e-3)
             self.assertLess(row["fine"]["error"], 1e-6)
-            # One seed, thousands of coefficients: its error is near the mean over all seeds.
+            # There is one seed, but thousands of coefficients: its error is near the mean over all seeds.
             triangles = row["triangles"]
             self.assertAlmostEqual(triangles["measured_error"] / triangles["expected_error"], 1,
                                    delta=0.1)
             for value in (row["coarse"]["cpu_seconds"], row["fine"]["cpu_seconds"],
                           triangles["cpu_seconds"], row["edge_cpu_per_point"]):
                 self.assertGreater(value, 0)
-            # Over vertices, where the errors of these coarse meshes are largest, and all directions.
+            # Compares errors at vertices, where they are largest on these coarse meshes, with errors in all
+            # directions.
             self.assertLess(row["vertex_error"], 3 * row["truncation_rms"])
             self.assertGreater(row["vertex_error"], row["truncation_rms"] / 3)
 
@@ -65,7 +67,7 @@ class QuickTest(unittest.TestCase):
             for key in ("random_edges", "random_triangles"):
                 first, last = shape[key][0], shape[key][-1]
                 expected = (first["samples"] / last["samples"]) ** 0.5
-                # Of one seed, over a factor of 4 in samples at least.
+                # Errors are of one seed, over a factor of at least 4 in samples.
                 self.assertAlmostEqual(last["error"] / first["error"] / expected, 1, delta=0.4)
 
     def test_nodes_on_edges_converge_fast(self):

@@ -34,7 +34,7 @@ std::filesystem::path find_file(const Data& data, const std::string& key) {
   return *std::min_element(found.begin(), found.end());
 }
 
-// Each triangle cut in four at the middles of its edges, which stay in its plane.
+// Splits each triangle into four at the middles of its edges, which stay in its plane.
 Mesh quartered(const Mesh& mesh) {
   Mesh fine;
   fine.vertices = mesh.vertices;
@@ -63,7 +63,7 @@ StarChart chart_of_file(const Mesh& mesh, const Context& context) {
   return make_star_chart(welded, {.allow_signed = true}, context);
 }
 
-// Uniform in +-sqrt 3: variance 1.
+// Values are uniform in +-sqrt 3, which has the variance 1.
 Coefficients random_coefficients(int degree, double exponent, double rms, std::uint64_t seed) {
   Coefficients result(degree);
   double energy = 0;
@@ -77,13 +77,13 @@ Coefficients random_coefficients(int degree, double exponent, double rms, std::u
     }
     energy += std::pow(l, exponent);
   }
-  // rms over directions: sum of squares / 4 pi.
+  // The rms over directions is the sum of squares / 4 pi, to the power 1/2.
   const double factor = rms * std::sqrt(4 * std::numbers::pi / energy);
   for (double& value : result.values()) value *= factor;
   return result;
 }
 
-// Outline of the vase from lip to foot: distance from the axis, height.
+// Outline of the vase from lip to foot: distance from the axis, and height.
 constexpr std::array<std::array<double, 2>, 9> kOutline = {{{0.50, 1.00},
                                                             {0.47, 0.88},
                                                             {0.46, 0.74},
@@ -94,8 +94,8 @@ constexpr std::array<std::array<double, 2>, 9> kOutline = {{{0.50, 1.00},
                                                             {0.49, -0.82},
                                                             {0.50, -1.00}}};
 
-// Radius of its side over colatitude: Hermite's cubics with slopes of central differences, and
-// straight beyond the ends.
+// Returns the radius of the side for a colatitude: Hermite's cubics with slopes of central
+// differences, and straight lines beyond the ends.
 double side_radius(double theta) {
   const std::size_t last = kOutline.size() - 1;
   const auto angle = [](std::size_t i) { return std::atan2(kOutline[i][0], kOutline[i][1]); };
@@ -113,7 +113,7 @@ double side_radius(double theta) {
          t * t * (3 - 2 * t) * radius(i + 1) - t * t * (1 - t) * h * slope(i + 1);
 }
 
-// Where the side meets the flat lid or foot, at height 1 or -1, the smaller radius, rounded off.
+// Returns the smaller radius of side and flat lid or foot (height 1 or -1), rounded at their edge.
 double vase_radius(double theta) {
   constexpr double kRounding = 0.015;  // chosen: a few triangles wide
   const double side = side_radius(theta), c = std::abs(std::cos(theta));

@@ -1,7 +1,7 @@
-// Table 1: time and error for each of the paper's objects, and of Monte Carlo, ours, beside them.
+// Table 1: time and error for each of the paper's objects, and for our Monte Carlo.
 //
-// Times are processor time of one thread, from the mesh in memory, its centre and pairs of edges
-// known, to the coefficients.
+// Times are processor time of one thread, from the mesh in memory to the coefficients. The centre
+// and the pairs of edges are known before.
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -17,7 +17,7 @@
 namespace rholm::paper {
 namespace {
 
-// A row of the paper's Table 1. The error of its own method was the 0.001 that it was run for.
+// A row of the paper's Table 1. The paper's method was run for an error of 0.001.
 struct Row {
   const char* name;
   const char* key;  // part of a file's name
@@ -44,7 +44,7 @@ struct Measured {
   double error = 0;
 };
 
-// The exact norms, which say how large the truncation error is, are no part of the coefficients.
+// Exact norms, which determine the truncation error, are not needed for the coefficients.
 Measured measure_edge(const StarChart& chart, int degree, double precision, int repeat,
                       const Coefficients& exact) {
   Measured result{std::numeric_limits<double>::max(), 0};
@@ -69,7 +69,7 @@ double sampling_cpu(const MonteCarlo& run) {
   return cpu;
 }
 
-// Seconds for each point; the mesh does not matter.
+// Returns seconds per point, which do not depend on the mesh.
 double cpu_per_point(int degree, SamplePlaces places) {
   const StarChart chart = make_star_chart(bumpy_sphere(3, 0.2));
   const MonteCarlo run =
@@ -77,10 +77,10 @@ double cpu_per_point(int degree, SamplePlaces places) {
   return sampling_cpu(run) / static_cast<double>(run.places * run.samples);
 }
 
-// Runs that take longer are not made, for their time and error are known beforehand.
+// Seconds of the longest run. Time and error of longer runs are predicted.
 constexpr double kLongestRun = 20;
 
-// Two points on each triangle: the fewest that there can be.
+// Uses two points on each triangle, the smallest possible number.
 Json measure_triangles(const StarChart& chart, int degree, double per_point,
                        const Coefficients& exact) {
   const double points = 2 * static_cast<double>(chart.mesh.triangles.size());
@@ -95,8 +95,8 @@ Json measure_triangles(const StarChart& chart, int degree, double per_point,
   return result;
 }
 
-// Root mean square over the vertices of what the cut-off leaves, over the mean radius: (P42) as a
-// mean instead of a sum.
+// Returns the root mean square of the truncation error over the vertices, over the mean radius:
+// (P42) as a mean instead of a sum.
 double vertex_error(const StarChart& chart, const Coefficients& exact) {
   std::vector<Vec3> directions;
   directions.reserve(chart.mesh.vertices.size());

@@ -1,16 +1,16 @@
-"""The tables of docs/paper.md from the figures of paper_experiments."""
+"""The tables of docs/paper.md, made from the figures of paper_experiments."""
 
 import math
 
 from plot import mean_ratio, ratio, samples_for, slope
 
 
-# Shapes that a body made here stands in for.
+# Shapes that are replaced by a body made here.
 STANDS_IN = {"Bennu", "Vase"}
 
 
 def number(value, digits=2):
-    """Two digits; powers of ten where there are many zeros."""
+    """Formats a number with two digits, and with powers of ten where there are many zeros."""
     if value == 0:
         return "0"
     if value < 1e-3 or value >= 1e6:
@@ -22,7 +22,7 @@ def number(value, digits=2):
 
 
 def span(seconds):
-    """A time in the unit that suits it."""
+    """Formats a time in a suitable unit."""
     for unit, length in (("years", 365.25 * 86400), ("days", 86400), ("h", 3600), ("min", 60)):
         if seconds >= 2 * length:
             return f"{number(seconds / length)} {unit}"
@@ -65,7 +65,8 @@ def against_paper(rows):
 
 
 def at_error(run, error):
-    """Time of points on triangles at another error, which falls with the root of their number."""
+    """Returns the time of points on triangles at another error, which falls with the root of their
+    number."""
     return run["cpu_seconds"] * (run["expected_error"] / error) ** 2
 
 
@@ -137,7 +138,7 @@ def vase(figure):
 
 
 def all_tables(results, machine):
-    """The parts of the document by the names of their marks."""
+    """Returns the parts of the document by the names of their marks."""
     rows = results["table_one"]
     return {"machine": f"Measured on one machine: {machine}; processor time of one thread.",
             "table-1": against_paper(rows),

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Many shapes at once: rholm batch against a loop of a shell over rholm analyze, in Markdown.
+"""Many shapes at once: rholm batch compared with a shell loop over rholm analyze, in Markdown.
 
     bench/peers/batch.py                          # 1000 meshes of 5120 faces, degree 32
-    bench/peers/batch.py --count 10000 --broken 2 # per cent of them cut off
+    bench/peers/batch.py --count 10000 --broken 2 # per cent of truncated files
     bench/peers/batch.py --ranks 1,2,4            # rholm-mpi as well
-    bench/peers/batch.py --sizes                  # what threads within a shape gain, by the size of its file
+    bench/peers/batch.py --sizes                  # gain by threads within a shape, by size of its file
 
-All descriptors: coefficients, energy per degree, errors, in a table (HDF5). The loop writes a model
-and a JSON report for each shape, which nobody has joined yet. Meshes are made in a temporary folder;
---distinct of them, the others are links. Ways take turns; given is the median of the rounds.
+The batch writes all descriptors (coefficients, energy per degree, errors) to a table (HDF5). The loop writes
+a model and a JSON report for each shape, without joining them. Meshes are made in a temporary folder:
+--distinct of them are files, the others are links. Methods take turns; the median of the rounds is given.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def seconds(words: list[str], folder: Path) -> tuple[float, float]:
-    """Wall and processor time of a command, which may fail."""
+    """Returns wall and processor time of a command, which may fail."""
     begin, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run(words, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -36,7 +36,7 @@ def seconds(words: list[str], folder: Path) -> tuple[float, float]:
 
 
 def make_shapes(program: str, folder: Path, count: int, distinct: int, broken: float) -> None:
-    """Writes count files and shapes.csv; every so many is cut off in the middle."""
+    """Writes `count` files and shapes.csv. Every n-th file is truncated in the middle."""
     for i in range(min(distinct, count)):
         words = [program, "make", "bumpy", "--subdivisions", "4", "--seed", str(i), "--quiet"]
         subprocess.run([*words, "-o", str(folder / f"{i}.ply")], check=True)
@@ -57,7 +57,7 @@ def make_shapes(program: str, folder: Path, count: int, distinct: int, broken: f
 
 
 def compare(program: str, options: argparse.Namespace) -> None:
-    """A row for each way: shapes per second of the wall, processor time of a shape."""
+    """Prints a row for each method: shapes per second of wall time, and processor time of a shape."""
     degree = str(options.degree)
     loop = (
         "tail -n +2 shapes.csv | tr -d '\\r' | while IFS=, read -r id path; do "
@@ -87,7 +87,7 @@ def compare(program: str, options: argparse.Namespace) -> None:
 
 
 def sizes(program: str, options: argparse.Namespace) -> None:
-    """What two threads gain on one shape, and what they cost; by the size of the file."""
+    """Prints the gain and the cost of two threads on one shape, by the size of its file."""
     print("| file, MiB | one thread, s | two threads, s | gain | processor time of two, of one |")
     print("|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as name:

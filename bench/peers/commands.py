@@ -6,10 +6,10 @@
     bench/peers/commands.py --rows bennu,igea --rounds 3 --threads 1,2 SHAPES
 
 SHAPES is a folder with asteroid-bennu.ply, igea.ply, bunny-closed-cgal.off, armadillo-43k.obj and
-stanford-dragon.ply; what is missing has no row. Inputs that are made (points, a mesh of 5.2 million
-triangles, models) lie in a temporary folder: 0.4 GB. Programs and numbers of threads take turns, round
-by round, so that what else the machine does meets all of them; given are medians and quartiles of the
-rounds. Stages inside of analyze: scripts/performance; other packages: bench/peers/libraries.py.
+stanford-dragon.ply; a missing file has no row. Made inputs (points, a mesh of 5.2 million triangles, models)
+are in a temporary folder of 0.4 GB. Programs and numbers of threads take turns, round by round, so that
+other load of the machine affects all of them. Medians and quartiles of the rounds are given.
+scripts/performance measures the stages of analyze; bench/peers/libraries.py measures other packages.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 @dataclass(frozen=True)
 class Row:
-    """A command: words with {shapes} and {made} for folders. `first`: how its inputs are made."""
+    """A command: words with {shapes} and {made} for folders. `first`: commands that make its inputs."""
 
     what: str
     words: str
@@ -98,7 +98,7 @@ ROWS = {
 
 
 def run(program: str, words: list[str]) -> tuple[float, float]:
-    """Processor and wall seconds of a command; ends the script where one fails."""
+    """Returns processor and wall seconds of a command; ends the script if it fails."""
     start = time.perf_counter()
     process = subprocess.Popen([program, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     said = process.stderr.read().decode(errors="replace") if process.stderr else ""
@@ -110,7 +110,7 @@ def run(program: str, words: list[str]) -> tuple[float, float]:
 
 
 def figure(values: list[float]) -> str:
-    """The median and, from three values on, the quartiles."""
+    """Formats the median and, from three values on, the quartiles."""
     text = f"{statistics.median(values):.3g}"
     if len(values) < 3:
         return text

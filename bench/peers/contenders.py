@@ -1,8 +1,8 @@
-"""What libraries.py measures: each contender does one piece of work, in a process of its own.
+"""The contenders of libraries.py: each does one piece of work, in its own process.
 
-libraries.py runs ``python contenders.py JOB.json`` with the interpreter of the contender's packages; the
-last line that is printed is the measurement, as JSON. A contender takes arrays and options and returns
-a `Job`. Packages are imported by the contender that needs them, before anything is measured.
+libraries.py runs ``python contenders.py JOB.json`` with the interpreter of the contender's packages. The
+last printed line is the measurement, as JSON. A contender takes arrays and options and returns a `Job`. Each
+contender imports its own packages before anything is measured.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ Arrays = Mapping[str, npt.NDArray[Any]]
 
 @dataclass
 class Job:
-    """A piece of work that can be done again."""
+    """A piece of work that can be repeated."""
 
     work: Callable[[Any], Any]
     """What is measured; it is given what `fresh` made."""
@@ -39,13 +39,13 @@ CONTENDERS: dict[str, Callable[..., Job]] = {}
 
 
 def contender(job: Callable[..., Job]) -> Callable[..., Job]:
-    """Makes a contender known by the name of its function."""
+    """Registers a contender under the name of its function."""
     CONTENDERS[job.__name__] = job
     return job
 
 
 def mesh_arrays(vertices: Any, triangles: Any) -> dict[str, npt.NDArray[Any]]:
-    """A mesh as a result."""
+    """Returns a mesh as a result."""
     return {"vertices": np.array(vertices, np.float64), "triangles": np.array(triangles, np.int32)}
 
 
@@ -54,7 +54,7 @@ def mesh_arrays(vertices: Any, triangles: Any) -> dict[str, npt.NDArray[Any]]:
 
 @contender
 def rholm_expand(data: Arrays, *, whole: bool = False, **options: Any) -> Job:
-    """Coefficients; `whole` with centre, star check and truncation errors, else the transform alone."""
+    """Expands a mesh; with `whole`, also finds centre, star check and truncation errors."""
     import rholm
 
     if not whole:
@@ -68,7 +68,7 @@ def rholm_expand(data: Arrays, *, whole: bool = False, **options: Any) -> Job:
 
 @contender
 def rholm_surface(data: Arrays, *, degree: int, subdivisions: int | None = None) -> Job:
-    """Coefficients with all defaults, and a mesh of them."""
+    """Expands with all defaults, and makes a mesh from the coefficients."""
     import rholm
 
     mesh = (data["vertices"], data["triangles"])
@@ -80,7 +80,7 @@ def rholm_surface(data: Arrays, *, degree: int, subdivisions: int | None = None)
 
 @contender
 def rholm_adjoint(data: Arrays, *, degree: int, precision: float) -> Job:
-    """Weighted sums of harmonics at scattered directions."""
+    """Adds weighted sums of harmonics at scattered directions."""
     import rholm
 
     directions, weights = data["directions"], data["weights"]
@@ -92,7 +92,7 @@ def rholm_adjoint(data: Arrays, *, degree: int, precision: float) -> Job:
 
 @contender
 def rholm_reconstruct(data: Arrays) -> Job:
-    """A surface from points with normals."""
+    """Reconstructs a surface from points with normals."""
     import rholm
 
     return Job(
@@ -103,7 +103,7 @@ def rholm_reconstruct(data: Arrays) -> Job:
 
 @contender
 def rholm_orient(data: Arrays) -> Job:
-    """Normals of points."""
+    """Computes normals of points."""
     import rholm
 
     return Job(
@@ -113,7 +113,7 @@ def rholm_orient(data: Arrays) -> Job:
 
 @contender
 def rholm_smooth(data: Arrays, *, wavelength: float) -> Job:
-    """Detail finer than a wavelength taken from the whole mesh."""
+    """Removes detail finer than a wavelength from the whole mesh."""
     import rholm
 
     mesh = rholm.Mesh(data["vertices"], data["triangles"])
@@ -126,7 +126,7 @@ def rholm_smooth(data: Arrays, *, wavelength: float) -> Job:
 
 @contender
 def rholm_low_pass(data: Arrays, *, degree: int) -> Job:
-    """A star-shaped mesh expanded to a degree, and laid on its own directions again."""
+    """Expands a star-shaped mesh to a degree, and evaluates it in the mesh's own directions."""
     import rholm
 
     mesh = rholm.Mesh(data["vertices"], data["triangles"])
@@ -143,7 +143,7 @@ def rholm_low_pass(data: Arrays, *, degree: int) -> Job:
 
 @contender
 def pyshtools_grid(data: Arrays, *, degree: int) -> Job:
-    """Radii on a grid of Driscoll and Healy, expanded; finer grids are cut off at the degree."""
+    """Expands radii on a grid of Driscoll and Healy; finer grids are truncated at the degree."""
     import pyshtools
 
     radii = data["radii"]
@@ -155,7 +155,7 @@ def pyshtools_grid(data: Arrays, *, degree: int) -> Job:
 
 @contender
 def pyshtools_least_squares(data: Arrays, *, degree: int) -> Job:
-    """Radii at scattered directions, fitted."""
+    """Fits radii at scattered directions."""
     import pyshtools
 
     x, y, z = data["directions"].T
@@ -168,7 +168,7 @@ def pyshtools_least_squares(data: Arrays, *, degree: int) -> Job:
 
 @contender
 def aicsshparam(data: Arrays, *, degree: int, sigma: float, oversampled: bool) -> Job:
-    """Coefficients of a solid in voxels, and a mesh of them, in the mesh's coordinates."""
+    """Expands a solid in voxels, and makes a mesh from the coefficients, in the mesh's coordinates."""
     from aicsshparam import shparam, shtools
     from vtk.util.numpy_support import vtk_to_numpy
 
@@ -192,7 +192,7 @@ def aicsshparam(data: Arrays, *, degree: int, sigma: float, oversampled: bool) -
 
 @contender
 def ducc0_adjoint(data: Arrays, *, degree: int, epsilon: float, single: bool = False) -> Job:
-    """Weighted sums of harmonics at scattered directions."""
+    """Adds weighted sums of harmonics at scattered directions."""
     import ducc0
 
     x, y, z = data["directions"].T
@@ -245,7 +245,7 @@ def open3d_poisson(data: Arrays, *, depth: int) -> Job:
 
 @contender
 def open3d_normals(data: Arrays, *, k: int) -> Job:
-    """Normals by 30 neighbours, oriented along a tree through k neighbours each."""
+    """Computes normals by 30 neighbours, oriented along a tree through k neighbours each."""
     points = {"points": data["points"]}
 
     def work(cloud: Any) -> Any:
@@ -270,7 +270,7 @@ def pymeshlab_poisson(data: Arrays, *, depth: int) -> Job:
 
     def work(meshes: Any) -> Any:
         meshes.generate_surface_reconstruction_screened_poisson(depth=depth, threads=1)
-        return meshes  # a mesh of it does not outlive it
+        return meshes  # a mesh of it is valid only while it exists
 
     return Job(
         work,
@@ -281,7 +281,7 @@ def pymeshlab_poisson(data: Arrays, *, depth: int) -> Job:
 
 @contender
 def pymeshlab_normals(data: Arrays, *, k: int) -> Job:
-    """Normals by k neighbours, oriented alike."""
+    """Computes normals by k neighbours, oriented consistently."""
 
     def work(meshes: Any) -> Any:
         meshes.compute_normal_for_point_clouds(k=k)
@@ -299,7 +299,7 @@ def pymeshlab_normals(data: Arrays, *, k: int) -> Job:
 
 @contender
 def trimesh_smooth(data: Arrays, *, filter: str, **options: Any) -> Job:
-    """One of trimesh's filters, in place."""
+    """Applies one of trimesh's filters, in place."""
     import trimesh
 
     smooth = getattr(trimesh.smoothing, f"filter_{filter}")
@@ -316,7 +316,7 @@ def trimesh_smooth(data: Arrays, *, filter: str, **options: Any) -> Job:
 
 @contender
 def pyvista_taubin(data: Arrays, *, n_iter: int, pass_band: float) -> Job:
-    """VTK's windowed sinc filter."""
+    """Applies VTK's windowed sinc filter."""
     import pyvista
 
     mesh = pyvista.PolyData.from_regular_faces(data["vertices"], data["triangles"])
@@ -326,16 +326,16 @@ def pyvista_taubin(data: Arrays, *, n_iter: int, pass_band: float) -> Job:
     )
 
 
-# What others are given for nothing, and an oracle that is not rholm
+# Input that other packages get for free, and an oracle that is not rholm
 
 
 @contender
 def rays(data: Arrays) -> Job:
-    """Radii of a star-shaped mesh in directions from the origin, exact to rounding."""
+    """Computes radii of a star-shaped mesh in directions from the origin, exact to rounding."""
     from scipy.spatial import cKDTree
 
     corners = data["vertices"][data["triangles"]]
-    inverse = np.linalg.inv(corners.transpose(0, 2, 1))  # of a direction: its coordinates in the corners
+    inverse = np.linalg.inv(corners.transpose(0, 2, 1))  # direction to coordinates in the corners
     places = corners / np.linalg.norm(corners, axis=2, keepdims=True)
     places = places.sum(axis=1) / np.linalg.norm(places.sum(axis=1), axis=1, keepdims=True)
 
@@ -359,7 +359,7 @@ def rays(data: Arrays) -> Job:
 
 @contender
 def voxels(data: Arrays, *, across: int) -> Job:
-    """The voxels whose centres lie within a mesh, `across` along its longest side, z slowest."""
+    """Returns the voxels whose centres lie within a mesh, `across` along its longest side, z slowest."""
     import pyvista
 
     mesh = pyvista.PolyData.from_regular_faces(data["vertices"], data["triangles"])
@@ -375,9 +375,9 @@ def voxels(data: Arrays, *, across: int) -> Job:
 
 @contender
 def quadrature(data: Arrays, *, degree: int, n: int) -> Job:
-    """Coefficients by cubature of r over each spherical triangle, harmonics by SciPy: an independent oracle.
+    """Computes coefficients by cubature of r over each spherical triangle: an independent oracle.
 
-    Gauss and Legendre's rule with n x n points a triangle, folded to it as Duffy does.
+    Harmonics are SciPy's. The rule of Gauss and Legendre has n x n points per triangle, folded as by Duffy.
     """
     from scipy.special import sph_harm_y
 
@@ -410,16 +410,16 @@ def quadrature(data: Arrays, *, degree: int, n: int) -> Job:
 
 
 def _status(name: str) -> float:
-    """A line of this process's status, in MB; 0 where there is none."""
+    """Returns a line of this process's status, in MB, or 0 if there is none."""
     path = Path("/proc/self/status")
     lines = path.read_text().splitlines() if path.exists() else []
     return next((int(line.split()[1]) / 1e3 for line in lines if line.startswith(name + ":")), 0.0)
 
 
 def _forget_peak() -> None:
-    """Sets the peak of the resident set to what it is now.
+    """Resets the peak of the resident set to its present size.
 
-    ru_maxrss cannot be set back, and of a process that another one started it is at first the other's.
+    ru_maxrss cannot be reset. In a process started by another one, it begins with the other's value.
     """
     path = Path("/proc/self/clear_refs")
     if path.exists():
@@ -427,7 +427,7 @@ def _forget_peak() -> None:
 
 
 def _peak() -> float:
-    """The peak of the resident set since then, MB."""
+    """Returns the peak of the resident set since the reset, in MB."""
     return _status("VmHWM") or resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
 
 
@@ -438,22 +438,22 @@ def _once(job: Job, given: Any) -> tuple[float, float, Any]:
 
 
 def measure(job: Job, seconds: float) -> tuple[dict[str, float], Any]:
-    """Time and memory of a job.
+    """Measures time and memory of a job.
 
     Parameters
     ----------
     job : Job
-        Done once, and if that takes less than half of `seconds` again until these have passed.
+        Run once; if that takes less than half of `seconds`, repeated until they have passed.
     seconds : float
-        For all of it.
+        Total time.
 
     Returns
     -------
     figures : dict
-        Wall and processor seconds, medians without the first time if there are others; MB above what
-        the process had with its packages and its input, of the first time.
+        Wall and processor seconds, medians without the first run if there are others. MB above the size
+        of the process with its packages and its input, in the first run.
     result
-        What the first time made.
+        Result of the first run.
     """
     given = job.fresh()
     _forget_peak()
@@ -471,7 +471,7 @@ def measure(job: Job, seconds: float) -> tuple[dict[str, float], Any]:
 
 
 def main() -> None:
-    """Does the job of a file and prints its figures."""
+    """Runs the job of a file and prints its figures."""
     job = json.loads(Path(sys.argv[1]).read_text())
     with np.load(job["data"]) as file:
         data = {name: file[name] for name in file.files}

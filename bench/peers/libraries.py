@@ -1,25 +1,25 @@
 #!/usr/bin/env python3
-"""rholm beside other packages, on the same data: time, memory and error, in Markdown.
+"""Compares rholm with other packages on the same data: time, memory and error, in Markdown.
 
     python bench/peers/libraries.py                                  # everything, on made shapes
     python bench/peers/libraries.py --data SHAPES --json table.json  # on real ones
     python bench/peers/libraries.py --rows sums,points --rounds 5
 
 Run it with an interpreter that has rholm: an installed one, or PYTHONPATH=build/release/python. The other
-packages, those of requirements.txt, go into an environment of their own, made once below
-${XDG_CACHE_HOME:-~/.cache}/rholm-bench-python (3 GB). Open3D and pymeshlab need libraries of the system
-that no wheel has: on Debian libusb-1.0-0, libgl1, libgomp1, libopengl0 and libglu1-mesa. What cannot be
-installed or fails has a row that says so.
+packages, listed in requirements.txt, go into a separate environment, made once in
+${XDG_CACHE_HOME:-~/.cache}/rholm-bench-python (3 GB). Open3D and pymeshlab need libraries of the system that
+no wheel has: on Debian libusb-1.0-0, libgl1, libgomp1, libopengl0 and libglu1-mesa. A package that cannot be
+installed, or fails, has a row that says so.
 
 SHAPES is a folder with asteroid-bennu.ply, igea.ply, armadillo-43k.obj and stanford-dragon.ply.
 
-How it is measured: each measurement is a process of its own with one thread (OMP_NUM_THREADS and the
-like, and the arguments that packages have for it). What Open3D does by TBB has no such setting; where
-processor time is above wall time, a package has used more than one thread. Contenders of a group take
-turns, as many rounds as fit into --seconds, at least one. Times are medians of processes, each of them
-the median of repeated calls after the first, or the first if it is long. Memory is the peak of the
-resident set in the first call above what the process had with its packages and its input. Contenders are
-given for nothing: radii along rays, voxels, sources and weights; opening files is in no figure.
+Each measurement is a process with one thread (OMP_NUM_THREADS and similar variables, and the arguments of
+packages). Open3D's use of TBB has no such setting; where processor time is above wall time, a package has
+used more than one thread. Contenders of a group take turns, in as many rounds as fit into --seconds, at
+least one. Times are medians over processes. Each process gives the median of repeated calls after the first,
+or the first call if it is long. Memory is the peak of the resident set in the first call, above the size of
+the process with its packages and its input. Radii along rays, voxels, sources and weights are given to
+contenders for free; opening files is not measured.
 """
 
 from __future__ import annotations
@@ -56,11 +56,11 @@ ONE_THREAD = {
         "VTK_SMP_MAX_THREADS",
     )
 }
-LONGEST = 300  # seconds a process may take; chosen: four times what the slowest took on a loaded machine
+LONGEST = 300  # seconds a process may take; chosen: four times the slowest run on a loaded machine
 
 
 def environment() -> Path:
-    """The interpreter of an environment with the packages of requirements.txt, made if it is not there."""
+    """Returns the interpreter of an environment with requirements.txt, which is made if necessary."""
     pinned = (HERE / "requirements.txt").read_text()
     key = hashlib.sha256(f"{pinned}{sys.version_info[:2]}".encode()).hexdigest()[:12]
     cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "rholm-bench-python" / key
@@ -74,7 +74,7 @@ def environment() -> Path:
         *("-m", "pip", "install", "--quiet", "--no-deps", "--require-hashes", "--only-binary=:all:", "-r"),
     ]
     if subprocess.run([*install, str(HERE / "requirements.txt")]).returncode != 0:
-        # Something is not there for this machine: all others, one by one.
+        # A package is not available for this machine: the others are installed one by one.
         one, installed = cache / "one.txt", 0
         for pin in pinned.replace("\\\n", " ").splitlines():
             if pin and not pin.startswith("#"):
@@ -104,14 +104,14 @@ class Bench:
         data : arrays
             Its input.
         seconds : float
-            Calls are repeated as long, if they are short.
+            Time for which short calls are repeated.
         keep : bool
-            Whether its result is wanted.
+            True if its result is wanted.
 
         Raises
         ------
         RuntimeError
-            With what the process said last, if it failed.
+            With the last output of the process, if it failed.
         """
         made = self._scratch / "result.npz"
         job = {
@@ -144,7 +144,7 @@ class Bench:
             return figures, {name: file[name] for name in file.files}
 
     def prepare(self, contender: str, data: Result, **options: Any) -> Result:
-        """What a job of the other environment makes, not measured."""
+        """Returns the result of a job of the other environment, which is not measured."""
         return self.run(Entry("", contender, options), data, 0, keep=True)[1]
 
     def _file(self, data: Result) -> Path:
@@ -156,7 +156,7 @@ class Bench:
         return self._files[id(data)][0]
 
     def choose(self, group: Group, entry: Entry) -> None:
-        """Gives an entry those of its choices that leave the least error."""
+        """Gives an entry the choice of options with the smallest error."""
         errors, reason = [], ""
         for options in entry.choices:
             entry.options = options
@@ -173,7 +173,7 @@ class Bench:
         entry.label += f": {said}"
 
     def measure(self, group: Group, rounds: int, seconds: float) -> list[dict[str, Any]]:
-        """Rows of a group."""
+        """Returns the rows of a group."""
         rows: list[dict[str, Any]] = []
         runs: list[list[dict[str, float]]] = [[] for _ in group.entries]
         for entry in group.entries:
@@ -211,7 +211,7 @@ UNITS = {"cpu": "CPU, ms", "wall": "wall, ms", "memory": "memory, MB"}
 
 
 def cell(name: str, value: Any) -> str:
-    """A figure as text."""
+    """Formats a figure."""
     if value is None:
         return ""
     if name in ("cpu", "wall"):
@@ -232,7 +232,7 @@ def cell(name: str, value: Any) -> str:
 
 
 def markdown(rows: list[dict[str, Any]]) -> str:
-    """A table of one kind of rows."""
+    """Formats a table of one kind of rows."""
     judged = list(
         dict.fromkeys(
             k
@@ -259,7 +259,7 @@ def markdown(rows: list[dict[str, Any]]) -> str:
 
 
 def machine() -> str:
-    """The processor, by the name that the system has for it."""
+    """Returns the system's name for the processor."""
     path = Path("/proc/cpuinfo")
     lines = path.read_text().splitlines() if path.exists() else []
     names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
@@ -267,7 +267,7 @@ def machine() -> str:
 
 
 def versions(python: Path) -> dict[str, str]:
-    """Of the packages that are there."""
+    """Returns the versions of the installed packages."""
     code = (
         "import importlib.metadata as m, json, sys\n"
         "def v(n):\n try: return m.version(n)\n except m.PackageNotFoundError: return 'not installed'\n"
@@ -310,7 +310,7 @@ def main() -> None:
                 for group in TABLES[name](arguments.data, bench.prepare):
                     print(f"{name}: {group.title}", file=sys.stderr)
                     rows += bench.measure(group, arguments.rounds, arguments.seconds)
-            except RuntimeError as error:  # of what all contenders are given
+            except RuntimeError as error:  # in the preparation of data for all contenders
                 rows.append({"shape": name, "contender": "all others", "failed": str(error)})
             found["tables"][name] = rows
             print(f"\n### {name}\n\n{markdown(rows)}", flush=True)

@@ -1,4 +1,4 @@
-"""The tables of libraries.py: which data, which contenders with which options, and how they are judged."""
+"""The tables of libraries.py: data, contenders with their options, and judges of results."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import rholm
 
 Array = npt.NDArray[Any]
 Result = dict[str, Array]
-#: Does a job of the competitors' environment that is not measured: contender, data, options.
+#: Runs a job in the other packages' environment, without measuring it: contender, data, options.
 Prepare = Callable[..., Result]
 
 
@@ -32,7 +32,7 @@ class Entry:
 
     @property
     def ours(self) -> bool:
-        """Whether it is rholm that is measured."""
+        """Returns true if the entry measures rholm."""
         return self.contender.startswith("rholm")
 
 
@@ -48,24 +48,24 @@ class Group:
 
 
 def read(data: Path | None, file: str, made: Callable[[], rholm.Mesh]) -> tuple[str, rholm.Mesh]:
-    """A real shape, welded, or the made one if there is no folder."""
+    """Returns a real shape, welded, or the made shape if there is no folder."""
     if data is None:
         return "bumpy sphere", made()
     return Path(file).stem, rholm.weld(rholm.read_shape(data / file).shape).mesh
 
 
 def arrays_of(mesh: rholm.Mesh, center: npt.ArrayLike = 0.0) -> Result:
-    """A mesh relative to a centre."""
+    """Returns a mesh relative to a centre."""
     return {"vertices": mesh.vertices - np.asarray(center), "triangles": np.array(mesh.triangles)}
 
 
 def centered(mesh: rholm.Mesh) -> Result:
-    """A mesh about its centre, as the star transforms want it."""
+    """Returns a mesh about its centre, as the star transforms need it."""
     return arrays_of(mesh, rholm.find_center(mesh, rays=0).center)
 
 
 def fibonacci(n: int) -> Array:
-    """Directions spread evenly over the sphere."""
+    """Returns directions spread evenly over the sphere."""
     i = np.arange(n) + 0.5
     z, phi = 1 - 2 * i / n, np.pi * (1 + np.sqrt(5)) * i
     s = np.sqrt(1 - z * z)
@@ -73,25 +73,25 @@ def fibonacci(n: int) -> Array:
 
 
 def grid_directions(n: int) -> Array:
-    """Driscoll and Healy's grid of n x 2n directions from the north pole on."""
+    """Returns Driscoll and Healy's grid of n x 2n directions, from the north pole on."""
     theta, phi = np.meshgrid(np.pi * np.arange(n) / n, np.pi * np.arange(2 * n) / n, indexing="ij")
     s = np.sin(theta)
     return np.stack([s * np.cos(phi), s * np.sin(phi), np.cos(theta)], axis=-1).reshape(-1, 3)
 
 
 def relative_error(found: Array, exact: Array) -> float:
-    """The l2 norm of the error of degrees 1 and above, relative to theirs."""
+    """Returns the l2 norm of the error of degrees 1 and above, relative to the norm of these degrees."""
     return float(np.linalg.norm((found - exact)[:, 1:]) / np.linalg.norm(exact[:, 1:]))
 
 
 def exact_coefficients(mesh: Result, degree: int, **options: Any) -> Array:
-    """Of the polyhedron itself, in pyshtools' default convention."""
+    """Returns coefficients of the polyhedron itself, in pyshtools' default convention."""
     arrays = (mesh["vertices"], mesh["triangles"])
     return rholm.expand(arrays, degree, center=(0, 0, 0), rays=0, errors=False, **options).coeffs
 
 
 def coefficients(data: Path | None, prepare: Prepare) -> Iterator[Group]:
-    """From a mesh to coefficients: by its faces, or from radii along rays."""
+    """Compares ways from a mesh to coefficients: by its faces, and from radii along rays."""
     name, mesh = read(data, "asteroid-bennu.ply", lambda: rholm.bumpy_sphere(5))
     arrays = centered(mesh)
     for degree in (32, 64):
@@ -137,7 +137,7 @@ def coefficients(data: Path | None, prepare: Prepare) -> Iterator[Group]:
                     )
                     for p in (1e-4, 1e-8, 1e-12)
                 ),
-                # The centre is given, so that the error can be told.
+                # The centre is given, so that the error can be measured.
                 Entry(
                     "rholm.expand, defaults, with star check and errors",
                     "rholm_expand",
@@ -152,7 +152,7 @@ def coefficients(data: Path | None, prepare: Prepare) -> Iterator[Group]:
 
 
 def oracle(prepare: Prepare) -> dict[str, float]:
-    """How far the coefficients that others are judged by are from those of an independent cubature."""
+    """Compares the coefficients used as reference with an independent cubature."""
     degree, found = 16, {}
     bodies = {"ellipsoid 3 : 2 : 1": rholm.ellipsoid((3, 2, 1), 2), "bumpy sphere": rholm.bumpy_sphere(2)}
     for name, mesh in bodies.items():
@@ -165,7 +165,7 @@ def oracle(prepare: Prepare) -> dict[str, float]:
 
 
 def surface_columns(result: Result, truth: rholm.Mesh, samples: int = 100_000) -> dict[str, float]:
-    """Distances between a surface and the true one, in parts of the diagonal, and what it encloses."""
+    """Returns distances between a surface and the true one over the diagonal, and the volume's error."""
     mesh = rholm.Mesh(result["vertices"], result["triangles"])
     c = rholm.compare(truth, mesh, samples=samples)
     return {
@@ -177,7 +177,7 @@ def surface_columns(result: Result, truth: rholm.Mesh, samples: int = 100_000) -
 
 
 def voxels(data: Path | None, prepare: Prepare) -> Iterator[Group]:
-    """From a solid to coefficients and back to a surface: by voxels, and by the mesh."""
+    """Compares ways from a solid to coefficients and back to a surface: voxels, and the mesh."""
     name, mesh = read(data, "asteroid-bennu.ply", lambda: rholm.bumpy_sphere(5))
     arrays = arrays_of(mesh)
     given = {"mesh": arrays}
@@ -215,7 +215,7 @@ def voxels(data: Path | None, prepare: Prepare) -> Iterator[Group]:
 
 
 def sources(mesh: Result, points: int) -> Result:
-    """Directions and weights of (M8) of docs/method.md: Gauss nodes of edges, nodes of faces.
+    """Returns directions and weights of (M8) of docs/method.md: Gauss nodes of edges, nodes of faces.
 
     Parameters
     ----------
@@ -247,7 +247,7 @@ def sources(mesh: Result, points: int) -> Result:
 
 
 def sums(data: Path | None, prepare: Prepare) -> Iterator[Group]:
-    """Coefficients by sums over given sources: a general library, and a transform that places its own."""
+    """Compares sums over given sources with a transform that places its own sources."""
     del prepare
     shapes: list[tuple[str, int, int, dict[str, Any], tuple[str, ...]]] = [
         ("asteroid-bennu.ply", 180, 6, {}, ("1", "2")),
@@ -263,7 +263,7 @@ def sums(data: Path | None, prepare: Prepare) -> Iterator[Group]:
         for rule in rules:
             given[rule] = sources(arrays, int(rule))
             u, w = given[rule]["directions"], given[rule]["weights"]
-            # Direct sums over millions of sources take hours: fast ones that are far more precise.
+            # Direct sums over millions of sources take hours; fast sums of far higher precision are used.
             engine = "direct" if len(w) < 5_000_000 else "fast"
             direct[rule] = rholm.adjoint(u, w, degree=degree, engine=engine, precision=1e-13)
 
@@ -310,7 +310,7 @@ CLOUDS = ("igea.ply", "armadillo-43k.obj", "stanford-dragon.ply")
 
 
 def clouds(data: Path | None) -> Iterator[tuple[str, rholm.Mesh, Result]]:
-    """Points with normals of surfaces, and the surfaces."""
+    """Yields points with normals of surfaces, and the surfaces."""
     for file in CLOUDS if data else ("",):
         name, mesh = read(data, file, lambda: rholm.bumpy_sphere(6, 0.4))
         for n in (50_000, 200_000):
@@ -320,7 +320,7 @@ def clouds(data: Path | None) -> Iterator[tuple[str, rholm.Mesh, Result]]:
 
 
 def points(data: Path | None, prepare: Prepare) -> Iterator[Group]:
-    """From points with exact normals to a surface."""
+    """Compares ways from points with exact normals to a surface."""
     del prepare
     for title, mesh, arrays in clouds(data):
 
@@ -340,7 +340,7 @@ def points(data: Path | None, prepare: Prepare) -> Iterator[Group]:
 
 
 def normals(data: Path | None, prepare: Prepare) -> Iterator[Group]:
-    """From points to normals that point outwards."""
+    """Compares ways from points to normals that point outwards."""
     del prepare
     for title, _, arrays in clouds(data):
 
@@ -362,11 +362,11 @@ def normals(data: Path | None, prepare: Prepare) -> Iterator[Group]:
         yield Group(title, {"": {"points": arrays["points"]}}, entries, judge)
 
 
-WAVELENGTHS = (0.005, 0.007, 0.01, 0.015, 0.025, 0.04, 0.06, 0.1, 0.15, 0.25, 0.4)  # of the diagonal
+WAVELENGTHS = (0.005, 0.007, 0.01, 0.015, 0.025, 0.04, 0.06, 0.1, 0.15, 0.25, 0.4)  # over the diagonal
 
 
 def smoothing(data: Path | None, prepare: Prepare) -> Iterator[Group]:
-    """Noise taken from a mesh whose true surface is known; each contender's options are its best here."""
+    """Compares smoothing of noise on known surfaces; each contender has its best options here."""
     del prepare
     shapes: list[tuple[str, rholm.Mesh, float, bool]] = [("bumpy sphere", rholm.bumpy_sphere(6), 2e-3, True)]
     if data is not None:
@@ -392,7 +392,7 @@ def smoothing(data: Path | None, prepare: Prepare) -> Iterator[Group]:
             ("humphrey", {}),
             ("mut_dif_laplacian", {"lamb": 0.5}),
         ):
-            most = 64 if "laplacian" in name_ else steps[-1]  # these are slow, and past their best by then
+            most = 64 if "laplacian" in name_ else steps[-1]  # these are slow, and worse again at more steps
             choices = [{"filter": name_, **more, "iterations": n} for n in steps if n <= most]
             entries.append(Entry(f"trimesh, filter_{name_}", "trimesh_smooth", choices=choices))
         bands = [

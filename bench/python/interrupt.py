@@ -1,8 +1,8 @@
-"""How long Ctrl-C takes: from the signal to KeyboardInterrupt, at random moments of long computations.
+"""Measures the time from Ctrl-C to KeyboardInterrupt, at random moments of long computations.
 
     PYTHONPATH=build/release/python python bench/python/interrupt.py [--signals N] [--threads N] [NAME...]
 
-For each computation its own time, and the median and the largest delay in milliseconds.
+Prints for each computation its duration, and the median and the largest delay in milliseconds.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ import rholm
 
 
 def computations() -> dict[str, Callable[[dict[str, Any]], Any]]:
-    """What is interrupted, made ready."""
+    """Prepares the computations that are interrupted."""
     body = rholm.bumpy_sphere(8)
     ring = rholm.torus(2, 0.7, 400, 200)
     cloud = rholm.sample_surface(ring, 300_000, noise=1e-3)
@@ -55,7 +55,7 @@ def computations() -> dict[str, Callable[[dict[str, Any]], Any]]:
 
 
 def delay(work: Callable[[], Any], after: float) -> float | None:
-    """From the signal to the exception; None if the work was done before."""
+    """Returns seconds from the signal to the exception, or None if the work was done before."""
     sent = 0.0
     stop = threading.Event()
 
@@ -75,7 +75,7 @@ def delay(work: Callable[[], Any], after: float) -> float | None:
         stop.set()
         thread.join()
         return None if sent == 0 else time.perf_counter() - sent
-    except KeyboardInterrupt:  # it came in between
+    except KeyboardInterrupt:  # the signal came in between
         return None
     finally:
         stop.set()

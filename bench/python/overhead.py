@@ -1,9 +1,9 @@
-"""What a call from Python costs beside the same call from C++, in one interleaved run.
+"""Compares a call from Python with the same call from C++, in one interleaved run.
 
     PYTHONPATH=build/release/python python bench/python/overhead.py [--rounds N] [--count N]
 
-`expand` of small meshes (320 faces, degree 16) in a loop against the loop of `small_meshes_bench`, and
-the memory that `expand` of a large mesh takes with arrays that can be used as they lie and with others.
+Runs `expand` of small meshes (320 faces, degree 16) in a loop, and the same loop in `small_meshes_bench`.
+Also measures the memory of `expand` for a large mesh, with arrays that can be used in place and with others.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ print((status("VmHWM") - resident) * 1024 / n)
 
 
 def python_loop(count: int, threads: int) -> dict[str, float]:
-    """The loop of small_meshes_bench."""
+    """Runs the loop of small_meshes_bench in Python."""
     import numpy as np
     import rholm
 
@@ -52,7 +52,7 @@ def python_loop(count: int, threads: int) -> dict[str, float]:
 
 
 def cpp_loop(count: int, threads: int) -> dict[str, float]:
-    """The same in C++."""
+    """Runs the same loop in C++."""
     program = ROOT / "build" / "release" / "bench" / "small_meshes_bench"
     done = subprocess.run([program, str(count), str(threads)], check=True, capture_output=True, text=True)
     return dict(json.loads(done.stdout))

@@ -1,4 +1,4 @@
-// Runs of the whole way, from a file to coefficients.
+// Runs from a file to coefficients.
 #include "rholm_bench/bench.h"
 
 #include <string>
@@ -18,7 +18,7 @@ using Runs = std::map<std::string, std::vector<StageTime>>;
 EncodeOptions encode_options(const BenchOptions& options) {
   EncodeOptions wanted;
   wanted.analyze = {.degree = options.degree, .precision = options.precision};
-  wanted.errors = false;  // a stage of its own, not of the transform
+  wanted.errors = false;  // a separate stage, not part of the transform
   wanted.chart.allow_signed = options.allow_signed;
   return wanted;
 }
@@ -30,7 +30,7 @@ EncodeOptions about(const Vec3& center, EncodeOptions wanted) {
 
 StageTime minus(const StageTime& a, const StageTime& b) { return {a.wall - b.wall, a.cpu - b.cpu}; }
 
-// One run, its stages noted.
+// Runs once and notes the stages.
 Encoded run(const std::filesystem::path& path, const EncodeOptions& wanted, const Context& context,
             Runs& runs) {
   StageTimes times;
@@ -39,14 +39,14 @@ Encoded run(const std::filesystem::path& path, const EncodeOptions& wanted, cons
   times.insert(encoded.times.begin(), encoded.times.end());
   times.insert(encoded.analysis.times.begin(), encoded.analysis.times.end());
   times["coefficients"] = minus(times["coefficients"], times["norms"]);
-  times.erase("transform");  // what it holds beside its parts is small
+  times.erase("transform");  // time outside its parts is small
   for (const auto& [name, time] : times) runs[name].push_back(time);
   return encoded;
 }
 
 void write_once(const Expansion& expansion, const std::filesystem::path& folder, Runs& runs) {
   const std::filesystem::path path = folder / "model.h5";
-  std::filesystem::remove(path);  // a file that is replaced would take longer
+  std::filesystem::remove(path);  // replacing an existing file would take longer
   runs["write"].push_back(time_once([&] { write_model(expansion, path); }));
 }
 
@@ -66,7 +66,7 @@ BenchRuns summary(int threads, const Runs& runs, const std::vector<StageTime>& b
   return result;
 }
 
-// The search for a centre: runs with it beside those without.
+// Compares runs that search for a centre with runs that do not.
 void summarise_center(const Runs& searched, const Runs& given, FileBench& bench) {
   bench.center = timing_of(searched.at("center"));
   std::vector<double> extra;
@@ -96,7 +96,7 @@ FileBench bench_file(const std::filesystem::path& path, const BenchOptions& opti
   FileBench bench;
   bench.file_bytes = std::filesystem::file_size(path);
   const EncodeOptions search = encode_options(options);
-  // Not counted: brings the file into memory, plans transforms, starts threads.
+  // The first run is not counted: it loads the file into memory, plans transforms, starts threads.
   Runs first, searched;
   const EncodeOptions given =
       about(run(path, search, measured(context, 0, 0), first).star.center, search);

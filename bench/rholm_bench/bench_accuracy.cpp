@@ -1,4 +1,4 @@
-// How far coefficients are from better ones.
+// Errors of coefficients, measured with more precise ones.
 #include <algorithm>
 #include <cmath>
 
@@ -11,14 +11,14 @@
 namespace rholm {
 namespace {
 
-// Rounding of directions and sums leaves little less.
+// Rounding of directions and sums allows hardly smaller errors.
 constexpr double kFastReference = 1e-12, kLeastPrecision = 1e-14;
 constexpr double kDirectReference = 1e-13;
 
-// The most that direct sums may cost, nanoseconds by the cost model: some 4 s.
+// Largest cost of direct sums, in nanoseconds by the cost model: some 4 s.
 constexpr double kMostDirect = 3.5e9;
-// Nodes that a precision of 1e-13 takes on a triangle of a mesh that resolves its degrees, and its
-// share of edges.
+// Nodes per triangle, with its share of edges, for a precision of 1e-13 on a mesh that resolves its
+// degrees.
 constexpr double kNodesPerTriangle = 12;
 
 struct Energy {
@@ -58,7 +58,7 @@ CoefficientsError compare_coefficients(const Coefficients& found, const Coeffici
 Reference bench_reference(const std::filesystem::path& path, const Vec3& center,
                           const BenchOptions& options, const Context& context) {
   check(options);
-  // Looking at the file counts its triangles where it matters: small files may be read twice.
+  // Mapping counts triangles where it matters, in large files; small files may be read twice.
   const auto mapped = map_mesh(path, context);
   const double triangles =
       mapped ? static_cast<double>(mapped->view().n_triangles)

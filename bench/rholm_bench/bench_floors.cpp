@@ -1,4 +1,4 @@
-// What bounds the stages: copies, row updates, Legendre sums.
+// Lower bounds of the stages: copies, row updates, Legendre sums.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -30,7 +30,7 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
-  // The whole file, piece by piece.
+  // Reads the whole file, block by block.
   void read_all(std::span<char> buffer) const {
     off_t at = 0;
     for (ssize_t n = 1; n != 0; at += n) {
@@ -62,7 +62,7 @@ Timing time_copy(std::size_t bytes, int repeat, const Context& context) {
   return time_repeated(repeat, context, [&] { std::memcpy(to.data(), from.data(), bytes); });
 }
 
-// The first cell of every vertex's window.
+// Returns the first cell of every vertex's window.
 std::vector<std::uint32_t> first_cells(const GridLayout& layout, const Mesh& mesh,
                                        const Vec3& center) {
   std::vector<std::uint32_t> cells;
@@ -114,7 +114,7 @@ Timing time_legendre(const SphereFourier& fourier, int repeat, const Context& co
   });
 }
 
-// The grid that `fast` speaks of.
+// Returns the transform on the grid that `fast` reports.
 SphereFourier fourier_of(const FastReport& fast, int degree) {
   const double points = fast.oversampling * 2 * std::max(degree, 1);
   const auto n = static_cast<std::size_t>(std::lround(points));

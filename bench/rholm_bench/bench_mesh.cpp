@@ -21,9 +21,9 @@
 namespace rholm::cli {
 namespace {
 
-constexpr std::size_t kFlush = std::size_t{1} << 20;  // chosen: large against a system call
+constexpr std::size_t kFlush = std::size_t{1} << 20;  // chosen: makes system calls cheap
 
-// 1 and four waves, at most 0.2 in all; wave numbers that the coarsest meshes resolve.
+// Returns 1 and four waves of 0.05 each, with wave numbers that the coarsest meshes resolve.
 double smooth_radius(const Vec3& u) {
   return 1 + 0.05 * (std::sin(3 * u.x + 1 * u.y + 1) + std::cos(4 * u.y - 2 * u.z) +
                      std::sin(5 * u.z + 3 * u.x + 2) + std::cos(6 * u.x - 2 * u.y + 1));
@@ -61,11 +61,11 @@ Mesh smooth_mesh(int triangles) {
   const int n = std::max(1, static_cast<int>(std::lround(std::sqrt(triangles / 12.0))));
   Mesh mesh = box({2, 2, 2}, n);
   for (Vec3& x : mesh.vertices) {
-    // Squares of about the same solid angle.
+    // Squares have about the same solid angle.
     const auto at = [](double t) { return std::tan(std::numbers::pi / 4 * t); };
     const Vec3 u = normalized({at(x.x), at(x.y), at(x.z)});
     const Vec3 at_u = smooth_radius(u) * u;
-    // As the file will have it.
+    // Coordinates are rounded as in the file.
     x = {static_cast<float>(at_u.x), static_cast<float>(at_u.y), static_cast<float>(at_u.z)};
   }
   return mesh;

@@ -1,4 +1,4 @@
-// The meshes that the benchmark brings with it.
+// The benchmark's own meshes.
 #pragma once
 
 #include <filesystem>
@@ -8,24 +8,24 @@
 
 namespace rholm::cli {
 
-// A smooth star-shaped body around the origin with 12 n^2 triangles, about as many as wanted: the
-// faces of a cube, row by row, as shape models come that are made from pictures. Coordinates are
-// floats.
+// Returns a smooth body, star-shaped about the origin, with 12 n^2 triangles, near the given
+// number. The faces of a cube are listed row by row, like shape models that are made from pictures.
+// Coordinates have single precision.
 Mesh smooth_mesh(int triangles);
 
-// The same triangles in random order, always the same.
+// Puts the triangles into a random order, which is always the same.
 void shuffle(Mesh& mesh);
 
-// A binary PLY file, of floats if those hold the coordinates, without a name: it is gone with this
-// object or the program, whatever ends it.
+// A temporary binary PLY file without a name, of floats if they hold the coordinates. The file is
+// removed with this object, or when the program ends in any way.
 class TemporaryMesh {
  public:
-  // In an existing folder. Throws Io, Cancelled.
+  // Makes the file in an existing folder. Throws Io, Cancelled.
   TemporaryMesh(const Mesh& mesh, const std::filesystem::path& folder);
   ~TemporaryMesh();
   TemporaryMesh(const TemporaryMesh&) = delete;
   TemporaryMesh& operator=(const TemporaryMesh&) = delete;
-  std::filesystem::path path() const;  // opens it while it is there
+  std::filesystem::path path() const;  // valid while the object exists
 
  private:
   explicit TemporaryMesh(const std::filesystem::path& folder);

@@ -127,7 +127,7 @@ std::string compiler() {
 #endif
 }
 
-// Seven letters at most, for any time a person waits for.
+// Formats with at most seven characters, for any time that a person waits for.
 std::string figure(double value) { return fmt::format("{:.{}f}", value, value < 1000 ? 3 : 0); }
 
 std::string table_line(const Row& row, std::size_t faces, std::size_t sources,

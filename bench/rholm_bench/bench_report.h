@@ -1,4 +1,4 @@
-// What the benchmark found, as JSON and as text.
+// Results of the benchmark, as JSON and as text.
 #pragma once
 
 #include <optional>
@@ -9,22 +9,22 @@
 
 namespace rholm::cli {
 
-// One mesh at one degree and precision.
+// Results for one mesh at one degree and precision.
 struct BenchCase {
-  std::string mesh;           // the file's name, or what the program made
-  bool random_order = false;  // of its triangles
+  std::string mesh;           // name of the file, or of a made mesh
+  bool random_order = false;  // True for triangles in random order
   int degree = 0;
   double precision = 0;
   FileBench file;
   CoefficientsError error;
-  std::string reference;  // what the error is the distance from
-  // Where measured: not again for random order.
+  std::string reference;  // how the reference was computed
+  // Present where measured: not repeated for random order.
   std::optional<SumsBench> sums;
   std::optional<FloorsBench> floors;
-  double slowdown = 1;  // of random order against that of the file
+  double slowdown = 1;  // time for random order over time for file order
 };
 
-// Processor, number of threads it runs at once, vector instructions, compiler.
+// Returns processor, number of parallel threads, vector instructions and compiler.
 Json machine_json();
 std::string machine_text();
 

@@ -1,4 +1,4 @@
-// The bare kernel of spreading: row updates of sources whose cells are known, with constant taps.
+// The inner loop of spreading: row updates of sources whose cells are known, with constant taps.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace rholm {
 
-// Adds to the cells from each of `first_cells` on, `layout.width` rows of padded_width() cells,
-// what a value and a gradient in theta add. `taps`: padded_width() columns, then two windows of
+// Adds a value and a gradient in theta to the cells that begin at each of `first_cells`:
+// `layout.width` rows of padded_width() cells. `taps`: padded_width() columns, then two windows of
 // `layout.width` rows.
 void update_rows(const GridLayout& layout, std::span<const std::uint32_t> first_cells,
                  const double* taps, double* grid);

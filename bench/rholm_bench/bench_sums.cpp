@@ -11,7 +11,7 @@
 namespace rholm {
 namespace {
 
-// Direct sums of a sample: nanoseconds by the cost model, about 0.1 s, and whole vectors.
+// Direct sums use a sample of about 0.1 s (nanoseconds by the cost model), in whole vectors.
 constexpr double kSampledCost = 1e8;
 constexpr std::size_t kLeastSample = 64;
 
@@ -41,7 +41,7 @@ RandomSources sources_of(const Mesh& mesh, const Vec3& center) {
   return sources;
 }
 
-// Every n-th one.
+// Takes every n-th source.
 RandomSources sample_of(const RandomSources& all, int degree) {
   const double most = kSampledCost / direct_cost(1, degree, 0);
   const std::size_t n = all.directions.size();
@@ -74,7 +74,7 @@ SumsBench bench_sums(const Mesh& mesh, const Expansion& expansion, const BenchOp
   const SumOptions fast{.precision = options.precision};
   const SumOptions slow{.engine = Engine::kDirect};
   std::vector<StageTime> adjoint, with_gradient, forward, direct;
-  for (int i = -1; i < options.repeat; ++i) {  // the first is not counted
+  for (int i = -1; i < options.repeat; ++i) {  // the first run is not counted
     const Context inner =
         measured(context, 1, std::max(0.0, static_cast<double>(i)) / options.repeat);
     Coefficients sum(f.degree());

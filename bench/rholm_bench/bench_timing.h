@@ -42,7 +42,7 @@ StageTime time_once(const Work& work) {
   return times[""];
 }
 
-// Times of work that is repeated.
+// Measures work that is repeated.
 template <typename Work>
 Timing time_repeated(int repeat, const Context& context, const Work& work) {
   std::vector<StageTime> runs;
@@ -53,7 +53,7 @@ Timing time_repeated(int repeat, const Context& context, const Work& work) {
   return timing_of(runs);
 }
 
-// For what is measured: some threads, the progress that of the whole.
+// Returns a context for measured work: `threads` threads, reporting the progress of the whole.
 inline Context measured(const Context& context, int threads, double fraction) {
   Context inner{.threads = threads};
   if (context.progress) {

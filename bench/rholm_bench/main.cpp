@@ -1,4 +1,4 @@
-// rholm_bench: how fast is rholm on this machine? The instruction set is the best one, or the one
+// rholm_bench measures the speed of rholm on this machine, with the best instruction set or the one
 // that RHOLM_TEST_TARGET names.
 #include <algorithm>
 #include <cstdio>
@@ -40,10 +40,10 @@ struct Options {
   bool json = false;
 };
 
-constexpr const char* kFaces = "82000,1300000";  // chosen: in the cache, and beyond it; seconds
-constexpr double kMostFaces = 2e8;               // what can be numbered in a cube of squares
+constexpr const char* kFaces = "82000,1300000";  // chosen: in cache, and beyond it; seconds
+constexpr double kMostFaces = 2e8;               // a cube of squares can number these
 
-// A list of numbers within bounds, both inclusive.
+// Parses a list of numbers within bounds, both inclusive.
 std::vector<double> parse_list(const std::string& option, const std::string& text, double low,
                                double high) {
   std::vector<double> list;
@@ -81,12 +81,12 @@ std::vector<int> parse_faces(const std::string& option, const std::string& text)
   return parse_counts(option, text, 12, kMostFaces);
 }
 
-// A mesh to measure: in memory, and the file that is worked on.
+// A mesh to measure, in memory, and the file that is processed.
 struct Subject {
   std::string name;
   Mesh mesh;
-  std::string path;                       // of the user's file
-  std::unique_ptr<TemporaryMesh> made{};  // or of ours
+  std::string path;                       // file of the user, or of `made`
+  std::unique_ptr<TemporaryMesh> made{};  // file of a made mesh
   std::filesystem::path file() const { return made ? made->path() : std::filesystem::path(path); }
 };
 
@@ -120,11 +120,11 @@ Settings settings_of(const Options& options) {
   return settings;
 }
 
-// What all measurements share.
+// Data that all measurements share.
 struct Work {
   const Settings& settings;
   Session& session;
-  std::optional<CoefficientsError> fast_reference = {};  // what one is worth, once it is used
+  std::optional<CoefficientsError> fast_reference = {};  // error of a fast reference, once used
 };
 
 BenchOptions options_of(const Settings& settings, int degree, double precision) {
@@ -187,7 +187,7 @@ BenchCase measure_shuffled(const Work& work, const Subject& subject, const Bench
   return run;
 }
 
-// Every degree and precision.
+// Measures every degree and precision.
 void measure(const Subject& subject, Work& work, std::vector<BenchCase>& cases) {
   const Settings& settings = work.settings;
   const double least = *std::min_element(settings.precisions.begin(), settings.precisions.end());

@@ -8,7 +8,7 @@
 namespace rholm {
 namespace {
 
-// A line "Name:   123 kB" of /proc/self/status.
+// Returns the bytes of a line "Name:   123 kB" in /proc/self/status.
 std::optional<std::size_t> status_of(const std::string& name) {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
@@ -26,9 +26,9 @@ std::optional<std::size_t> peak_memory() { return status_of("VmHWM:"); }
 
 bool restart_peak_memory() {
 #ifdef __GLIBC__
-  malloc_trim(0);  // what has been freed is to be counted again
+  malloc_trim(0);  // so that memory that was freed counts again
 #endif
-  // proc(5): writing 5 sets the peak to what is in use now.
+  // proc(5): writing 5 sets the peak to the memory in use now.
   std::ofstream file("/proc/self/clear_refs");
   file << "5" << std::flush;
   return file.good();

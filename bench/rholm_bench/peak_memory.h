@@ -1,4 +1,4 @@
-// The memory this process has in use, and its highest mark, which can be set back.
+// The memory that this process has in use, and its peak, which can be reset.
 #pragma once
 
 #include <cstddef>
@@ -6,10 +6,10 @@
 
 namespace rholm {
 
-// None where the system does not tell. Linux does.
+// Returns bytes, or nothing where the system does not report them. Linux does.
 std::optional<std::size_t> resident_memory();
 std::optional<std::size_t> peak_memory();
-// From now on the peak is that of what follows. False if that cannot be had.
+// Resets the peak to the memory in use. Returns false if this is not possible.
 bool restart_peak_memory();
 
 }  // namespace rholm

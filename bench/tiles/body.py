@@ -1,4 +1,4 @@
-"""A rough body of genus 5, for clouds of any size: five tori in a chain, displaced by waves.
+"""Makes a rough body of genus 5, for clouds of any size: five tori in a chain, displaced by waves.
 
 Usage: body.py OUT.ply [CELLS]
 """
@@ -13,7 +13,7 @@ spacing = 8.0 / cells
 half = (4.0, 1.25, 0.9)
 counts = [2 * int(np.ceil(h / spacing)) + 1 for h in half]
 x, y, z = np.meshgrid(*[spacing * (np.arange(n) - n // 2) for n in counts], indexing="ij")
-# A smooth minimum of the distances to the tori, so that they melt into each other.
+# A smooth minimum of the distances to the tori blends them into each other.
 total = np.zeros_like(x)
 for k in range(5):
     ring = np.hypot(x - 1.25 * (k - 2), y) - 0.75

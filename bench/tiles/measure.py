@@ -1,9 +1,9 @@
-"""What reconstruction in tiles costs a point: time of each stage, memory, and disk.
+"""Measures the cost of reconstruction in tiles per point: time of each stage, memory, and disk.
 
 Usage: measure.py RHOLM BODY.ply [POINTS] [POINTS_PER_TILE] [THREADS]
 
-BODY.ply is a mesh, as body.py makes it; POINTS are sampled from it, and for comparison a million, which are
-reconstructed in one piece.
+BODY.ply is a mesh, for example made by body.py. POINTS are sampled from it; for comparison, a million points
+are reconstructed in one piece.
 """
 
 import json
@@ -20,7 +20,7 @@ threads = sys.argv[5] if len(sys.argv) > 5 else "1"
 
 
 def reconstruct(folder: Path, n: int, *more: str) -> dict:
-    """The report, with seconds of processor, and memory in bytes."""
+    """Returns the report, with seconds of processor time, and memory in bytes."""
     subprocess.run(
         [rholm, "make", "sample", body, "--points", str(n), "-o", folder / "points.ply", "--quiet"],
         check=True,
@@ -31,7 +31,7 @@ def reconstruct(folder: Path, n: int, *more: str) -> dict:
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     report = json.loads(ran.stdout)
     report["cpu"] = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    report["memory"] = 1024 * after.ru_maxrss  # of the largest child, which this is
+    report["memory"] = 1024 * after.ru_maxrss  # largest child, which is this one
     return report
 
 

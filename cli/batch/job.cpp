@@ -21,10 +21,10 @@
 namespace rholm::cli {
 namespace {
 
-// No file can be within one that is no folder.
+// This path cannot exist, because /dev/null is no folder.
 constexpr const char* kNoFile = "/dev/null/shape";
 
-// --shard i/n: rows i - 1, i - 1 + n, ... of the manifest.
+// Returns the rows i - 1, i - 1 + n, ... of the manifest for --shard i/n.
 std::vector<std::size_t> rows_of_shard(const std::string& shard, std::size_t n_rows) {
   std::uint64_t part = 1, parts = 1;
   if (!shard.empty()) {
@@ -66,8 +66,8 @@ std::string chosen_format(const Command& command) {
   return {};
 }
 
-// Parses the options, then runs the command for no file: what it refuses before it opens one is
-// wrong for all.
+// Parses the options, then runs the command for a file that does not exist. An error before it
+// opens the file is an error for all shapes.
 void check_command(BatchJob& job) {
   const std::string& name = job.options.command;
   const Command command = job.commands.make(name);
@@ -99,11 +99,11 @@ void check_command(BatchJob& job) {
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("{} (for '{}', behind --)", error.what(), name));
   } catch (const std::exception&) {
-    return;  // it has come as far as the file
+    return;  // all checks before opening the file passed
   }
 }
 
-// All that decides what a row is.
+// Returns a fingerprint of everything that determines a row.
 std::string fingerprint_of(const BatchJob& job) {
   std::vector<std::string> texts = {kVersion, job.options.command, job.options.outputs,
                                     job.options.no_times ? "without times" : "with times"};
@@ -117,7 +117,7 @@ std::string fingerprint_of(const BatchJob& job) {
   return fmt::format("{:016x}", fingerprint(texts));
 }
 
-// What can be refused without the manifest.
+// Checks everything that does not need the manifest.
 BatchJob checked_job(const BatchOptions& options, const BatchCommands& commands) {
   BatchJob job;
   job.options = options;

@@ -1,4 +1,4 @@
-// What a batch is to do: a command, its options, and the shapes of a manifest. Layer: cli.
+// Description of a batch: a command, its options, and the shapes of a manifest. Layer: cli.
 #pragma once
 
 #include <filesystem>
@@ -20,19 +20,19 @@ namespace rholm::cli {
 struct BatchOptions {
   std::string manifest, output;
   std::string command = "analyze";
-  std::vector<std::string> words;  // behind --: options of the command, or parts to merge
-  std::string shard;               // "2/8"; empty: all rows
-  std::string outputs;             // the folder; empty: files are not kept
+  std::vector<std::string> words;  // words after --: options of the command, or parts to merge
+  std::string shard;               // "2/8": one of several shards; empty: all rows
+  std::string outputs;             // folder for the command's files; empty: files are not kept
   bool merge = false, restart = false, no_times = false, strict = false, coefficients = false;
   bool raw_cells = false;
   bool json = false;
 };
 
-// What the commands of the program bring along.
+// Functions of the program that a batch needs.
 struct BatchCommands {
-  // Makes a command, with options of its own; throws UsageError for a name that is none.
+  // Makes a command with its own options; throws UsageError for an unknown name.
   std::function<Command(const std::string& name)> make;
-  // What is said of an expansion that was written, beside the report.
+  // Describes a written expansion in JSON, in addition to the report.
   std::function<Json(const Expansion&, const Context&)> describe;
 };
 
@@ -40,32 +40,32 @@ struct BatchJob {
   BatchOptions options;
   BatchCommands commands;
   std::vector<char> manifest_text;
-  Manifest manifest;                    // that it is
-  std::filesystem::path folder;         // that paths are relative to
-  std::vector<std::size_t> rows;        // of the manifest, that are done here: all, or a shard's
-  std::vector<std::string> file_names;  // of what the command writes, for all rows
-  std::string extension;                // of that; empty: it writes nothing
-  std::string job;                      // the fingerprint of what does not depend on the shard
+  Manifest manifest;                    // parsed from the text
+  std::filesystem::path folder;         // base of relative paths
+  std::vector<std::size_t> rows;        // rows to process, by number: all, or those of a shard
+  std::vector<std::string> file_names;  // names of the command's output files, for all rows
+  std::string extension;                // extension of these files; empty: the command writes none
+  std::string job;                      // fingerprint of everything except the shard
 };
 
-// Throws UsageError for everything that is wrong without looking at a shape (options of the
-// command, too: it is run for a file that cannot exist), InvalidInput and Io for the manifest.
+// Makes the job. Throws UsageError for errors that need no shape (also in the command's options, by
+// a run for a file that cannot exist), InvalidInput and Io for the manifest.
 BatchJob make_job(const BatchOptions& options, const BatchCommands& commands);
-// The same for a manifest that is read already.
+// Makes the job from the text of a manifest.
 BatchJob make_job(const BatchOptions& options, const BatchCommands& commands,
                   std::vector<char> manifest_text);
 
-// The words of the command for a shape; `output` is where it writes, if it does.
+// Returns the words of the command for a shape; `output` is its output file, if it writes one.
 std::vector<std::string> command_words(const BatchJob& job, const std::string& path,
                                        const std::string& output);
 
-// Columns that come first, in their order.
+// Returns the leading columns, in order.
 std::vector<std::string> leading_columns(const Manifest& manifest, bool with_times);
 
-// The columns that a row has from the manifest.
+// Returns the columns that a row takes from the manifest.
 BatchRow carried_cells(const Manifest& manifest, std::size_t row);
 
-// Throws UsageError unless the results' name says a format.
+// Throws UsageError unless the name of the results' file implies a format.
 void check_results_name(const std::string& path);
 
 Manifest read_manifest(const std::string& path);

@@ -20,7 +20,7 @@ struct Place {
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorCode::kInvalidInput, what); }
 
-// Where each row of the manifest is.
+// Returns the place of each row of the manifest in the parts.
 std::vector<Place> places_of(const Manifest& manifest, const std::vector<BatchTable>& parts,
                              const std::vector<std::string>& names) {
   std::unordered_map<std::string, std::size_t> rows;
@@ -53,7 +53,7 @@ std::vector<Place> places_of(const Manifest& manifest, const std::vector<BatchTa
   return places;
 }
 
-// All parts are of one job, and the table says what they say, but for the shard.
+// Checks that all parts are of one job, and returns their common metadata without the shard.
 std::vector<std::pair<std::string, std::string>> about_all(const std::vector<BatchTable>& parts,
                                                            const std::vector<std::string>& names) {
   const auto without_shard = [](const BatchTable& part) {

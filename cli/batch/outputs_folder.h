@@ -1,4 +1,4 @@
-// Where the files go that a command writes for each shape. Layer: cli.
+// Names and folder of the files that a command writes for each shape. Layer: cli.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace rholm::cli {
 
-// Names of files without extension, one for each shape: its id, with _ for what is not a letter of
-// ASCII, a digit, a dot, - or _. Where that is too long or not unique (the case of letters does not
-// count), the number of the row is added.
+// Returns file names without extension, one per shape: its id, with _ in place of characters other
+// than ASCII letters, digits, dot, - and _. The row number is added to names that are too long or
+// not unique (upper and lower case count as equal).
 std::vector<std::string> file_names(const Manifest& manifest);
 
-// A folder for files that are not kept, where the system has temporary files.
+// Returns a folder for files that are not kept, in the system's folder for temporary files.
 TemporaryFolder scratch_folder();
 
 }  // namespace rholm::cli

@@ -28,8 +28,8 @@ double seconds_of(clockid_t clock) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Where the command writes. Files that are not kept have a folder each: some commands write
-// several.
+// Returns the output file of the command. Files that are not kept get a folder each, because some
+// commands write several files.
 std::string output_of(const BatchJob& job, std::size_t row, const std::filesystem::path& scratch) {
   if (job.extension.empty()) return {};
   if (!job.options.outputs.empty()) {
@@ -42,7 +42,7 @@ std::string output_of(const BatchJob& job, std::size_t row, const std::filesyste
   return (folder / ("out." + job.extension)).string();
 }
 
-// Degrees one after the other, within each m = -l ... l: C_lm at l^2 + l + m, S_lm at l^2 + l - m.
+// Order: by degree, within each degree m = -l ... l: C_lm at l^2 + l + m, S_lm at l^2 + l - m.
 std::vector<double> listed(const Coefficients& coefficients) {
   std::vector<double> list;
   for (int l = 0; l <= coefficients.degree(); ++l) {
@@ -52,7 +52,7 @@ std::vector<double> listed(const Coefficients& coefficients) {
   return list;
 }
 
-// A name that the manifest or the results have already is given that of the command in front.
+// Puts the command in front of a name that the manifest or the results already have.
 std::string free_name(const BatchJob& job, const std::string& name) {
   const auto& columns = job.manifest.columns;
   const bool taken = is_batch_column(name) ||
@@ -106,15 +106,15 @@ void flatten_within(const Json& object, const std::string& prefix,
   }
 }
 
-// The values of an object: those within others with names joined by dots; lists of numbers as
-// lists, of texts as one text, "; " between; of anything else as JSON. null is no value. Left out
-// is what `wanted` refuses, and what `row` has already.
+// Flattens an object. Nested values get names joined by dots. Lists of numbers stay lists, lists of
+// texts become one text with "; " between, other lists become JSON. null is no value. Leaves out
+// names that `wanted` refuses, and names that `row` already has.
 void flatten(const Json& report, const std::function<bool(const std::string&)>& wanted,
              BatchRow& row) {
   if (report.is_object()) flatten_within(report, "", wanted, row);
 }
 
-// Whether a column says how long something took, or how much memory: not the same in every run.
+// Returns true for a column of times or memory, which differs from run to run.
 bool is_of_the_run(const std::string& name) {
   const std::vector<std::string> parts = split(name, '.');
   return std::any_of(parts.begin(), parts.end(), [](const std::string& part) {
@@ -123,7 +123,8 @@ bool is_of_the_run(const std::string& name) {
   });
 }
 
-// Where files are is no result, nor what a clock of all threads together says of one of them.
+// Returns false for places of files, and for processor times of all threads together, which are no
+// results for one row.
 bool is_wanted(const BatchJob& job, const std::string& name) {
   if (name == "file" || name == "output" || name == "peak_memory_bytes") return false;
   if (name.ends_with(".cpu") || name.starts_with("cpu_seconds") || name.ends_with(".cpu_seconds")) {
@@ -161,7 +162,7 @@ bool has_failed(const BatchRow& row) {
 
 std::optional<BatchRow> run_row(const BatchJob& job, std::size_t row, int threads,
                                 const std::filesystem::path& scratch) {
-  // A row on one thread has a clock of its own; on several it is alone.
+  // A row on one thread has its own clock; a row on several threads runs alone.
   const clockid_t cpu = threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID;
   const double wall_begin = seconds_of(CLOCK_MONOTONIC), cpu_begin = seconds_of(cpu);
   Capture said;

@@ -8,16 +8,16 @@
 
 namespace rholm::cli {
 
-// Runs the command for a row of the manifest on so many threads, with all it says caught. Files
-// that are not kept go to `scratch`. None if it was interrupted; whatever else goes wrong is in the
+// Runs the command for a row of the manifest with the given threads, and captures its output. Files
+// that are not kept go to `scratch`. Returns nothing if interrupted. Any other failure is in the
 // row: exit_code, message.
 std::optional<BatchRow> run_row(const BatchJob& job, std::size_t row, int threads,
                                 const std::filesystem::path& scratch);
 
-// Where a shape is: what is not absolute is beside the manifest.
+// Returns the path of a shape; a relative path is relative to the manifest.
 std::filesystem::path path_of(const BatchJob& job, std::size_t row);
 
-// Whether a row of results says that its command failed.
+// Returns true if a row of results has a failed command.
 bool has_failed(const BatchRow& row);
 
 }  // namespace rholm::cli

@@ -16,10 +16,10 @@
 namespace rholm::cli {
 namespace {
 
-// Bytes of a file from which on its shape has all threads (chosen). Small ones go one on each: two
-// at once take half the time of one after the other, while two threads on one gain less than a
-// tenth up to 31 MiB, a fifth at 125 MiB (bench/peers/batch.py --sizes). Larger ones would be in
-// memory as many at a time as there are threads, and the last of them be waited for by all.
+// Size of a file from which its shape uses all threads (chosen). Smaller ones use one thread each:
+// two at once take half the time of one after the other. Two threads on one file gain less than a
+// tenth up to 31 MiB, a fifth at 125 MiB (bench/peers/batch.py --sizes). Larger files on one thread
+// each would all be in memory at once, and all threads would wait for the last one.
 constexpr std::uintmax_t kLargeFile = std::uintmax_t{32} << 20;
 
 std::string text_of_time(double seconds) {
@@ -28,7 +28,7 @@ std::string text_of_time(double seconds) {
                         : fmt::format("{:.1f} h", seconds / 3600);
 }
 
-// How far a batch is, and when it will be done.
+// Progress of a batch, and its expected end.
 class RowProgress {
  public:
   RowProgress(std::size_t all, const RowsToDo& to_do, Session& session)
@@ -92,7 +92,7 @@ void work_rows(const BatchJob& job, const RowsToDo& to_do, BatchJournal& journal
   for (const std::size_t row : to_do.rows) put_u64(input, row);
   const TemporaryFolder scratch = scratch_folder();
   RowProgress progress(job.rows.size(), to_do, session);
-  // Signals and the bar do not wait for a row.
+  // Signals and the progress bar do not wait for the end of a row.
   const CancelScope scope([&] {
     progress.show();
     return keep_going();

@@ -56,7 +56,7 @@ Json report_json(const Options& o, const Placement& placement, const Expansion& 
   json["from"] = json_of(placement.from);
   json["to"] = json_of(placement.to);
   json["centers"] = to_string(placement.centers);
-  // The reflection that comes first: p becomes p - 2 ((p - point) . normal) normal.
+  // The reflection comes first: p becomes p - 2 ((p - point) . normal) normal.
   json["reflection"] = found.best.mirrored
                            ? Json{{"point", json_of(placement.from)}, {"normal", {1, 0, 0}}}
                            : Json(nullptr);

@@ -41,18 +41,18 @@ EncodeOptions encode_options(const Options& options) {
   return wanted;
 }
 
-// Bytes of these constants are measured on spheres, and all of them anew by scripts/memory-figures.
-// The pass over a mesh where it lies takes 48 bytes for each thread and triangle, of at most 2^23
-// triangles at a time. Faces in random order take 15 bytes each.
+// scripts/memory-figures measures all these constants, in bytes, on spheres. The pass over a mapped
+// mesh takes 48 bytes per thread and face, for at most 2^23 faces at a time. Faces in random order
+// take 15 bytes each.
 constexpr double kPassOfTriangle = 50, kOrderOfTriangle = 16;
 constexpr double kMostOfPass = 1 << 23;
-// A mesh that is read, welded and paired takes 214 bytes for each face of a sphere, and 284 where
-// each face has corners of its own.
+// A mesh that is read, welded and paired takes 214 bytes per face of a sphere, and 284 if no two
+// faces share corners.
 constexpr MemoryOfMesh kPairedMesh = {.vertex = 75, .face = 215};
-// With --weld corners are one before faces are paired: 190 and 245 bytes.
+// With --weld corners are merged before faces are paired: 190 and 245 bytes.
 constexpr MemoryOfMesh kWeldedMesh = {.vertex = 45, .face = 190};
 constexpr double kSmallMesh = 8 << 20, kMemoryOfCoefficient = 150;
-// Distances to the surface, for the errors of coarse models, take 102 MiB beside, for a box and
+// Distances to the surface, for the errors of coarse models, take another 102 MiB, for a box and
 // degree 512 (scripts/memory-figures).
 constexpr double kDistances = 110 << 20;
 
@@ -69,13 +69,14 @@ double most_of_work(const Options& options) {
   return memory_of_grid(options) + (options.no_errors ? 0 : kDistances);
 }
 
-// Bytes that the pass over that number of triangles takes.
+// Returns the bytes that the pass over that number of faces takes.
 double memory_of_pass(double triangles, int threads, const Options& options) {
   return memory_of_grid(options) + kOrderOfTriangle * triangles +
          kPassOfTriangle * threads * std::min(triangles, kMostOfPass);
 }
 
-// With as many threads as fit in --max-memory beside `kept` bytes, one at least.
+// Returns the context with as many threads as fit in --max-memory beside `kept` bytes, at least
+// one.
 Context within_memory(double triangles, double kept, const Options& options,
                       const Session& session) {
   Context context = session.context();
@@ -89,7 +90,7 @@ Context within_memory(double triangles, double kept, const Options& options,
   return context;
 }
 
-// Throws OutOfMemory where one thread does not fit.
+// Throws OutOfMemory if not even one thread fits.
 void require_pass(double triangles, double kept, const Options& options) {
   const double needed = kept + memory_of_pass(triangles, 1, options);
   options.memory.require(needed, "analyzing " + display_name(options.input),
@@ -102,7 +103,7 @@ Context within_memory(const MappedMesh& mesh, const Options& options, const Sess
   return within_memory(n, 0, options, session);
 }
 
-// Whether the pass that a mapped mesh goes through may do for a mesh: it must be closed as it is.
+// Returns true if the pass for mapped meshes may suffice: if the mesh is closed without changes.
 bool may_stay(const Options& options) {
   return options.weld == 0 && parse_name<Method>(options.method) == Method::kEdge;
 }
@@ -110,7 +111,7 @@ bool may_stay(double vertices, double faces, const Options& options) {
   return may_stay(options) && vertices < faces;
 }
 
-// Bytes at most while the mesh of a file is read and analyzed, on one thread.
+// Returns the largest number of bytes while the mesh of a file is read and analyzed on one thread.
 double memory_to_read_and_analyze(const std::string& path, const Options& options) {
   const ShapeMemory shape = memory_to_read(path);
   const double work = may_stay(shape.vertices, shape.faces, options)
@@ -119,8 +120,8 @@ double memory_to_read_and_analyze(const std::string& path, const Options& option
   return std::max(shape.reading, work);
 }
 
-// Throws OutOfMemory if a mesh that was read takes more than --max-memory from here on. Where it
-// cannot stay as it is, which is known later, it takes more.
+// Throws OutOfMemory if work on a mesh in memory needs more than --max-memory. A mesh that must be
+// changed, which is known later, needs more.
 void check_read_mesh(const Mesh& mesh, const Options& options) {
   if (!options.memory.gib) return;
   const auto vertices = static_cast<double>(mesh.vertices.size());
@@ -135,8 +136,8 @@ void check_read_mesh(const Mesh& mesh, const Options& options) {
   }
 }
 
-// Throws OutOfMemory if a mesh of a file of that size surely needs more than there is once it is
-// read: twice the file, as numbers and edges.
+// Throws OutOfMemory if a mesh file of that size surely needs more memory than there is. The
+// estimate is twice the file, for numbers and edges.
 void check_room_to_read(std::uintmax_t bytes, const std::string& path, const Options& options) {
   std::optional<std::string> refused;
   if (options.memory.gib && !is_stream(path)) {
@@ -157,7 +158,7 @@ void check_room_to_read(std::uintmax_t bytes, const std::string& path, const Opt
                           display_name(path), *refused));
 }
 
-// From a stream: what does not fit in memory is worked through in a file.
+// Encodes a stream. Input that does not fit in memory is kept in a file.
 Encoded encode_stream(const Options& options, const EncodeOptions& wanted, Session& session) {
   const Stopwatch reading;
   StageTime read_in;
@@ -182,7 +183,7 @@ Encoded encode_stream(const Options& options, const EncodeOptions& wanted, Sessi
   return with_time(encode(mesh, wanted, within_memory(faces, kept, options, session)));
 }
 
-// A mesh that can stay where it lies in its file is not read.
+// Encodes an input. A mesh that needs no change is mapped, not read.
 Encoded encode_input(const Options& options, const EncodeOptions& wanted, const AnalyzeBy& by,
                      Session& session) {
   if (options.input == "-") return encode_stream(options, wanted, session);
@@ -206,7 +207,7 @@ Encoded encode_input(const Options& options, const EncodeOptions& wanted, const 
   });
 }
 
-// Throws NotConverged for what was wanted and not reached; the output is written by then.
+// Throws NotConverged for a tolerance that is not reached; the output is already written.
 void check_reached(const Options& options, const Encoded& encoded) {
   if (encoded.tolerance && !encoded.tolerance->met) {
     throw Error(ErrorCode::kNotConverged,
@@ -282,7 +283,7 @@ int run(const Options& options, const AnalyzeBy& by, Session& session) {
   return 0;
 }
 
-// The methods of a transform, and those by random points.
+// Returns the methods of transforms, and the Monte Carlo methods.
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const char* name : names_of(Method{}).names) names.emplace_back(name);
@@ -324,7 +325,7 @@ std::vector<Option> atlas_options(Options& o) {
           field_option_of(o.caps, "max_numbers", "of an atlas: ")};
 }
 
-// Without the default: this, or a tolerance, has to be given.
+// Returns the option without its default: a degree or a tolerance is required.
 Option degree_option(Options& o) {
   Option option = field_option_of(o.analyze, "degree");
   option.help.resize(option.help.rfind("; "));

@@ -1,4 +1,4 @@
-// rholm analyze, whoever works through the file. Layer: cli.
+// rholm analyze with an exchangeable encoder. Layer: cli.
 #pragma once
 
 #include <functional>
@@ -10,18 +10,18 @@
 
 namespace rholm::cli {
 
-// As encode_file() of model.h.
+// Type of encode_file() in model.h.
 using EncodeFile =
     std::function<Encoded(const std::string& path, const EncodeOptions& options,
                           const Context& context, const std::function<Mesh()>& read)>;
 
 struct AnalyzeBy {
   EncodeFile encode_file;
-  // Throws UsageError for an input that it cannot take.
+  // Throws UsageError for an input that the encoder cannot read.
   std::function<void(const std::string& path)> check_input;
 };
-// The command with one expansion done in that way; atlases and Monte Carlo methods know no other
-// than that of this process.
+// Makes the command with this encoder for single expansions; atlases and Monte Carlo methods always
+// use the encoder of this process.
 Command analyze_command_by(const AnalyzeBy& by);
 
 }  // namespace rholm::cli

@@ -1,4 +1,4 @@
-// rholm analyze --atlas: any shape as few large caps.
+// rholm analyze --atlas: any shape as a small number of large caps.
 #include <cmath>
 #include <variant>
 
@@ -108,7 +108,7 @@ Compressed compress_shape(const AnalyzeCommandOptions& o, ShapeFile file, Sessio
   return found;
 }
 
-// The paper's way: what is made does not meet anything in particular.
+// Uses the paper's method, whose result does not meet a given tolerance.
 AtlasModel integrate_shape(const AnalyzeCommandOptions& o, ShapeFile file, Session& session) {
   PatchAtlasOptions options = o.patches.values;
   options.degree = o.analyze.values.degree;

@@ -1,4 +1,4 @@
-// rholm analyze by random points.
+// rholm analyze with random points.
 #include <fmt/format.h>
 
 #include <string>

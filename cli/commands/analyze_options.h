@@ -1,4 +1,4 @@
-// What the command line of rholm analyze says. Layer: cli.
+// Options of rholm analyze. Layer: cli.
 #pragma once
 
 #include <optional>
@@ -18,20 +18,20 @@ namespace rholm::cli {
 
 struct AnalyzeCommandOptions {
   std::string input;
-  Given<AnalyzeOptions> analyze;  // but the method
-  std::string method = "edge";    // of AnalyzeOptions, or "monte-carlo-" and places of the points
+  Given<AnalyzeOptions> analyze;  // without the method
+  std::string method = "edge";    // a method, or "monte-carlo-" with the places of points
   ToleranceOptions tolerance;
-  ChartOptions chart;  // but the centre
+  ChartOptions chart;  // without the centre
   std::string center = "auto";
   bool no_errors = false;
   double weld = 0;
-  Given<MonteCarloOptions> monte_carlo;  // the seed is that of an atlas, too
+  Given<MonteCarloOptions> monte_carlo;  // its seed is also used for an atlas
   bool atlas = false;
-  std::string fit;  // of an atlas; empty: least-squares
+  std::string fit;  // method for an atlas; empty: least-squares
   Given<CompressOptions> caps;
   Given<PatchAtlasOptions> patches;
   std::string length_unit;
-  std::string columns;  // of points; empty: what the file says
+  std::string columns;  // meaning of columns of points; empty: from the file
   MemoryOptions memory;
   std::string output;
   std::string format;
@@ -39,19 +39,19 @@ struct AnalyzeCommandOptions {
   bool json = false;
 };
 
-// The degree that was given.
+// Returns the degree, if given.
 inline std::optional<int> degree_of(const AnalyzeCommandOptions& options) {
   if (!options.analyze.has("degree")) return std::nullopt;
   return options.analyze.values.degree;
 }
 
-// Whether an option was given that other methods have not; a seed does no harm.
+// Returns true if an option only of Monte Carlo methods was given; a seed is ignored.
 inline bool is_given_to_monte_carlo(const AnalyzeCommandOptions& options) {
   const Given<MonteCarloOptions>& given = options.monte_carlo;
   return given.has("samples") || given.has("deviation") || given.has("most_samples");
 }
 
-// The whole command for the Monte Carlo methods; returns the exit code.
+// Runs the whole command for Monte Carlo methods; returns the exit code.
 int analyze_by_monte_carlo(const AnalyzeCommandOptions& options, SamplePlaces places,
                            Session& session);
 

@@ -31,7 +31,7 @@ Json relative(double length, double diagonal) {
   return diagonal > 0 ? Json(length / diagonal) : Json(nullptr);
 }
 
-// Points of the sphere that are summed over.
+// Returns the number of points on the sphere in the sums.
 std::size_t sources_of(const Analysis& analysis) {
   return analysis.fast ? analysis.fast->vertices + analysis.fast->nodes
                        : analysis.edge_nodes + analysis.face_nodes;
@@ -85,7 +85,7 @@ Json analyze_json(const AnalyzeCommandOptions& options, const AnalyzeRun& run) {
   json["tail_strength"] = json_of(analysis.expansion.tail_strength);
   json["truncation_rms"] = json_of(analysis.truncation_rms);
   json["truncation_rms_doubt"] = json_of(analysis.truncation_rms_doubt);
-  // The difference of the exact norm and that of the coefficients, within the doubt.
+  // The difference of the exact norm and the norm of the coefficients, with its uncertainty.
   json["kinds"] = {{"truncation_rms", "exact"}, {"truncation_rms_doubt", "bound"}};
   json["errors"] = json_of(analysis.expansion.errors);
   json["tolerance"] =

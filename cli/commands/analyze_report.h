@@ -1,4 +1,4 @@
-// What rholm analyze says of a run. Layer: cli.
+// Report of rholm analyze. Layer: cli.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace rholm::cli {
 
-// A run: what was found, and how long it took.
+// Results and times of a run.
 struct AnalyzeRun {
   Encoded encoded;
   double diagonal = 0;

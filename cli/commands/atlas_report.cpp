@@ -1,4 +1,4 @@
-// What is said of atlases; rholm info of one.
+// Reports of atlases, and rholm info for an atlas.
 #include "cli/commands/atlas_report.h"
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Atlases of caps on the command line: what analyze, info and synthesize do with them. Layer: cli.
+// Atlases of caps in the commands analyze, info and synthesize. Layer: cli.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace rholm::cli {
 
-// Caps, numbers, errors: what a model says of itself.
+// Return a description of a model: caps, numbers, errors.
 Json atlas_json(const AtlasModel& model);
 std::string atlas_text(const AtlasModel& model);
-// "attributes red, green, blue": what a model does not hold of its surface.
+// Returns the attributes of the surface that a model lacks: "attributes red, green, blue".
 std::string left_out_text(const SurfaceRules& rules);
 
-// The whole command with --atlas; returns the exit code.
+// Runs the whole command with --atlas; returns the exit code.
 int analyze_atlas(const AnalyzeCommandOptions& options, Session& session);
 
-// rholm info for an atlas.
+// Runs rholm info for an atlas.
 int report_atlas(const std::string& path, bool json);
 
 }  // namespace rholm::cli

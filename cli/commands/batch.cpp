@@ -29,7 +29,7 @@ namespace {
 std::vector<std::string> names_for_batches() {
   std::vector<std::string> names;
   for (const auto make : command_makers()) {
-    if (make == batch_command) continue;  // whose description asks for these names
+    if (make == batch_command) continue;  // its description asks for these names
     const Command command = make();
     if (command.per_shape) names.push_back(command.name);
   }
@@ -69,7 +69,7 @@ BatchTable table_of(const BatchJob& job, const BatchJournal& journal) {
   return table;
 }
 
-// By the exit codes: numbers, or of merged CSV texts.
+// Counts by the exit codes, which are numbers, or texts in merged CSV.
 std::size_t count_failed(const BatchTable& table) {
   const BatchColumn* codes = table.find("exit_code");
   if (codes == nullptr) return 0;
@@ -80,7 +80,7 @@ std::size_t count_failed(const BatchTable& table) {
   return table.rows - static_cast<std::size_t>(n_done);
 }
 
-// Says what is in the results, which are written; returns the exit code.
+// Describes the results, which are written; returns the exit code.
 int tell(const BatchOptions& options, const BatchTable& table, Session& session) {
   const std::size_t failed = count_failed(table);
   if (options.json) {

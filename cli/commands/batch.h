@@ -1,4 +1,4 @@
-// rholm batch, whoever runs the rows. Layer: cli.
+// rholm batch with an exchangeable way to run rows. Layer: cli.
 #pragma once
 
 #include <functional>
@@ -10,13 +10,13 @@
 
 namespace rholm::cli {
 
-// Runs the rows that the journal has not, and adds them to it; false if it was interrupted.
+// Runs rows that are not in the journal, and adds them; returns false if interrupted.
 using RunRows = std::function<bool(const BatchJob& job, BatchJournal& journal, Session& session)>;
 
-// The command with its rows run in that way.
+// Makes the command that runs its rows with this function.
 Command batch_command_by(const RunRows& run_rows);
 
-// What a batch needs to know of the commands of this program.
+// Returns the functions of this program that a batch needs.
 BatchCommands commands_for_batches();
 
 }  // namespace rholm::cli

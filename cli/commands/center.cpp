@@ -1,4 +1,4 @@
-// rholm center: is a mesh star-shaped, and from where?
+// rholm center: checks whether a mesh is star-shaped, and finds the centre.
 #include <memory>
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ namespace {
 struct Options {
   std::string input;
   std::string center = "auto";
-  ChartOptions chart;  // the rays
+  ChartOptions chart;  // only the rays
   double weld = 0;
   bool json = false;
 };

@@ -39,16 +39,16 @@ Command studio_command();
 Command completion_command();
 Command man_page_command();
 Command reference_command();
-// The same for another program, by its commands; and whose page is made with the date it bears.
+// Make these commands for another program, from its list of commands or its manual page for a date.
 using ListCommands = std::function<std::vector<Command>()>;
 Command completion_command(const std::string& program, ListCommands commands);
 using PageOfDate = std::function<std::string(const std::string& date)>;
 Command man_page_command(const std::string& program, PageOfDate page);
 
 std::vector<Command> all_commands();
-// What the program says of itself.
+// Returns the program's description of itself.
 ProgramText rholm_text();
-// What makes each of them, with options of its own every time.
+// Returns functions that each make one command, with its own options at every call.
 std::span<Command (*const)()> command_makers();
 
 }  // namespace rholm::cli

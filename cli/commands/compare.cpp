@@ -1,4 +1,4 @@
-// rholm compare: how far two surfaces lie apart.
+// rholm compare: distance between two surfaces.
 #include "cli/commands/compare.h"
 
 #include <filesystem>
@@ -33,11 +33,11 @@ struct Options {
   bool json = false;
 };
 
-// Reading two meshes, sampling them and making their trees takes 6.3 times the size of their binary
-// files of doubles (scripts/memory-figures), and more of floats.
+// Reading two meshes, sampling them and building their trees takes 6.3 times the size of their
+// binary files of doubles (scripts/memory-figures), and more for floats.
 constexpr double kMemoryPerByte = 9;
-// Bytes for each vertex and face of a mesh that was read: together 153 for a face of a sphere, 339
-// where each face has corners of its own (scripts/memory-figures).
+// Bytes per vertex and face of a mesh in memory: together 153 per face of a sphere, 339 if no two
+// faces share corners (scripts/memory-figures).
 constexpr MemoryOfMesh kCompared = {.vertex = 83, .face = 145};
 
 double memory_of(const Mesh& mesh) {
@@ -78,7 +78,7 @@ std::string report_text(const Options& options, const Comparison& c) {
   return text;
 }
 
-// A surface where it lies: in a file that is mapped, or in memory.
+// A surface in a mapped file, or in memory.
 struct Place {
   std::optional<MappedMesh> mapped;
   Mesh mesh;
@@ -107,7 +107,7 @@ double needed_memory(const Options& options) {
   return kMemoryPerByte * bytes;
 }
 
-// Meshes that need more than --max-memory are compared where they lie; none: there are no such.
+// Compares meshes that need more than --max-memory in their files; returns nothing for others.
 std::optional<Comparison> compare_large(const Options& options, const CompareBy& by,
                                         Session& session) {
   const double needed = needed_memory(options);

@@ -1,4 +1,4 @@
-// rholm compare, whoever measures. Layer: cli.
+// rholm compare with an exchangeable measurement. Layer: cli.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@ namespace rholm::cli {
 struct CompareBy {
   // Called before the two files are read.
   std::function<void(const std::string& a, const std::string& b)> begin;
-  // As compare() of rholm/compare.h; none: another process reports.
+  // Type of compare() in rholm/compare.h; returns nothing if another process reports.
   std::function<std::optional<Comparison>(const Mesh& a, const Mesh& b,
                                           const CompareOptions& options, const Context& context)>
       compare;
-  // As compare() of meshes that need not fit in memory; empty: they are read whole.
+  // Type of compare() for meshes that need not fit in memory; empty: meshes are read.
   std::function<Comparison(const MeshInPlace& a, const MeshInPlace& b, std::size_t memory,
                            const CompareOptions& options, const Context& context)>
       compare_in_place = {};

@@ -1,4 +1,4 @@
-// rholm completion: what the shells offer.
+// rholm completion: completions for shells.
 #include <cstdio>
 #include <memory>
 #include <string>

@@ -40,8 +40,8 @@ struct Options {
   bool ascii = false;
 };
 
-// Reading points takes their file and what becomes of it: of 15 bytes, three floats and a colour,
-// six doubles, which is most. Together 4.2 times the file (scripts/memory-figures).
+// Reading points takes the file and the points. The worst case is 15 bytes, three floats and a
+// colour, which become six doubles: together 4.2 times the file (scripts/memory-figures).
 constexpr double kMemoryPerByte = 5;
 
 std::vector<std::string> all_formats() {
@@ -50,7 +50,7 @@ std::vector<std::string> all_formats() {
   return formats;
 }
 
-// What --format or the extension of the output names.
+// Returns the format of --format or of the output's extension.
 std::string named_format(const Options& options) {
   if (!options.format.empty()) return options.format;
   for (const CoefficientsFormatInfo& format : coefficients_formats()) {
@@ -87,8 +87,8 @@ void convert_shape(const Options& options, const ShapeFile& file, Session& sessi
       file.shape);
 }
 
-// A mesh in a binary PLY is written from where it lies, in little memory; false if it is not
-// one, or no shape is wanted.
+// Converts a mesh in a mapped binary PLY, with little memory. Returns false for any other input, or
+// if the output is no shape.
 bool convert_mapped(const Options& options, const std::string& path, Session& session) {
   if (!options.columns.empty() || !is_one_of(named_format(options), shape_format_names()))
     return false;
@@ -102,8 +102,8 @@ bool convert_mapped(const Options& options, const std::string& path, Session& se
   return true;
 }
 
-// With the gravity field that the options say. Numbers without a word of what they are of are its
-// coefficients.
+// Returns the expansion with the gravity field of the options. Numbers without a stated meaning are
+// taken as coefficients of that field.
 Expansion expansion_of(const Options& options, const CoefficientsFile& file) {
   Expansion expansion = file.expansion;
   if (!options.gravity_constant) return expansion;
@@ -128,8 +128,8 @@ void convert_coefficients(const Options& options, const CoefficientsFile& file,
   write_coefficients_output(expansion_of(options, file), output, convention, session);
 }
 
-// Whether it is points that are written as they are read: always those that take no more time then
-// (binary ones; text, which is read twice, takes half as long again).
+// Returns true for points that are converted in portions. Binary points always are, because it
+// takes no more time. Text is read twice, which takes half as long again.
 bool are_read_in_pieces(const Options& options, const std::string& path, bool large) {
   const std::string wanted = named_format(options);
   if (!is_one_of(wanted, shape_format_names()) ||
@@ -144,11 +144,11 @@ bool are_read_in_pieces(const Options& options, const std::string& path, bool la
     return !stream.has_faces() && (large || stream.is_all());
   } catch (const Error& error) {
     if (error.code() == ErrorCode::kCancelled) throw;
-    return false;  // who reads it whole says what is wrong
+    return false;  // the reader of the whole file reports the error
   }
 }
 
-// Points that are written as they are read; false if there are none.
+// Converts points in portions; returns false if the input holds other data.
 bool convert_in_pieces(const Options& options, const std::string& path, Session& session) {
   std::error_code none;
   const auto size = static_cast<double>(std::filesystem::file_size(path, none));
@@ -162,13 +162,13 @@ bool convert_in_pieces(const Options& options, const std::string& path, Session&
   return true;
 }
 
-// Whether a shape was written without being read whole.
+// Returns true if a shape was converted without reading it whole.
 bool convert_in_place(const Options& options, const std::string& path, Session& session) {
   return convert_mapped(options, path, session) || convert_in_pieces(options, path, session);
 }
 
-// What the input holds, unless it was converted in place already. A stream that does not fit in a
-// quarter of the memory waits in a file.
+// Reads the input, unless it was converted already. A stream that does not fit in a quarter of the
+// memory is kept in a file.
 std::optional<Input> rest_of_input(const Options& options, Session& session) {
   if (!is_stream(options.input)) {
     if (convert_in_place(options, options.input, session)) return {};

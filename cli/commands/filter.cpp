@@ -34,7 +34,7 @@ struct Options {
   CoefficientsOutputOptions to;
 };
 
-// Above these degrees the figures are left out: they cost O(L^2) and O(L^3), a second each.
+// Above these degrees the results are left out: they cost O(L^2) and O(L^3), a second each.
 constexpr int kMaxOvershootDegree = 4096;
 constexpr int kMaxSampledDegree = 512;
 
@@ -55,7 +55,7 @@ struct NamedParameter {
   const WindowParameter& parameter;
 };
 
-// The parameters that can be given in place of a degree.
+// Returns the parameters that can replace the degree.
 std::vector<NamedParameter> parameters_for_cutoff() {
   std::vector<NamedParameter> list;
   for (const WindowInfo& window : windows()) {
@@ -66,7 +66,7 @@ std::vector<NamedParameter> parameters_for_cutoff() {
   return list;
 }
 
-// The one of them that was given, if any.
+// Returns the given parameter of this kind, if any.
 std::optional<NamedParameter> given_for_cutoff(const Options& o) {
   for (const NamedParameter& one : parameters_for_cutoff()) {
     if (one.parameter.value(o.window)) return one;
@@ -131,7 +131,7 @@ struct Figures {
 Figures figures_of(const Filter& filter, const Expansion& before, const Expansion& after,
                    Session& session) {
   Figures figures;
-  // A step that loses its mean has no height to overshoot.
+  // A filtered step without mean has no height to compare an overshoot with.
   if (filter.keeps_mean && filter.gains.size() <= kMaxOvershootDegree + 1) {
     figures.overshoot = overshoot(filter.gains);
   }
@@ -202,7 +202,7 @@ int run(const Options& options, Session& session) {
   return 0;
 }
 
-// A parameter, of whatever windows have it.
+// Returns the option of a parameter, for all windows that have it.
 Option parameter_option(const WindowParameter& parameter, Options& o) {
   std::string names, formulas;
   for (const WindowInfo& info : windows()) {
@@ -227,7 +227,7 @@ Option parameter_option(const WindowParameter& parameter, Options& o) {
           .max = parameter.max};
 }
 
-// --window, and the parameters of windows, each once.
+// Returns --window, and the parameters of windows, each once.
 std::vector<Option> window_options_of(Options& o) {
   Option window = {.name = "window",
                    .value = "WINDOW",
@@ -291,7 +291,7 @@ std::vector<Option> option_list(Options& o) {
   return list;
 }
 
-// "ideal 8.8 %, ..., heat none".
+// Returns "ideal 8.8 %, ..., heat none".
 std::string overshoots() {
   std::string text;
   for (const WindowInfo& info : windows()) {

@@ -15,14 +15,14 @@
 namespace rholm::cli {
 namespace {
 
-constexpr std::size_t kMaxLine = 1000;  // two numbers and a remark
+constexpr std::size_t kMaxLine = 1000;  // two numbers and a comment
 
 struct Line {
   int degree;
   double gain;
 };
 
-// False for a line without numbers.
+// Parses a line; returns false if it has no numbers.
 bool parse_line(std::string text, Line& line) {
   text.resize(std::min(text.size(), text.find('#')));
   std::istringstream words(text);

@@ -6,8 +6,8 @@
 
 namespace rholm::cli {
 
-// Lines "DEGREE GAIN"; what follows a # is a comment. Degrees that no line names keep gain 1. The
-// gains of degrees 0 ... `degree`. Throws Io, InvalidInput with the line.
+// Reads lines "DEGREE GAIN"; text after a # is a comment. Returns the gains of degrees 0 ...
+// `degree`; unlisted degrees have gain 1. Throws Io, InvalidInput with the line.
 std::vector<double> read_gains(const std::string& path, int degree);
 
 }  // namespace rholm::cli

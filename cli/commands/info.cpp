@@ -1,4 +1,4 @@
-// rholm info: what a file holds.
+// rholm info: contents of a file.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -44,11 +44,11 @@ struct Options {
 };
 
 // Reading a mesh, welding it and pairing its edges takes 3.8 times the size of its binary file
-// (scripts/memory-figures), and more where faces have corners of their own; points take three
-// times.
+// (scripts/memory-figures), and more if faces do not share corners. Points take three times the
+// size.
 constexpr double kMemoryPerByte = 6;
-// Bytes for each vertex and face of a mesh that was read: together 92 for a face of a sphere, 152
-// where each face has corners of its own (scripts/memory-figures).
+// Bytes per vertex and face of a mesh in memory: together 92 per face of a sphere, 152 if no two
+// faces share corners (scripts/memory-figures).
 constexpr MemoryOfMesh kLookedAt = {.vertex = 30, .face = 108};
 
 struct MeshReport {
@@ -57,7 +57,7 @@ struct MeshReport {
   Inspection inspection;
   std::size_t vertices_read;
   std::size_t faces_read;
-  std::optional<double> closes_at;  // a tolerance that welds its borders
+  std::optional<double> closes_at;  // tolerance that welds its borders
 
   bool solid() const { return inspection.closed && inspection.oriented; }
   std::size_t isolated() const {
@@ -102,7 +102,7 @@ std::string manifold_text(const Inspection& i) {
                                         counted(i.non_manifold_vertices, "vertex", "vertices")));
 }
 
-// Areas and volumes of shapes of 1e150 or 1e-150 are no doubles.
+// Areas and volumes of shapes of size 1e150 or 1e-150 are outside the range of doubles.
 std::string measure_text(double value, bool must_differ_from_zero) {
   if (std::isinf(value)) return "beyond 1.8e308, the largest number: take another unit of length";
   if (value == 0 && must_differ_from_zero) {
@@ -111,7 +111,7 @@ std::string measure_text(double value, bool must_differ_from_zero) {
   return text_of(value);
 }
 
-// What is wrong with a mesh, and what mends it.
+// Returns the defects of a mesh, and how to repair them.
 std::string advice_text(const MeshReport& report) {
   const Inspection& i = report.inspection;
   std::string text;
@@ -150,7 +150,7 @@ std::string mesh_text(const MeshReport& report) {
   text += line("diagonal", measure_text(i.bounds.diagonal(), false));
   const bool has_area = i.degenerate_triangles < i.triangles;
   text += line("area", measure_text(i.area, has_area));
-  // A flat solid has no volume; one too small for its area has none that can be told.
+  // A flat solid has no volume. A volume too small for the area cannot be computed.
   text += line("volume", report.solid() ? measure_text(i.volume, has_area && i.area < 1e-200)
                                         : "none: not a solid");
   if (report.solid()) text += line("volume centroid", text_of(i.volume_centroid));
@@ -172,7 +172,7 @@ Json cloud_json(const PointCloud& cloud) {
   return json;
 }
 
-// `n`: how many points there are.
+// Describes points; `n` is their number.
 std::string cloud_text(const PointCloud& cloud, std::uint64_t n) {
   const Bounds box = bounds(cloud.points);
   const char* given = cloud.normals.empty() ? "no" : "no: all of them are zero";
@@ -182,7 +182,7 @@ std::string cloud_text(const PointCloud& cloud, std::uint64_t n) {
          line("diagonal", text_of(box.diagonal())) + line("attributes", text_of(cloud.attributes));
 }
 
-// What a text table was taken for, as a line and in JSON.
+// Adds the meaning of a text table's columns, as a line and in JSON.
 void add_table(const TableColumns& table, std::string& text, Json& json) {
   if (table.note.empty()) return;
   std::vector<std::string> names, taken_for;
@@ -242,7 +242,7 @@ std::string survey_text(const MeshView& mesh, const MeshSurvey& survey, double n
          (survey.closed ? line("volume centroid", text_of(survey.volume_centroid)) : "");
 }
 
-// A mesh is looked at where it lies: all that needs no neighbours.
+// Reports on a mapped mesh everything that needs no adjacency of faces.
 bool report_large_mesh(const Options& options, double needed, Session& session) {
   const std::optional<MappedMesh> mesh = map_mesh(options.input, session.context());
   if (!mesh || !has_triangles_only(*mesh, session.context())) return false;
@@ -266,16 +266,16 @@ bool report_large_mesh(const Options& options, double needed, Session& session) 
   return true;
 }
 
-// Points of a file, a piece at a time.
+// Reports on the points of a file, read in portions.
 bool report_large_cloud(const Options& options, Session& session) {
   const std::optional<ShapeFormat> named = shape_format_of(options.input);
   if (!named || !shape_format_info(*named).in_pieces) return false;
   if (coefficients_format_of(options.input)) return false;  // their lines look like points
   PointStream stream(options.input, {.columns = options.columns});
   if (stream.has_faces()) return false;
-  constexpr std::size_t kPiece = std::size_t{1} << 18;  // chosen: some 10 MB
+  constexpr std::size_t kPiece = std::size_t{1} << 18;  // chosen: about 10 MB
   PointCloud piece;
-  PointCloud seen;  // the smallest and the largest coordinates, and what attributes there are
+  PointCloud seen;  // smallest and largest coordinates, and the attributes
   while (stream.read(kPiece, piece, session.context())) {
     const Bounds box = bounds(piece.points);
     seen.points.push_back(box.min);
@@ -304,7 +304,7 @@ bool report_large_cloud(const Options& options, Session& session) {
   return true;
 }
 
-// Whether a shape is too large to be read, and was looked at in another way.
+// Returns true if a shape is too large to be read, and was reported in another way.
 bool report_large(const Options& options, Session& session) {
   std::error_code none;
   const double needed =
@@ -313,7 +313,7 @@ bool report_large(const Options& options, Session& session) {
   return report_large_mesh(options, needed, session) || report_large_cloud(options, session);
 }
 
-// The truncation error where none was measured: by the norm, or that it is not known.
+// Returns the truncation error from the norm if none was measured, or that it is unknown.
 std::string unmeasured_text(const Expansion& expansion) {
   if (expansion.function == RadialFunction::kOther) return "";
   const char* what = expansion.function == RadialFunction::kGauge ? "error of 1/r" : "radial error";

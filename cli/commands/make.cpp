@@ -1,4 +1,4 @@
-// rholm make: shapes with a known answer.
+// rholm make: test shapes and samples.
 #include <algorithm>
 #include <memory>
 
@@ -33,9 +33,9 @@ struct Options {
   bool ascii = false;
 };
 
-constexpr int kDefaultSubdivisions = 5;  // 10 242 vertices: smooth to look at, quick to work with
+constexpr int kDefaultSubdivisions = 5;  // 10 242 vertices: smooth to look at, fast to work with
 
-// An option that does not belong to the kind of shape would be ignored silently: refused.
+// Refuses options that do not belong to the kind of shape, which would otherwise be ignored.
 void check_options(const Options& o) {
   const auto only_for = [&](bool given, const char* option, std::vector<std::string> kinds) {
     if (!given || std::find(kinds.begin(), kinds.end(), o.kind) != kinds.end()) return;
@@ -52,7 +52,7 @@ void check_options(const Options& o) {
   if (o.kind != "sample") refuse_given(o.sample, o.kind);
 }
 
-// Three lengths.
+// Parses three lengths.
 Vec3 parse_edges(const std::string& option, const std::string& text) {
   const std::vector<double> edges = parse_positive(option, text, 3);
   return {edges[0], edges[1], edges[2]};

@@ -13,7 +13,7 @@
 namespace rholm::cli {
 namespace {
 
-// The number of holes and their radius.
+// Parses the number of holes and their radius.
 std::vector<double> parse_holes(const std::string& option, const std::string& text) {
   const std::vector<double> values = parse_numbers(option, text, 2);
   if (values[0] == std::floor(values[0]) && values[0] >= 0 && values[0] <= 1000 && values[1] >= 0 &&

@@ -1,4 +1,4 @@
-// The part of 'rholm make' that samples a mesh. Layer: cli.
+// Sampling of a mesh by 'rholm make'. Layer: cli.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace rholm::cli {
 
 struct SampleArguments {
   std::string mesh;
-  Given<SampleOptions> options;  // but holes, normals and seed
+  Given<SampleOptions> options;  // without holes, normals and seed
   std::string holes;
   bool largest_component = false;
   bool no_normals = false;
@@ -24,7 +24,7 @@ struct SampleArguments {
 Option sample_operand(SampleArguments& arguments);
 std::vector<Option> sample_options(SampleArguments& arguments);
 
-// Throws UsageError if any of them is given: `kind` is another kind of shape.
+// Throws UsageError if any argument is given; `kind` is another kind of shape.
 void refuse_given(const SampleArguments& arguments, const std::string& kind);
 
 PointCloud make_sample(const SampleArguments& arguments, std::uint64_t seed, Session& session);

@@ -1,4 +1,4 @@
-// rholm man-page, and that of other programs: the manual page.
+// rholm man-page: the manual page, also for other programs.
 #include <memory>
 #include <utility>
 

@@ -1,4 +1,4 @@
-// Descriptors and centroid of an expansion, as rholm info and batches report them. Layer: cli.
+// Descriptors and centroid of an expansion, for rholm info and batches. Layer: cli.
 #pragma once
 
 #include <optional>
@@ -12,16 +12,16 @@
 namespace rholm::cli {
 
 struct MeasuresReport {
-  std::optional<SurfaceMeasures> measures;  // none for what is no surface, and above degree 512
-  std::string why_not;                      // the message of what was refused; empty: nothing was
+  std::optional<SurfaceMeasures> measures;  // empty without a surface, and above degree 512
+  std::string why_not;                      // message of the refusal; empty: no refusal
 };
 
 MeasuresReport measures_of(const Expansion& expansion, const Context& context);
 
-// Each descriptor by its name, and "volume_centroid"; null where they are not known.
+// Returns each descriptor by name, and "volume_centroid"; null for unknown values.
 Json measures_json(const std::optional<SurfaceMeasures>& measures);
 
-// "volume, area and sphericity", for help.
+// Returns "volume, area and sphericity", for help.
 std::string descriptor_names();
 
 }  // namespace rholm::cli

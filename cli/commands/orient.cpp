@@ -30,7 +30,7 @@ struct Options {
   bool json = false;
 };
 
-// A mesh's vertices are points too; what faces knew of their sides is not asked.
+// Returns points; for a mesh its vertices, without information from its faces.
 PointCloud points_of(ShapeFile file, const std::string& path, Session& session) {
   say_what_was_read(file, path, session);
   if (auto* cloud = std::get_if<PointCloud>(&file.shape)) return std::move(*cloud);

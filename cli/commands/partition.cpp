@@ -29,11 +29,11 @@ struct Options {
   bool json = false;
 };
 
-// Chosen: what is shown may take more numbers than a small shape has; caps of a rough one do not
-// end.
+// Largest number of values. Chosen: a picture may take more values than a small shape has; caps of
+// a rough shape need a limit.
 constexpr std::size_t kMostShownNumbers = 12000;
 
-// Caps as analyze --atlas makes them, on the shape itself.
+// Shows caps made by analyze --atlas, on the shape itself.
 template <typename Shape>
 void show_caps(const Options& options, ShapeFormat format, Shape& shape,
                const std::vector<Vec3>& points, Session& session, Json& json) {
@@ -62,7 +62,7 @@ void show_caps(const Options& options, ShapeFormat format, Shape& shape,
   }
 }
 
-// The patches of the paper.
+// Shows the patches of the paper.
 template <typename Shape>
 void show_patches(const Options& options, ShapeFormat format, const Shape& shape, Session& session,
                   Json& json) {

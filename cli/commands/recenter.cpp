@@ -25,8 +25,8 @@ struct Options {
   CoefficientsOutputOptions to;
 };
 
-// The centroid and the origin follow from the expansion; other centres are sought on a fine mesh of
-// its surface.
+// Returns the wanted centre. The centroid and the origin follow from the expansion; other centres
+// are computed on a fine mesh of its surface.
 Vec3 wanted_center(const Options& o, const CenterOptions& wanted, const Expansion& before,
                    Session& session) {
   switch (wanted.kind) {
@@ -47,7 +47,7 @@ Vec3 wanted_center(const Options& o, const CenterOptions& wanted, const Expansio
   }
 }
 
-// What the way there and back changes: nothing but what was lost on the way.
+// Returns the change by moving to the new centre and back, which is the loss on the way.
 std::optional<double> there_and_back(const Expansion& before, const Expansion& after,
                                      Session& session) {
   try {

@@ -1,4 +1,4 @@
-// rholm reconstruct: surfaces from points.
+// rholm reconstruct: reconstructs surfaces from points.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -32,7 +32,7 @@ namespace {
 
 struct Options {
   std::string input;
-  ReconstructOptions wanted;  // lengths as parts of the diagonal
+  ReconstructOptions wanted;  // lengths as fractions of the diagonal
   std::optional<int> resolution;
   MemoryOptions memory;
   std::string model;
@@ -69,20 +69,20 @@ void end(const ReconstructReport& report, const ReconstructOptions& wanted, cons
 void run_in_one_piece(PointsInput input, ShapeFormat format, const Options& options,
                       Session& session) {
   ReconstructOptions wanted = library_options(options, bounds(input.cloud->points));
-  wanted.resume = false;  // nothing is kept of one piece
+  wanted.resume = false;  // a single tile keeps no work
   Reconstruction made = reconstruct(std::move(*input.cloud), wanted, session.context());
   add_dropped(input.dropped, made.report);
   stop_if_interrupted();
   write_shape_output(made.mesh, options.output, {format, options.ascii}, session);
-  // Last, as it is not interrupted: who reads that nothing was written finds nothing.
+  // Written last, because this is not interruptible: after an error no output exists.
   if (!options.model.empty()) {
-    made.model.input_numbers = 3 * made.report.points;  // with those that the reader dropped
+    made.model.input_numbers = 3 * made.report.points;  // including points that the reader dropped
     write_atlas(made.model, options.model);
   }
   end(made.report, wanted, options, session);
 }
 
-// Who works on tiles.
+// Functions that work on tiles.
 struct TileWorkers {
   RunTiles run;
   std::function<bool()> several;
@@ -95,7 +95,7 @@ void run_in_tiles(const PointsInput& input, ShapeFormat format, const Options& o
         "so many points are reconstructed in tiles, to a binary PLY: -o NAME.ply; rholm convert "
         "makes other files of it");
   }
-  // What is a part of the diagonal is known once the box is.
+  // Fractions of the diagonal are converted once the box is known.
   const bool relative = options.resolution || has_lengths(options.wanted);
   Bounds box;
   if (relative) {
@@ -141,7 +141,7 @@ int run(const Options& options, const TileWorkers& by, Session& session) {
   }
   options.memory.keep(session);
   const std::uint64_t most = options.wanted.tile_points;
-  // Several tiles have taken up to 2.5 times what is foreseen of one (reconstruct_tiles.cpp).
+  // Several tiles took up to 2.5 times the estimate for one tile (reconstruct_tiles.cpp).
   note_enough_memory(2.5 * static_cast<double>(foresee_tiles(most, most).memory));
   PointsInput input =
       read_points_input(options.input, most, options.columns, options.memory, session);

@@ -1,4 +1,4 @@
-// "rholm reconstruct", by whoever works on tiles. Layer: cli.
+// "rholm reconstruct" with an exchangeable function for tiles. Layer: cli.
 #pragma once
 
 #include <functional>
@@ -10,11 +10,11 @@
 
 namespace rholm::cli {
 
-// As reconstruct() of the library, with an output.
+// Type of the library's reconstruct() with an output.
 using RunTiles = std::function<Reconstruction(const PointsInput& points,
                                               const ReconstructOptions& options, Session& session)>;
 
-// `several` tells whether several processes share the folder of --work-dir.
+// Makes the command. `several` returns true if several processes share the folder of --work-dir.
 Command reconstruct_command_by(RunTiles run, std::function<bool()> several);
 
 }  // namespace rholm::cli

@@ -16,9 +16,9 @@ std::string size_text(std::uint64_t bytes) {
   return fmt::format("{:.3g} GB", static_cast<double>(bytes) / 1e9);
 }
 
-constexpr double kSaid = 0.02;  // share of unsure signs that is worth a warning
+constexpr double kSaid = 0.02;  // share of unsure signs above which a warning is given
 
-// Of the area that points stand for: less is worth a warning; noisy points have 0.8.
+// Fraction of the points' area below which a warning is given; noisy points have 0.8.
 constexpr double kSaidArea = 0.7;
 
 std::string mended_text(const ReconstructReport& r) {
@@ -32,7 +32,7 @@ std::string list_of(const std::vector<Vec3>& points) {
   return list;
 }
 
-// Throws where points lie on no surface.
+// Throws if points lie on no surface.
 void judge_places(const ReconstructReport& r) {
   if (!(r.points_off_surface > kMostOffSurface)) return;
   throw Error(ErrorCode::kNotConverged,
@@ -44,7 +44,7 @@ void judge_places(const ReconstructReport& r) {
                           100 * r.points_off_surface, list_of(r.places_off_surface)));
 }
 
-// What was mended in given normals.
+// Notes the changes to given normals.
 void note_normals(const ReconstructReport& r, Session& session) {
   if (r.crooked_normals > kMostCrooked) {
     session.note(fmt::format(
@@ -57,7 +57,7 @@ void note_normals(const ReconstructReport& r, Session& session) {
   }
 }
 
-// Throws where sheets cross, or normals still contradict each other.
+// Throws if sheets cross, or normals still contradict each other.
 void judge_normals(const ReconstructReport& r) {
   if (r.crossing_length > kMostCrossing) {
     throw Error(ErrorCode::kNotConverged,
@@ -68,7 +68,7 @@ void judge_normals(const ReconstructReport& r) {
   }
   const auto n = static_cast<double>(r.points);
   if (static_cast<double>(r.contradicting_normals) > kMostContradicting * std::sqrt(n)) {
-    // Of undecided pieces no point is known to be wrong.
+    // Undecided parts have no point that is known to be wrong.
     const std::string first =
         r.contradictions.empty() ? "" : ", first at " + list_of(r.contradictions);
     throw Error(ErrorCode::kNotConverged,
@@ -147,7 +147,7 @@ std::string report_text(const ReconstructReport& r, const ReconstructOptions& op
   text += line("noise", r.noise > 0 ? relative(r.noise) : "within what the caps explain");
   text += line("caps", fmt::format("{} of about {} points", r.caps, r.neighbours));
   text += line("grid", fmt::format("cubes of {}", relative(r.step)));
-  // Smaller ones lie between caps, also where nothing is missing.
+  // Smaller holes lie between caps, also where no points are missing.
   const bool kept = options.holes == HolePolicy::kKeep;
   if ((kept ? r.holes : r.smooth_holes) > 0) {
     text += line("places without data", kept ? fmt::format("{} left open", r.holes)

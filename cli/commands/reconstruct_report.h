@@ -1,4 +1,4 @@
-// What a reconstruction says of itself. Layer: cli.
+// Report of a reconstruction. Layer: cli.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ namespace rholm::cli {
 Json json_of(const ReconstructReport& report, bool confidence);
 std::string report_text(const ReconstructReport& report, const ReconstructOptions& options);
 
-// Says what makes the surface doubtful; throws NotConverged where it should not be trusted. The
-// output is written by then. `filled`: holes are.
+// Warns about an unreliable surface; throws NotConverged if it should not be trusted. The output is
+// already written. `filled`: holes are closed.
 void judge(const ReconstructReport& report, bool filled, Session& session);
 
 }  // namespace rholm::cli

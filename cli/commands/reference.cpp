@@ -1,4 +1,4 @@
-// rholm reference: docs/reference.md, from the tables of the library.
+// rholm reference: prints docs/reference.md from the tables of the library.
 #include "cli/commands/reference.h"
 
 #include <cmath>
@@ -98,7 +98,7 @@ std::string joined(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-// Name, extensions, what can be done, what files hold, what it is.
+// Returns a table with name, extensions, read and write support, contents, description.
 template <typename Info>
 std::string format_table(const std::vector<Info>& formats) {
   std::vector<std::vector<std::string>> rows;
@@ -176,7 +176,7 @@ std::string range_text(const FieldInfo& info) {
   return text + fmt::format("{} ... {}", info.least, info.most);
 }
 
-// The fields of a struct of options, with the option of the program that each is.
+// Returns the fields of a struct of options, with their options in the program.
 template <HasFields Options>
 std::string field_section(const std::string& title, const std::string& text,
                           bool in_program = true) {
@@ -277,7 +277,7 @@ std::string studio_section() {
                                       "`StudioOptions` in C++ and options of `rholm studio`.");
 }
 
-// Of a function of Python whose name is the command's.
+// Returns the section of the Python function with the command's name.
 template <HasFields Options, const char* kName>
 std::string command_section() {
   std::string struct_name = kName;
@@ -349,7 +349,7 @@ std::string file_section() {
                                                  "`CoefficientsWriteOptions` in C++.");
 }
 
-// The fields of a result, as rows with its name.
+// Adds the fields of a result, as rows with its name.
 template <HasFields Result>
 void add_result(const char* name, std::vector<std::vector<std::string>>& rows) {
   for_each_field<Result>([&](auto, const FieldInfo& info) {

@@ -7,11 +7,11 @@
 
 namespace rholm::cli {
 
-// A section of Markdown, beginning with its heading of the second level.
+// Returns a section of Markdown, which begins with a heading of the second level.
 using ReferenceSection = std::string (*)();
 std::span<const ReferenceSection> reference_sections();
 
-// A table of Markdown with these headings. Cells are as they stand, but for bars, which are
+// Returns a table of Markdown with these headings. Cells are not changed, except that bars are
 // escaped.
 std::string markdown_table(const std::vector<std::string>& headings,
                            const std::vector<std::vector<std::string>>& rows);

@@ -1,4 +1,4 @@
-// rholm render: a picture of shapes and models.
+// rholm render: pictures of shapes and models.
 #include "rholm/render.h"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ struct Options {
   InputConvention convention;
 };
 
-// Panels point to their shapes: a deque keeps them where they are.
+// Panels point to their shapes: a deque does not move its elements.
 struct Scene {
   std::deque<Mesh> meshes;
   std::deque<PointCloud> clouds;
@@ -55,16 +55,16 @@ struct Scene {
   CommonUnit unit;
 };
 
-// Pixels: one panel is a picture of its own, several share the width.
+// Sizes in pixels: a single panel fills a picture of its own, several panels share the width.
 constexpr int kMinSize = 16, kMaxSize = 16384;
 constexpr int kSingleWidth = 1024, kSingleHeight = 768, kPanelWidth = 400, kPanelHeight = 460;
 
-// A picture of more pixels than a screen has takes four rays a pixel instead of nine where it takes
-// more than one: what one pixel loses the eye has back from its neighbours, in half of the time.
+// A picture with more pixels than a screen takes four rays per pixel instead of nine, if it takes
+// more than one. It takes half of the time; neighbouring pixels hide the loss.
 constexpr double kManyPixels = 4e6;
 constexpr int kFewSamples = 2;
 
-// Of the largest: smaller things can hardly be seen at its scale.
+// Share of the largest shape: smaller shapes can hardly be seen at its scale.
 constexpr double kSmall = 0.05;
 
 void check_options(const Options& options) {
@@ -83,7 +83,7 @@ void check_options(const Options& options) {
   }
 }
 
-// Radians between sight and up, below which what is up would be decided by rounding.
+// Least angle between sight and up, in radians; below it rounding would decide the up direction.
 constexpr double kLeastAngle = 1e-6;
 
 RenderOptions render_options(const Options& options, std::size_t panels) {
@@ -129,12 +129,12 @@ void add_points(ShapeFile file, const std::string& path, const std::string& labe
   scene.panels.push_back({.label = label, .points = &scene.clouds.back()});
 }
 
-// Vertices, or points.
+// Returns the vertices, or points, of a panel.
 const std::vector<Vec3>& places(const Panel& panel) {
   return panel.points != nullptr ? panel.points->points : panel.mesh->vertices;
 }
 
-// A shape is one panel, a model one for each degree asked for.
+// Adds one panel for a shape, or one for each wanted degree of a model.
 void add_input(const Options& options, const std::string& path, Session& session, Scene& scene) {
   Input input = read_surface_input(path, session, options.convention, options.columns);
   scene.unit.add(input, path, session);
@@ -194,7 +194,7 @@ void set_labels(const Options& options, Scene& scene) {
   for (std::size_t i = 0; i < labels.size(); ++i) scene.panels[i].label = labels[i];
 }
 
-// What is invisible beside the others.
+// Notes shapes that are too small to be seen beside the others.
 void note_small(const Options& options, const Scene& scene, Session& session) {
   double largest = 0, smallest = std::numeric_limits<double>::infinity();
   for (const Panel& panel : scene.panels) {

@@ -1,4 +1,4 @@
-// rholm repair: damaged meshes made fit for work.
+// rholm repair: repairs damaged meshes.
 #include "rholm/repair.h"
 
 #include <memory>
@@ -75,7 +75,7 @@ Json report_json(const RepairReport& r, const Options& options) {
   return json;
 }
 
-// "what" where there is nothing else to say.
+// Returns the list, or `nothing` if it is empty.
 std::string list_or(const std::string& list, const char* nothing) {
   return list.empty() ? nothing : list;
 }
@@ -135,7 +135,7 @@ std::string report_text(const RepairReport& r) {
   return text + line("after", state_of(r.after));
 }
 
-// What could not be mended, and what would.
+// Warns of remaining defects, with advice.
 void warn_of_rest(const RepairReport& r, const Options& options, Session& session) {
   if (r.large_holes > 0) {
     session.warn(fmt::format("{} left open: more than --max-hole {} edges, the largest has {}",

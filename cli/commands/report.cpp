@@ -1,4 +1,4 @@
-// rholm report: all there is to know of a model, on one page.
+// rholm report: a report of a model on one page.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -36,19 +36,19 @@ struct Options {
   std::string center;
   double weld = 0;
   std::string length_unit;
-  ReportOptions page;  // the size of its pictures
+  ReportOptions page;  // only the size of its pictures
   bool interactive = false;
   std::string output;
   std::string format;
   InputConvention convention;
 };
 
-// What the page is made of.
+// Contents of the page.
 struct Subject {
   Expansion expansion;
   std::optional<Mesh> shape;
   ReportOptions page;
-  std::string complaint;  // what was wanted and not reached, on the page and at the end
+  std::string complaint;  // unmet tolerance, for the page and the final error
 };
 
 void check_options(const Options& options) {
@@ -69,7 +69,7 @@ void check_options(const Options& options) {
   }
 }
 
-// As a shell reads it back.
+// Quotes a word for a shell.
 std::string quoted(const std::string& word) {
   const auto plain = [](unsigned char c) {
     return std::isalnum(c) ||
@@ -81,7 +81,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-// " --name VALUE".
+// Returns " --name VALUE".
 std::string option_text(const std::string& name, const std::string& value) {
   return fmt::format(" --{} {}", name, quoted(value));
 }
@@ -90,7 +90,7 @@ std::string tolerance_text(const ToleranceOptions& options) {
   return option_text("tolerance", fmt::format("{}", *options.tolerance)) + given_text(options.rest);
 }
 
-// The options with which a shape becomes coefficients, as analyze has them too.
+// Returns the options that turn a shape into coefficients, as in analyze.
 std::string analysis_text(const Options& options) {
   std::string text =
       options.tolerance.tolerance
@@ -126,7 +126,7 @@ EncodeOptions encode_options(const Options& options) {
   return wanted;
 }
 
-// A wish that was not kept is said on the page and, when it has been written, as an error.
+// Records an unmet tolerance: on the page and, after it is written, as an error.
 void not_kept(const std::string& what, Subject& subject) {
   subject.page.notes.push_back("Note: " + what + ".");
   subject.complaint += (subject.complaint.empty() ? "" : "; ") + what;
@@ -154,7 +154,7 @@ void add_verdicts(const Encoded& encoded, const EncodeOptions& wanted, Subject& 
         fmt::format("Degree {} is the smallest whose {} is within the tolerance of {}: it is {}.",
                     degree, error, text_of(tolerance.allowed), text_of(tolerance.reached)));
   }
-  // The plots are of the radius over solid angle.
+  // The plots show the radius over solid angle.
   if (wanted.tolerance->norm == ErrorNorm::kRms &&
       wanted.tolerance->measure == ErrorMeasure::kRadius && tolerance.allowed > 0) {
     subject.page.tolerance = tolerance.allowed;
@@ -184,8 +184,8 @@ Subject subject_of_shape(const Options& options, Mesh mesh, Session& session) {
   return subject;
 }
 
-// The command that makes a model like this one of the shape; what precision it had, the file does
-// not say.
+// Returns the command that makes such a model from the shape. The model file does not store the
+// precision.
 std::optional<ReportCommand> model_command(const Options& options, const Expansion& expansion) {
   const std::vector<std::string> known = {"edge", "gauge", "curl", "area"};
   if (options.shape.empty() || std::count(known.begin(), known.end(), expansion.method) == 0) {
@@ -238,7 +238,7 @@ Subject subject_of(const Options& options, Session& session) {
   return subject_of_model(options, std::move(std::get<CoefficientsFile>(input)), session);
 }
 
-// The command that makes a model within the same tolerance of the shape.
+// Returns the command that makes a model within the same tolerance of the shape.
 std::optional<ReportCommand> atlas_command(const Options& options, const AtlasModel& model) {
   if (options.shape.empty() || !(model.tolerance > 0)) return std::nullopt;
   std::string text = "rholm analyze " + quoted(options.shape) + " --atlas" +

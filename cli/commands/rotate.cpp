@@ -1,4 +1,4 @@
-// rholm rotate: turn or mirror coefficients.
+// rholm rotate: rotates or mirrors coefficients.
 #include <memory>
 #include <numbers>
 
@@ -70,7 +70,7 @@ Rotation rotation_of(const Options& o, const PrincipalAxes& principal) {
   return principal.to_axes;
 }
 
-// What degree 2 leaves open.
+// Reports the axes that degree 2 does not determine.
 void report_free_axes(const std::vector<Vec3>& axes, Json& json, std::string& text) {
   json["free_axes"] = Json::array();
   for (const Vec3& axis : axes) {

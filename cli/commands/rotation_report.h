@@ -8,13 +8,13 @@
 
 namespace rholm::cli {
 
-// {"matrix": [[...], [...], [...]], "axis": [x, y, z], "angle": degrees}
+// Returns {"matrix": [[...], [...], [...]], "axis": [x, y, z], "angle": degrees}.
 Json json_of(const Rotation& rotation);
 
-// Lines "axis", "angle" and "matrix".
+// Returns lines "axis", "angle" and "matrix".
 std::string text_of(const Rotation& rotation);
 
-// "12.5 degrees about (0, 0, 1)".
+// Returns "12.5 degrees about (0, 0, 1)".
 std::string turn_text(const Rotation& rotation);
 
 }  // namespace rholm::cli

@@ -31,7 +31,7 @@ struct Options {
   bool json = false;
 };
 
-// Of the mean edge: as reconstruct allows of the step of its grid.
+// Error as a fraction of the mean edge, the same as reconstruct allows of its grid's step.
 constexpr double kHardlyAnything = 0.02;
 
 double mean_edge(const Mesh& mesh) {

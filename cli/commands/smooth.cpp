@@ -1,4 +1,4 @@
-// rholm smooth: detail taken from a region.
+// rholm smooth: removes detail from a region.
 #include "rholm/smooth.h"
 
 #include <memory>
@@ -31,7 +31,7 @@ struct Options {
   bool ascii = false, json = false;
 };
 
-// How far vertices have moved.
+// Displacement of the vertices.
 struct Moved {
   double rms = 0, max = 0;
 };

@@ -42,7 +42,7 @@ std::string table(const Spectrum& s) {
   return text;
 }
 
-// A cell is empty where the figure is not known.
+// Returns a CSV table; unknown values are empty cells.
 std::string csv(const Spectrum& s) {
   std::string text = "degree,energy,cumulative,rms_beyond\n";
   for (std::size_t l = 0; l < s.energy.size(); ++l) {
@@ -53,13 +53,13 @@ std::string csv(const Spectrum& s) {
   return text;
 }
 
-// The truncation error of the file's own degree, by points of the shape.
+// Returns the truncation error of the file's own degree, measured at points of the shape.
 std::optional<double> measured_rms(const Expansion& expansion) {
   const bool radius = expansion.function == RadialFunction::kRadius;
   return radius && expansion.errors ? expansion.errors->rms : std::nullopt;
 }
 
-// Why some figures are not known, and what is known instead.
+// Returns why some values are unknown, and what is known instead.
 std::string unknown_text(const Spectrum& s, const Expansion& expansion) {
   if (s.rms.back()) return "";
   const int degree = expansion.coefficients.degree();
@@ -78,7 +78,7 @@ std::string unknown_text(const Spectrum& s, const Expansion& expansion) {
   return text + "\n";
 }
 
-// Without a norm the answer is of the file's own degrees, of which the last leaves nothing out.
+// Without a norm only the file's own degrees count, so that the last degree has no error.
 std::optional<int> degree_within(const Spectrum& s, double tolerance) {
   if (s.beyond.includes_tail()) return s.beyond.degree_within(tolerance);
   const std::vector<double>& within = s.beyond.rms_within;

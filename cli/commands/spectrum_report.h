@@ -1,4 +1,4 @@
-// Energy per degree, as rholm spectrum and batches report it. Layer: cli.
+// Energy per degree, for rholm spectrum and batches. Layer: cli.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@ namespace rholm::cli {
 
 struct Spectrum {
   std::vector<double> energy;      // per degree
-  std::vector<double> cumulative;  // of degrees 0 ... l
+  std::vector<double> cumulative;  // energy of degrees 0 ... l
   RmsBeyond beyond;
   std::vector<std::optional<double>> rms;  // RmsBeyond::figures()
 };
 
 Spectrum spectrum_of(const Expansion& expansion);
 
-// What the expansion is, and its spectrum.
+// Returns a description of the expansion, and its spectrum.
 Json spectrum_json(const Expansion& expansion, const Spectrum& s);
 
 }  // namespace rholm::cli

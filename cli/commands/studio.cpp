@@ -1,4 +1,4 @@
-// rholm studio: shapes worked on in the browser.
+// rholm studio: editing of shapes in the browser.
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -32,7 +32,7 @@ struct Options {
   std::string page;
 };
 
-// What the studio says of a file that it does not take, as an error of the program.
+// Throws the studio's refusal of a file as an error of the program.
 [[noreturn]] void throw_refused(const std::string& path, const StudioResponse& answer) {
   const Json error = Json::parse(answer.body).at("error");
   const std::string code = error.at("code").get<std::string>();
@@ -45,7 +45,7 @@ struct Options {
                                                             : message);
 }
 
-// The first page begins with them.
+// Opens files for the first page.
 void open_files(const Options& options, Studio& studio) {
   if (options.files.empty()) return;
   const std::string session = studio.offered_session();

@@ -1,4 +1,4 @@
-// rholm synthesize: from coefficients to meshes.
+// rholm synthesize: meshes from coefficients.
 #include <filesystem>
 #include <memory>
 
@@ -29,9 +29,9 @@ struct Options {
   std::optional<int> subdivisions;
   std::string grid;
   std::string like;
-  std::optional<double> resolution;  // of an atlas
+  std::optional<double> resolution;  // only for an atlas
   std::optional<int> degree_limit;
-  std::string simplify;  // empty: as the model says
+  std::string simplify;  // empty: as in the model
   std::string output;
   std::string format;
   InputConvention convention;
@@ -39,8 +39,8 @@ struct Options {
   bool json = false;
 };
 
-// One degree writes to the output itself, several to names with the degree in them:
-// out.ply becomes out-L16.ply.
+// Returns the output file. A single degree writes to the output itself, several degrees to names
+// with the degree: out.ply becomes out-L16.ply.
 std::string output_for(const std::string& output, int degree, bool several) {
   if (!several) return output;
   std::filesystem::path path(output);
@@ -97,7 +97,7 @@ int run_atlas(const Options& o, ShapeFormat format, Session& session) {
   }
   std::optional<SimplifyOptions> simplify;
   if (!o.simplify.empty()) {
-    // Whole, whatever the model says: all of its triangles may stay.
+    // All triangles may stay, whatever the model's rules say.
     simplify = parse_simplify("--simplify", o.simplify).value_or(SimplifyOptions{.share = 1});
   }
   check_writable(o.output);
@@ -113,7 +113,7 @@ std::array<int, 2> parse_rings(const std::string& option, const std::string& tex
   return parse_grid(option, text, {1, 3});
 }
 
-// The sphere whose directions the surface is computed at.
+// Returns the sphere with the directions of the surface's vertices.
 Mesh sphere_of(const Options& options, int degree, const Expansion& expansion, Session& session) {
   if (!options.grid.empty()) {
     const auto [n_theta, n_phi] = parse_rings("--grid", options.grid);

@@ -1,4 +1,4 @@
-// rholm transfer: the detail of a patch laid on a patch of another mesh.
+// rholm transfer: copies the detail of a patch to a patch of another mesh.
 #include "rholm/transfer.h"
 
 #include <memory>
@@ -35,7 +35,7 @@ struct Options {
 };
 
 constexpr double kDegree = std::numbers::pi / 180;
-// Edges of the target, in those of the texture on it, from which on it is worth a word.
+// Ratio of the target's edges to the texture's edges on it, from which a note is given.
 constexpr double kCoarse = 1.5;
 
 void check_angle(const std::string& option, const std::string& text) {

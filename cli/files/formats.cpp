@@ -28,7 +28,7 @@ std::string joined(const std::vector<std::string>& words, const std::string& las
   return last.empty() ? fmt::format("{}", fmt::join(words, ", ")) : listed(words, last);
 }
 
-// `word` of each format that can be written and that `wanted` is true of.
+// Returns `word` of each format that can be written and satisfies `wanted`.
 template <typename Info, typename Wanted, typename Word>
 std::vector<std::string> words_of(const std::vector<Info>& formats, const Wanted& wanted,
                                   const Word& word) {

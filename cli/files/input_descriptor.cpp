@@ -16,12 +16,13 @@
 namespace rholm::cli {
 namespace {
 
-// Chosen: as often as a person who waits for the end of a program notices.
+// Chosen: a delay that a person who ends a program hardly notices.
 constexpr int kMillisecondsBetweenQuestions = 100;
 
 }  // namespace
 
-// O_NONBLOCK: a named pipe without a writer is waited for in read(), which can be interrupted.
+// With O_NONBLOCK a named pipe without a writer opens at once, and read(), which can be
+// interrupted, waits.
 InputDescriptor::InputDescriptor(const std::string& path)
     : path_(path),
       number_(path == "-" ? STDIN_FILENO
@@ -42,7 +43,7 @@ std::size_t InputDescriptor::read(std::span<char> room) {
     const bool is_ready = ::poll(&wait, 1, kMillisecondsBetweenQuestions) > 0;
     const ssize_t n = is_ready ? ::read(number_, room.data(), room.size()) : -1;
     const int error = is_ready ? errno : EAGAIN;
-    keep_going();  // counts as work: whoever waits for a writer does not hang
+    keep_going();  // counts as work: a program that waits for a writer does not hang
     stop_if_interrupted();
     if (n >= 0) return static_cast<std::size_t>(n);
     if (error != EINTR && error != EAGAIN) {

@@ -1,4 +1,4 @@
-// A file or stream that is read to its end, whatever its kind. Layer: cli.
+// A file or stream of any kind that is read to its end. Layer: cli.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ class InputDescriptor {
   InputDescriptor(const InputDescriptor&) = delete;
   InputDescriptor& operator=(const InputDescriptor&) = delete;
 
-  // How many bytes came: 0 at the end. While it waits for a writer it asks ten times a second
-  // whether the program was interrupted, on whatever thread. Throws Io, Cancelled.
+  // Returns the number of bytes read; 0 at the end. While it waits for a writer, it checks ten
+  // times a second, on any thread, whether the program was interrupted. Throws Io, Cancelled.
   std::size_t read(std::span<char> room);
 
  private:

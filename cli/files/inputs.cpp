@@ -26,12 +26,12 @@ namespace {
 
 using Bytes = std::vector<char>;
 
-constexpr std::size_t kChunk = std::size_t{1} << 20;  // chosen: large against a system call
+constexpr std::size_t kChunk = std::size_t{1} << 20;  // chosen: system calls cost little
 constexpr std::size_t kHead = 4096;                   // enough for every signature and header
 
 enum class Guess { kShape, kCoefficients, kModel, kUnknown };
 
-// At most `limit` bytes from the start of a file or stream.
+// Returns at most `limit` bytes from the start of a file or stream.
 Bytes read_bytes(const std::string& path, std::size_t limit) {
   InputDescriptor file(path);
   Bytes bytes;
@@ -45,7 +45,7 @@ Bytes read_bytes(const std::string& path, std::size_t limit) {
   return bytes;
 }
 
-// By the first bytes; by the name where they do not tell.
+// Guesses by the first bytes, or by the name if they do not tell.
 Guess guess(std::span<const char> head, const std::string& path) {
   if (std::string_view(head.data(), head.size()).starts_with("\x89HDF\r\n\x1a\n")) {
     return Guess::kModel;
@@ -55,14 +55,14 @@ Guess guess(std::span<const char> head, const std::string& path) {
   return *shape ? Guess::kShape : Guess::kCoefficients;
 }
 
-// "a gravity_field, no shape".
+// Returns "a gravity_field, no shape".
 std::string not_a_shape(const CoefficientsFile& file) {
   const std::string product = file.expansion.gravity ? "gravity_field" : file.product;
   return product.empty() ? "no shape (its function is 'other')"
                          : fmt::format("a {}, no shape", product);
 }
 
-// A file that may be looked at several times: its bytes if it is a stream, else its beginning.
+// A file that may be inspected several times: its bytes for a stream, otherwise its beginning.
 struct Source {
   std::string path;
   std::optional<Bytes> stream;
@@ -70,7 +70,7 @@ struct Source {
   ShapeReadOptions reading = {};
 };
 
-// A file whose columns are named is a table of points.
+// Inspects a file; with named columns it is a table of points.
 Source look_at(const std::string& path, const std::string& columns = {}) {
   Source source{.path = path, .stream = {}, .reading = {.columns = columns}};
   Bytes head;
@@ -92,7 +92,7 @@ ShapeFile read_shape_of(const Source& source, Session& session) {
   return read_shape(source.path, source.reading, session.context());
 }
 
-// What a reader of the numbers has to know, once for each file.
+// Notes the meaning of the numbers, once for each file.
 void say_what_it_means(const CoefficientsFile& file, const std::string& path, Session& session,
                        const InputConvention& convention) {
   const std::vector<std::string> open = convention.left_open(file.assumed);
@@ -164,7 +164,7 @@ Input read_either(const Source& source, Session& session, const InputConvention&
   if (is_coefficients(source.guess)) {
     return read_coefficients_of(source, session, convention.reading());
   }
-  // Bare text: lines `l m C S` are coefficients, anything else is taken for points.
+  // Bare text: lines `l m C S` are coefficients, any other lines are points.
   try {
     return read_coefficients_of(source, session, convention.reading());
   } catch (const Error& error) {
@@ -271,7 +271,7 @@ bool holds_atlas(const std::string& path) {
   try {
     return is_atlas_file(path);
   } catch (const Error&) {
-    return false;  // whoever reads it says what is wrong
+    return false;  // the reader reports the error
   }
 }
 

@@ -1,4 +1,4 @@
-// Models laid on each other whose files say different units of length. Layer: cli.
+// Common unit of several models whose files state different units of length. Layer: cli.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace rholm::cli {
 
-// Brings `expansion`, of the file `path`, to the unit that the file `other_path` says, and says so.
-// Where one of the two has none, they are taken to be the same, with a warning. Throws
-// InvalidInput for different units that cannot be converted.
+// Converts `expansion` from file `path` to the unit of the file `other_path`, with a note. If one
+// file states no unit, the units are assumed equal, with a warning. Throws InvalidInput for
+// different units that cannot be converted.
 void bring_to_unit(Expansion& expansion, const std::string& path, const std::string& unit,
                    const std::string& other_path, Session& session);
 
-// What several surfaces are laid in: the unit of the first file of coefficients. Files of meshes
-// have no place for one; they are taken to be in it.
+// The common unit of several surfaces: the unit of the first file of coefficients. Meshes have no
+// unit in their files and are assumed to be in this unit.
 class CommonUnit {
  public:
-  // Brings one more surface to it, or takes its unit.
+  // Converts one more surface to the unit, or adopts its unit if it is the first.
   void add(Input& input, const std::string& path, Session& session);
 
  private:

@@ -18,9 +18,10 @@
 namespace rholm::cli {
 namespace {
 
-// A megabyte is looked at, in pieces all over the file: an OBJ file may have all faces at its end.
+// A megabyte is inspected, in samples all over the file: an OBJ file may have all faces at its end.
 constexpr std::size_t kPieces = 256, kPiece = std::size_t{1} << 12;
-// Chosen: a piece is 0.4 % of a file, and lines of one kind begin or end in few pieces.
+// Factor for counting errors. Chosen: a sample is 0.4 % of a file, and only some samples contain
+// the first or last lines of a kind.
 constexpr double kCountError = 1.03;
 
 std::string bytes_at(std::ifstream& file, std::uintmax_t at, std::size_t size) {
@@ -32,7 +33,7 @@ std::string bytes_at(std::ifstream& file, std::uintmax_t at, std::size_t size) {
   return bytes;
 }
 
-// The words of a line, between blanks, commas and semicolons.
+// Returns the words of a line, between blanks, commas and semicolons.
 std::vector<std::string_view> words_of(std::string_view line) {
   constexpr std::string_view kBetween = " \t\r,;";
   std::vector<std::string_view> words;
@@ -46,11 +47,11 @@ std::vector<std::string_view> words_of(std::string_view line) {
   }
 }
 
-// Lines of a text, by their first words.
+// Counts of lines of a text, by their first words.
 struct Lines {
-  double vertices = 0, vertex_values = 0;       // "v"; numbers behind them
+  double vertices = 0, vertex_values = 0;       // "v"; numbers after them
   double normals = 0, textures = 0;             // "vn", "vt"
-  double faces = 0, polygons = 0, corners = 0;  // "f"; of more than three corners; of these
+  double faces = 0, polygons = 0, corners = 0;  // "f"; more than three corners; their corners
   double facet_corners = 0;                     // "vertex" of STL
   double rows = 0, values = 0;                  // other lines; words in them
 
@@ -78,7 +79,7 @@ struct Lines {
   }
 };
 
-// Counts lines of a whole file by its pieces. None: the file is no text.
+// Counts lines of a whole file from samples. Returns nothing if the file is no text.
 std::optional<Lines> lines_of(std::ifstream& file, std::uintmax_t size) {
   Lines lines;
   const bool whole = size <= kPieces * kPiece;
@@ -88,7 +89,7 @@ std::optional<Lines> lines_of(std::ifstream& file, std::uintmax_t size) {
         bytes_at(file, size / pieces * i, whole ? static_cast<std::size_t>(size) : kPiece);
     if (piece.find('\0') != std::string::npos) return {};
     std::string_view rest = piece;
-    if (!whole) {  // lines that are there from their first to their last byte
+    if (!whole) {  // count only lines whose first and last bytes are in the sample
       const std::size_t first = rest.find('\n'), last = rest.rfind('\n');
       if (first == last) continue;
       rest = rest.substr(first + 1, last - first);
@@ -104,14 +105,15 @@ std::optional<Lines> lines_of(std::ifstream& file, std::uintmax_t size) {
   return lines;
 }
 
-// Bytes of an array that grows to n elements: it doubles, and both are there when it does.
+// Returns the bytes of an array that grows to n elements by doubling, when old and new array
+// coexist.
 double grown(double n, double element) {
   if (n <= 0) return 0;
   const double room = std::exp2(std::ceil(std::log2(n)));
   return 1.5 * room * element;
 }
 
-// Polygons are kept with their corners until all vertices are known, then triangles are made.
+// Polygons are stored with their corners until all vertices are known; then triangles are made.
 double memory_of_polygons(double polygons, double corners) {
   constexpr double kPolygon = 16;
   return grown(polygons, kPolygon) + grown(corners, sizeof(std::uint32_t)) +
@@ -120,7 +122,7 @@ double memory_of_polygons(double polygons, double corners) {
 
 // ---- Files whose headers have the counts: PLY, OFF ----
 
-// Bytes of a property of a binary PLY.
+// Returns the bytes of a property of a binary PLY.
 double size_of_type(std::string_view type) {
   for (const char* eight : {"double", "float64"}) {
     if (type == eight) return 8;
@@ -134,11 +136,11 @@ double size_of_type(std::string_view type) {
   return 4;
 }
 
-// Counts that a header gives.
+// Counts from a header.
 struct Counts {
   double vertices = 0, faces = 0;
-  double values = 0;  // of a vertex
-  double row = 0;     // bytes of a vertex, of a binary file
+  double values = 0;  // per vertex
+  double row = 0;     // bytes of a vertex in a binary file
   bool is_text = false;
 };
 
@@ -183,7 +185,7 @@ std::optional<Counts> counts_of_off(const std::string& head) {
   return counts;
 }
 
-// Corners of the faces at the end of a text, three or more on average.
+// Returns the mean number of corners of the faces at the end of a text, at least three.
 double corners_of_faces(std::ifstream& file, std::uintmax_t size) {
   const std::size_t some = static_cast<std::size_t>(std::min<std::uintmax_t>(size, 16 * kPiece));
   const std::string piece = bytes_at(file, size - some, some);
@@ -201,7 +203,7 @@ double corners_of_faces(std::ifstream& file, std::uintmax_t size) {
 ShapeMemory memory_of_counts(const Counts& counts, std::ifstream& file, std::uintmax_t size) {
   const auto bytes = static_cast<double>(size);
   constexpr double kTriangle = 13, kSquare = 17, kOfSquare = 2;  // bytes, and triangles
-  // No more than the file has room for.
+  // The file's size limits the counts.
   const double vertices = std::min(counts.vertices, bytes / (counts.is_text ? 6 : 3));
   double faces = std::min(counts.faces, bytes / (counts.is_text ? 4 : 1));
   double polygons = 0;
@@ -228,7 +230,7 @@ ShapeMemory memory_of_lines(const Lines& lines, double bytes) {
   if (lines.facet_corners > 0) {
     ShapeMemory memory{.vertices = kCountError * lines.facet_corners,
                        .faces = kCountError * lines.facet_corners / 3};
-    // The reader has room for facets of 256 bytes, and makes more where they are shorter.
+    // The reader reserves facets of 256 bytes, and grows if facets are shorter.
     const double room = 3 * bytes / 256;
     const double vertices = memory.vertices <= room ? room : 3 * room;
     memory.reading = bytes + std::max(vertices * sizeof(Vec3), memory.kept());
@@ -238,7 +240,8 @@ ShapeMemory memory_of_lines(const Lines& lines, double bytes) {
     const double n = kCountError * lines.vertices;
     ShapeMemory memory{.vertices = n,
                        .faces = kCountError * (lines.faces + lines.corners - 3 * lines.polygons)};
-    // Colours, normals and texture coordinates are read apart, then made attributes of vertices.
+    // Colours, normals and texture coordinates are read separately, then become attributes of
+    // vertices.
     double apart = 0;
     if (lines.vertex_values >= 6 * lines.vertices) {
       memory.attributes += 3;

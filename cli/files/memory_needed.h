@@ -1,4 +1,4 @@
-// Estimates the memory that reading a file takes before it is read. Layer: cli.
+// Estimates the memory for reading a file, before it is read. Layer: cli.
 #pragma once
 
 #include <cstddef>
@@ -9,21 +9,21 @@
 
 namespace rholm::cli {
 
-// The memory that reading a shape takes, and its size. Counts of text come from samples of lines.
+// Memory for reading a shape, and its size. Counts in text files come from samples of lines.
 struct ShapeMemory {
-  double reading = 0;              // bytes at most while it is read, with those of the file
-  double vertices = 0, faces = 0;  // faces are triangles, of which a polygon becomes several
-  double attributes = 0;           // values of each vertex beside its position
-  double kept() const {            // bytes of the shape
+  double reading = 0;              // largest number of bytes while it is read, file included
+  double vertices = 0, faces = 0;  // faces are triangles; a polygon gives several
+  double attributes = 0;           // number of values per vertex besides its position
+  double kept() const {            // size of the shape in bytes
     return (sizeof(Vec3) + sizeof(double) * attributes) * vertices + sizeof(Triangle) * faces;
   }
 };
 
-// All zero for what is no regular file, and for files of coefficients.
+// Returns zeros for files that are not regular, and for files of coefficients.
 ShapeMemory memory_to_read(const std::string& path);
 
-// Bytes at most while a command works on a mesh, for each of its vertices and of its faces, the
-// mesh itself counted in, and bytes that every mesh takes.
+// Largest number of bytes while a command works on a mesh: per vertex, per face, and constant. The
+// mesh itself is included.
 struct MemoryOfMesh {
   double vertex = 0, face = 0, any = 0;
   double of(std::size_t vertices, std::size_t faces) const {
@@ -35,8 +35,8 @@ struct MemoryOfMesh {
   }
 };
 
-// Throws OutOfMemory, before it is read, if reading a shape, or the work on it that follows, needs
-// more than was said with --max-memory. Streams and files of coefficients are let pass.
+// Throws OutOfMemory before reading if a shape, or the work on it, needs more than --max-memory.
+// Accepts streams and files of coefficients.
 void require_to_read(const std::string& path, const MemoryOptions& memory,
                      const MemoryOfMesh& work = {});
 

@@ -28,7 +28,7 @@ namespace {
       "'{}' has no extension that names a format; known are {}, or say --format", path, known));
 }
 
-// All that numbers alone do not say, as words.
+// Returns the metadata of the numbers as words.
 std::string meaning_of(const Expansion& expansion, const Convention& convention) {
   const Vec3& c = expansion.center;
   std::string text = fmt::format("{}; function {}; centre ({}, {}, {})", text_of(convention),
@@ -40,14 +40,14 @@ std::string meaning_of(const Expansion& expansion, const Convention& convention)
   return text;
 }
 
-// Standard output has several names.
+// Returns "-" for all names of standard output.
 std::string output_named(const std::string& path) {
   const bool is_standard =
       path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
   return is_standard ? "-" : path;
 }
 
-// Whether the path names a pipe, a device or the like.
+// Returns true if the path names a pipe, a device or another special file.
 bool is_special(const std::string& path) {
   struct stat status = {};
   return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
@@ -162,8 +162,8 @@ void check_writable(const std::string& path) {
   }
   struct stat status = {};
   if (::stat(path.c_str(), &status) != 0) {
-    // A file that is not there is what is wanted, a folder that is not is said below. A name that
-    // is too long, or a circle of links, would only be noticed by the writer.
+    // A missing file is fine; a missing folder is reported below. Only the writer would notice a
+    // name that is too long, or a cycle of links.
     if (errno != ENOENT && errno != ENOTDIR && errno != EACCES) {
       throw Error(ErrorCode::kIo,
                   fmt::format("{} cannot be written: {}", path, std::strerror(errno)));

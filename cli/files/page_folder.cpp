@@ -13,8 +13,9 @@ std::optional<std::string> page_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
   if (program.empty()) return std::nullopt;
-  // PREFIX/bin/rholm; of a wheel PREFIX/lib/pythonX.Y/site-packages/rholm.scripts/rholm, where
-  // auditwheel moves it to; build/cli/rholm, and build/PRESET/cli/rholm.
+  // Places of the program: PREFIX/bin/rholm; for a wheel
+  // PREFIX/lib/pythonX.Y/site-packages/rholm.scripts/rholm, where auditwheel moves it;
+  // build/cli/rholm, and build/PRESET/cli/rholm.
   for (const char* place : {"../share/rholm/studio", "../../../../share/rholm/studio",
                             "../../web/dist", "../../../web/dist"}) {
     const fs::path folder = program / place;

@@ -1,4 +1,4 @@
-// Where what scripts/studio makes is. Layer: cli.
+// Folder with the results of scripts/studio. Layer: cli.
 #pragma once
 
 #include <optional>
@@ -6,11 +6,11 @@
 
 namespace rholm::cli {
 
-// Of this program, installed (PREFIX/share/rholm/studio, by pip as well) or in the tree it was
-// built in (web/dist); none if there is neither.
+// Returns the folder of the installed program (PREFIX/share/rholm/studio, with pip too) or of its
+// build tree (web/dist); nothing if both are missing.
 std::optional<std::string> page_folder();
 
-// The JavaScript that shows an expansion in a page, of that folder. Throws Unsupported without one.
+// Returns the JavaScript of the viewer in that folder. Throws Unsupported if it is missing.
 std::string viewer_script();
 
 }  // namespace rholm::cli

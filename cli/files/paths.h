@@ -1,17 +1,17 @@
-// Names of inputs: streams, extensions, and how messages show them. Layer: cli.
+// Names of inputs: streams, extensions, and names in messages. Layer: cli.
 #pragma once
 
 #include <string>
 
 namespace rholm::cli {
 
-// Standard input, a pipe or the like: what can be read once only.
+// Returns true for standard input, a pipe or other input that can be read only once.
 bool is_stream(const std::string& path);
 
-// The name in messages: "standard input" for "-".
+// Returns the name in messages: "standard input" for "-".
 std::string display_name(const std::string& path);
 
-// Lower case, with the dot: ".ply"; empty without one.
+// Returns the extension in lower case, with dot: ".ply"; empty if there is none.
 std::string extension_of(const std::string& path);
 
 }  // namespace rholm::cli

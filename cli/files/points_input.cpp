@@ -17,7 +17,7 @@
 namespace rholm::cli {
 namespace {
 
-// Of lines with three numbers of one digit each.
+// Bytes of a line with three one-digit numbers.
 constexpr std::uintmax_t kShortestLine = 6;
 constexpr std::size_t kAtATime = std::size_t{1} << 14;
 
@@ -30,8 +30,8 @@ PointCloud points_of(ShapeFile file, const std::string& path, Session& session) 
   return points_of_mesh(std::move(mesh));
 }
 
-// Whether a file has more points than that, and they can be read one after the other; how many, if
-// it says so.
+// Returns true if a file has more points than `most` and can be read in portions. Sets `n` if the
+// file states the number.
 bool has_more(const std::string& path, const std::string& columns, std::uint64_t most,
               std::optional<std::uint64_t>& n, Session& session) {
   if (file_size_of(path).value_or(0) / kShortestLine <= most) return false;
@@ -50,7 +50,7 @@ bool has_more(const std::string& path, const std::string& columns, std::uint64_t
     return more;
   } catch (const Error& error) {
     if (error.code() == ErrorCode::kCancelled) throw;
-    return false;  // the reader of the whole file says what is wrong
+    return false;  // the reader of the whole file reports the error
   }
 }
 

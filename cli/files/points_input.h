@@ -1,4 +1,4 @@
-// Points to make a surface of: in memory, or where they lie, if they are many. Layer: cli.
+// Points for a reconstruction: in memory, or in a file if they are many. Layer: cli.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,23 @@
 namespace rholm::cli {
 
 struct PointsInput {
-  std::optional<PointCloud> cloud = {};  // none: more than were wanted, in a file
-  std::uint64_t dropped = 0;             // points of the file beside the cloud: not finite
-  std::string file = {};                 // its name; PointStream reads it
-  std::string columns = {};              // of it, as in ShapeReadOptions
-  std::optional<std::uint64_t> n = {};   // points, if they have been counted or the file says it
-  std::unique_ptr<SpooledInput> spooled = {};  // has the file, where points came from a stream
+  std::optional<PointCloud> cloud = {};        // empty: the file has more points than wanted
+  std::uint64_t dropped = 0;                   // number of points left out of the cloud: not finite
+  std::string file = {};                       // name of the file, for PointStream
+  std::string columns = {};                    // its columns, as in ShapeReadOptions
+  std::optional<std::uint64_t> n = {};         // number of points, if counted or stated in the file
+  std::unique_ptr<SpooledInput> spooled = {};  // owns the file of points from a stream
 };
 
-// At most `most` points of files that can be read one after the other, all of others; of a mesh the
-// vertices, with the mean normals of their faces. Warnings of the reader are passed on. Throws what
-// it throws.
-// `columns` is as in ShapeReadOptions.
+// Reads at most `most` points in a format that PointStream reads, and all points in any
+// other format. A mesh gives its vertices, with the mean normals of their faces.
+// Warnings of the reader are passed on. Throws as the reader. `columns` is as in
+// ShapeReadOptions.
 PointsInput read_points_input(const std::string& path, std::uint64_t most,
                               const std::string& columns, const MemoryOptions& memory,
                               Session& session);
 
-// The box of all points of the file that are finite.
+// Returns the bounding box of all finite points of the file.
 Bounds bounds_of_points(const std::string& file, const std::string& columns, Session& session);
 
 }  // namespace rholm::cli

@@ -58,7 +58,7 @@ Prepared prepare(const Mesh& mesh, double weld_tolerance) {
   Outward shape = outward(mesh, weld_tolerance);
   Prepared result{.mesh = std::move(shape.welded.mesh), .flipped = shape.flipped};
   result.diagonal = bounds(result.mesh.vertices).diagonal();
-  pair_edges(result.mesh);  // throws if the mesh is open or its faces disagree
+  pair_edges(result.mesh);  // throws if the mesh is open or faces are inconsistent
   return result;
 }
 

@@ -1,4 +1,4 @@
-// What has to be done to a mesh before questions about stars make sense. Layer: cli.
+// Preparation of a mesh for a check of star-shapedness. Layer: cli.
 #pragma once
 
 #include "cli/grammar/command.h"
@@ -8,14 +8,14 @@
 
 namespace rholm::cli {
 
-// "--weld T".
+// Option "--weld T".
 Option weld_option(double& tolerance);
-// "--center KIND".
+// Option "--center KIND".
 Option center_option(std::string& center);
 CenterOptions parse_center_option(const std::string& text);  // throws UsageError
-// With that centre.
+// Returns the options with that centre.
 ChartOptions chart_options(ChartOptions options, const std::string& center);
-// "--length-unit NAME".
+// Option "--length-unit NAME".
 Option length_unit_option(std::string& unit);
 
 struct Prepared {
@@ -24,14 +24,14 @@ struct Prepared {
   bool flipped = false;
 };
 
-// Welds, turns right side out, checks that the mesh is closed and oriented: the same first steps
-// as encode(). Throws InvalidInput.
+// Welds the mesh, turns it right side out, and checks that it is closed and oriented: the same
+// first steps as encode(). Throws InvalidInput.
 Prepared prepare(const Mesh& mesh, double weld_tolerance);
 
-// What to say of a mesh that was inside out.
+// Note on a mesh that was inside out.
 inline constexpr const char* kFlipped =
     "the mesh was inside out, it has been turned right side out";
-// The same of points.
+// Note on points whose normals all pointed inwards.
 inline constexpr const char* kTurned =
     "all normals pointed inwards, they have been turned outwards";
 

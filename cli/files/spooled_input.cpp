@@ -19,7 +19,7 @@
 namespace rholm::cli {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{1} << 20;  // chosen: large against a system call
+constexpr std::size_t kChunk = std::size_t{1} << 20;  // chosen: system calls cost little
 
 std::string reason() { return std::strerror(errno); }
 

@@ -1,4 +1,4 @@
-// What comes from a stream and does not fit in memory. Layer: cli.
+// Input from a stream that does not fit in memory. Layer: cli.
 #pragma once
 
 #include <cstddef>
@@ -13,23 +13,23 @@
 
 namespace rholm::cli {
 
-// All bytes of standard input or of a pipe: in memory, or in a file without a name, which is gone
-// when this is, however the program ends.
+// All bytes of standard input or of a pipe, in memory or in an unnamed file. The system removes the
+// file with the object, however the program ends.
 class SpooledInput {
  public:
-  // Up to `in_memory` bytes stay there. Throws Io, Cancelled.
+  // Keeps up to `in_memory` bytes in memory. Throws Io, Cancelled.
   SpooledInput(const std::string& path, std::size_t in_memory, const std::string& folder);
   ~SpooledInput();
   SpooledInput(const SpooledInput&) = delete;
   SpooledInput& operator=(const SpooledInput&) = delete;
 
   bool is_in_file() const { return file_ >= 0; }
-  // A name of that file, for as long as this is there; empty if the bytes are in memory.
+  // Returns a name of the file, valid as long as the object; empty if the bytes are in memory.
   std::string path_of_file() const;
   std::span<const char> bytes() const;
-  // Those that are in memory, which has them no longer.
+  // Moves the bytes out of memory to the caller.
   std::vector<char> take_bytes() { return std::move(memory_); }
-  // See map_mesh(); none if the bytes are in memory.
+  // Maps the file by map_mesh(); returns nothing if the bytes are in memory.
   std::optional<MappedMesh> mesh(const Context& context) const;
 
  private:

@@ -36,7 +36,7 @@ std::vector<Command> offered_commands(std::span<const Command> commands) {
 
 std::vector<Option> offered_options(const Command& command) {
   static bool help = false;
-  static CommonOptions common;  // targets nobody reads: the options are only looked at
+  static CommonOptions common;  // unused targets: only the options are needed
   std::vector<Option> options = command.options;
   for (const Option& option : common_options(common)) options.push_back(option);
   options.push_back({.name = "help", .letter = 'h', .help = "what it does", .target = &help});

@@ -6,8 +6,8 @@
 namespace rholm::cli {
 namespace {
 
-// Neither bash-completion nor extended globs are needed: a file is offered if its extension fits,
-// or if none does.
+// The script needs neither bash-completion nor extended globs. It offers a file if its extension
+// fits, or any file if no extension is listed.
 constexpr const char* kHead =
     R"(# bash completion for @program@, written by '@program@ completion bash'
 
@@ -42,7 +42,7 @@ std::string files_call(Offer offer) {
   return fmt::format("_@function@_files '{}'", fmt::join(offered_extensions(offer), "|"));
 }
 
-// What to do for the word after an option, or for an operand.
+// Returns the action for the word after an option, or for an operand.
 std::string action(const Option& option) {
   if (!option.choices.empty()) {
     return fmt::format("_@function@_words '{}'", fmt::join(option.choices, " "));

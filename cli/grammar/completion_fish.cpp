@@ -23,7 +23,7 @@ std::string files(Offer offer) {
   return fmt::format("-k -a '(__fish_complete_suffix .{})'", fmt::join(extensions, " ."));
 }
 
-// The part of a line that says what values there are.
+// Returns the part of a line that lists the values.
 std::string values(const Option& option) {
   if (!option.choices.empty())
     return "-a " + quoted(fmt::format("{}", fmt::join(option.choices, " ")));

@@ -6,7 +6,7 @@
 namespace rholm::cli {
 namespace {
 
-// Inside single quotes, and inside the brackets or before the colons of _arguments.
+// Escapes text for single quotes, and for brackets and colons of _arguments.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -29,7 +29,7 @@ std::string action(const Option& option) {
   return fmt::format("_files -g \"*.(#i)({})(-.)\"", fmt::join(extensions, "|"));
 }
 
-// One specification of _arguments, quoted.
+// Returns one quoted specification of _arguments.
 std::string specification(const Option& option, int operand) {
   const std::string what = escaped(first_clause(option.help));
   const bool many = std::holds_alternative<std::vector<std::string>*>(option.target);

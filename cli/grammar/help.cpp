@@ -22,7 +22,7 @@ std::string value_name(const Option& option) {
   return option.choices.empty() ? "" : fmt::format("{}", fmt::join(option.choices, "|"));
 }
 
-// "[--method edge|gauge]", "--degree L", "SHAPE...".
+// Returns "[--method edge|gauge]", "--degree L", "SHAPE...".
 std::string usage_word(const Option& option) {
   std::string word = option.is_operand() ? option.name
                      : option.letter     ? fmt::format("-{}", option.letter)
@@ -70,14 +70,14 @@ std::string wrap(const std::string& text, std::size_t indent, std::size_t width)
 }
 
 namespace {
-// "with oneTBB, HDF5\n", nothing for an empty list.
+// Returns "with oneTBB, HDF5\n"; empty for an empty list.
 std::string libraries_line(std::string_view word, std::string_view list) {
   return list.empty() ? "" : fmt::format("{} {}\n", word, list);
 }
 }  // namespace
 
 std::string version_text(const ProgramText& program) {
-  // Libraries that a build can do without, as CMakeLists.txt lists them.
+  // Optional libraries, as CMakeLists.txt lists them.
   return fmt::format("{} {}\n", program.name, kVersion) +
          libraries_line("with", RHOLM_USED_LIBRARIES) +
          libraries_line("without", RHOLM_LEFT_OUT_LIBRARIES);
@@ -129,7 +129,7 @@ std::string program_help(const ProgramText& program, std::span<const Command> co
 std::string command_help(const Command& command) {
   CommonOptions common;
   std::string text = fmt::format("{}: {}\n\nUsage: ", typed_name(command), command.summary);
-  // The first line of the usage stands after "Usage: ".
+  // The first line of the usage follows "Usage: ".
   std::string usage = usage_line(command, kWidth - 7);
   for (std::size_t at = 0; (at = usage.find('\n', at)) != std::string::npos; at += 8) {
     usage.insert(at + 1, 7, ' ');

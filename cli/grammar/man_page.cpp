@@ -11,7 +11,7 @@
 namespace rholm::cli {
 namespace {
 
-// Text that troff shows as it is: backslashes, hyphens that must stay hyphens, leading dots.
+// Escapes text for troff: backslashes, hyphens that must stay hyphens, leading dots.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {

@@ -1,4 +1,4 @@
-// Names that options had in the version before. Layer: cli.
+// Names of options in the previous version. Layer: cli.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace rholm::cli {
 
-// Puts the names of today in the place of old ones, which this version still understands. Returns a
-// note for each.
+// Replaces old names, which this version still understands, by present names. Returns a note for
+// each.
 std::vector<std::string> replace_old_names(const Command& command, std::vector<std::string>& words);
 
 }  // namespace rholm::cli

@@ -1,5 +1,6 @@
-// The one user of CLI11. It splits words into options; values are converted and checked here, so
-// that a message always has the option, the value and the limit, and NaN is refused.
+// Parsing with CLI11, which only this file uses. It splits words into options. Values are converted
+// and checked here, so that every message has the option, the value and the limit, and NaN is
+// refused.
 #include "cli/grammar/parse.h"
 
 #include <CLI/CLI.hpp>
@@ -16,7 +17,7 @@
 namespace rholm::cli {
 namespace {
 
-// An option as CLI11 knows it: a switch and a list are filled there, any other value is a text.
+// An option of CLI11: it fills switches and lists itself; any other value is a text.
 struct Word {
   const Option* option;
   CLI::Option* known = nullptr;
@@ -37,7 +38,7 @@ void add(CLI::App& app, Word& word) {
   if (const auto* target = std::get_if<bool*>(&option.target)) {
     word.known = app.add_flag(name, **target);
   } else if (const auto* list = std::get_if<std::vector<std::string>*>(&option.target)) {
-    // An option that may come several times has one value each time.
+    // An option that may be repeated takes one value each time.
     word.known = app.add_option(name, **list)->allow_extra_args(option.is_operand());
   } else {
     word.known = app.add_option(name, word.text)->type_name("value");
@@ -63,7 +64,7 @@ void check_text(const Option& option, const std::string& text) {
   if (option.check) option.check(option.typed(), text);
 }
 
-// Inclusive limits; every int and every seed is exact as a double, or far from the limits.
+// Limits are inclusive. Every int and every seed is exact as a double, or far from the limits.
 template <typename Number>
 Number whole_number(const Option& option, const std::string& text) {
   const double min = option.min.value_or(static_cast<double>(std::numeric_limits<Number>::min()));
@@ -97,7 +98,7 @@ void take(const Option& option, const std::string& text) {
       option.target);
 }
 
-// How an option may be typed: "--degree", "-o".
+// Returns the ways to type an option: "--degree", "-o".
 std::vector<std::string> names_of(const std::vector<Option>& options) {
   std::vector<std::string> names = {"--help"};
   for (const Option& option : options) {
@@ -117,8 +118,8 @@ const Option* option_of(const std::vector<Option>& options, std::string_view nam
   return found == options.end() ? nullptr : &*found;
 }
 
-// Refuses options that there are not. CLI11 would take the value of one for an operand, and
-// complain about that.
+// Refuses unknown options. CLI11 would take the value of an unknown option for an operand, and
+// report that.
 void check_names(const std::vector<Option>& options, std::span<const std::string> words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
@@ -135,7 +136,7 @@ void check_names(const std::vector<Option>& options, std::span<const std::string
           fmt::format("there is no option '{}'{}", typed, did_you_mean(typed, names_of(options))));
     }
     if (!option->is_switch() && word.size() == name.size())
-      ++i;  // its value, whatever it looks like
+      ++i;  // its value, even if it looks like an option
   }
 }
 
@@ -162,14 +163,14 @@ std::uint64_t whole_within(const Option& option, const std::string& text) {
 
 void parse(const Command& command, std::span<const std::string> words, CommonOptions& common) {
   CLI::App app(command.summary, command.name);
-  app.set_help_flag();  // --help is answered before the parser is asked
+  app.set_help_flag();  // --help is handled before parsing
   std::vector<Option> options = command.options;
   for (Option& option : common_options(common)) options.push_back(std::move(option));
   check_names(options, words);
   std::deque<Word> known;  // CLI11 keeps references to the texts
   for (const Option& option : options) add(app, known.emplace_back(Word{&option}));
   try {
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 wants them reversed
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 needs them reversed
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what());
   }

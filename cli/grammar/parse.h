@@ -1,4 +1,4 @@
-// From the words of a command line to the targets of a command's options. Layer: cli.
+// Parses the words of a command line into the targets of a command's options. Layer: cli.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace rholm::cli {
 
-// The value of an option that is a number within its bounds; throws UsageError.
+// Return the value of a numeric option within its bounds; throw UsageError.
 double number_within(const Option& option, const std::string& text);
 std::uint64_t whole_within(const Option& option, const std::string& text);
 
-// Fills the targets of the command's options and of the common ones from `words` (without the
-// command's name). Throws UsageError.
+// Parses `words` (without the command's name) into the targets of the command's and the common
+// options. Throws UsageError.
 void parse(const Command& command, std::span<const std::string> words, CommonOptions& common);
 
 }  // namespace rholm::cli

@@ -58,7 +58,7 @@ int run_command(const Command& command, std::span<const std::string> words) {
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("{}\nTry '{} --help'.", error.what(), typed_name(command)));
   } catch (const Error& error) {
-    // The library speaks of ideas; what they are called here, the command knows.
+    // The library's message is general; the command adds its own advice.
     if (error.code() != ErrorCode::kNotStarShaped || command.if_not_star.empty()) throw;
     throw Error(error.code(), fmt::format("{} ({})", error.what(), command.if_not_star));
   }

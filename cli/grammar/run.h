@@ -1,4 +1,4 @@
-// A command run with its words, and what becomes of exceptions. Layer: cli.
+// Runs a command with its words, and handles exceptions. Layer: cli.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace rholm::cli {
 
-// An exit code (exit_code.h), and what is to be said where it was an exception that led to it.
+// An exit code (exit_code.h), and the message of the exception that caused it, if any.
 struct Outcome {
   int code = 0;
   std::string message = {};
@@ -18,8 +18,8 @@ struct Outcome {
 // Calls `work`, which returns an exit code; never throws.
 Outcome outcome_of(const std::function<int()>& work);
 
-// Fills the command's options from `words` (without its name) and runs it. Throws what it throws,
-// with what the command knows about it.
+// Parses `words` (without the name) into the command's options and runs it. Throws its exceptions,
+// with the command's advice added.
 int run_command(const Command& command, std::span<const std::string> words);
 
 }  // namespace rholm::cli

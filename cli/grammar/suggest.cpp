@@ -9,11 +9,11 @@
 namespace rholm::cli {
 namespace {
 
-// Words of other people's programs may be long, and a long word is no misspelt option.
+// Longest word compared: words from other programs may be long, and no option is.
 constexpr std::size_t kLongest = 40;
 
-// The least number of letters that are put in, left out, replaced or exchanged with the next one to
-// make one word of the other (optimal string alignment).
+// Returns the smallest number of letters to insert, delete, replace or exchange with the next one
+// that turns one word into the other (optimal string alignment).
 std::size_t changes(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -37,12 +37,12 @@ std::size_t changes(std::string_view a, std::string_view b) {
 std::string did_you_mean(std::string_view word, std::span<const std::string> known) {
   const std::string* nearest = nullptr;
   if (word.empty() || word.size() > kLongest) return {};
-  // Chosen: one change in three letters, of words of three letters or less one.
+  // Chosen: one change per three letters, and one in words of three letters or less.
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : known) {
     const bool begins = word.size() > 1 && candidate.starts_with(word);
     const std::size_t distance = begins ? 0 : changes(word, candidate);
-    // Two short words that have no letter in common are no misspelling of each other.
+    // Two short words without a common letter are no misspelling of each other.
     if (distance < least && distance < candidate.size()) {
       nearest = &candidate;
       least = distance;

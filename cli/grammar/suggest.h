@@ -1,4 +1,4 @@
-// The known word nearest to a misspelt one. Layer: cli.
+// Known word nearest to a misspelt one. Layer: cli.
 #pragma once
 
 #include <span>
@@ -7,8 +7,8 @@
 
 namespace rholm::cli {
 
-// "; did you mean 'analyze'?" with the known word that is nearest to `word`. A word is near if it
-// begins with `word`, or if one letter in three has to be changed. An empty text if none is near.
+// Returns "; did you mean 'analyze'?" with the known word that is nearest to `word`. A word is near
+// if it begins with `word`, or if one letter in three differs. Empty if no word is near.
 std::string did_you_mean(std::string_view word, std::span<const std::string> known);
 
 }  // namespace rholm::cli

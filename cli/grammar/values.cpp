@@ -14,7 +14,7 @@
 namespace rholm::cli {
 namespace {
 
-// The whole of `text` as a number.
+// Parses the whole of `text` as a number.
 template <typename Number>
 bool read_number(const std::string& text, Number& number) {
   const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);

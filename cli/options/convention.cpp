@@ -10,7 +10,7 @@ namespace {
 int phase_of(const std::string& text) { return text == "-1" ? -1 : 1; }
 
 // Makes the options of both fields of Convention. Their values are texts, which may be empty;
-// `where` goes into the help.
+// `where` is a part of the help.
 std::vector<Option> options_of(const std::string& prefix, std::string& normalization,
                                std::string& csphase, const std::string& where) {
   const Convention standard;

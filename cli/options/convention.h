@@ -1,5 +1,5 @@
-// What numbers of coefficients mean: of a file to write, --normalization and --csphase; of one to
-// read, --input-normalization and --input-csphase. Layer: cli.
+// Convention of coefficients: --normalization and --csphase for a file to write,
+// --input-normalization and --input-csphase for a file to read. Layer: cli.
 #pragma once
 
 #include <string>
@@ -18,20 +18,20 @@ struct ConventionOptions {
 };
 std::vector<Option> convention_options(ConventionOptions& target);
 
-// What is said of an input whose file does not say it; empty: nothing.
+// Convention of an input whose file states none; empty: not given.
 struct InputConvention {
   std::string normalization;
   std::string csphase;
-  bool override_file = false;  // believe the options even where the file says otherwise
+  bool override_file = false;  // true: use the options even if the file states another convention
 
   CoefficientsReadOptions reading() const;
-  // Of what the reader had to assume, what these options do not say.
+  // Returns the reader's assumptions that these options do not set.
   std::vector<std::string> left_open(const std::vector<std::string>& assumed) const;
 };
-// Of every command that reads coefficients.
+// Returns the options of every command that reads coefficients.
 std::vector<Option> input_convention_options(InputConvention& target);
 
-// "normalization 4pi, csphase 1".
+// Returns "normalization 4pi, csphase 1".
 std::string text_of(const Convention& convention);
 
 }  // namespace rholm::cli

@@ -22,11 +22,11 @@
 
 namespace rholm::cli {
 
-// "min-component" of "min_component".
+// Returns "min-component" for "min_component".
 std::string option_name(const FieldInfo& info);
-// Name, help and bounds, without a target. `by_default` is said at the end of the help.
+// Returns name, help and bounds, without a target. `by_default` ends the help.
 Option option_of(const FieldInfo& info, const std::string& by_default);
-// The default as help says it: nothing for 0, which the help of the field explains.
+// Returns the default for help: nothing for 0, which the help of the field explains.
 std::string default_text(double value);
 
 template <typename V>
@@ -82,7 +82,7 @@ Option field_option(const FieldInfo& info, V& value) {
   }
 }
 
-// Of all fields that the program has under their names; `values` outlives them.
+// Returns an option for each field that the program has; `values` must outlive them.
 template <HasFields Options>
 std::vector<Option> field_options(Options& values) {
   std::vector<Option> options;
@@ -92,16 +92,16 @@ std::vector<Option> field_options(Options& values) {
   return options;
 }
 
-// Values, and which of them the command line gave; a switch that is on was given.
+// Values, and the fields that the command line gave; a switch that is on was given.
 template <HasFields Options>
 struct Given {
   Options values = {};
-  std::set<std::string> names = {};  // of fields that are no switches
+  std::set<std::string> names = {};  // without switches
 
   bool has(const std::string& field) const { return names.contains(field); }
 };
 
-// Makes one option, which is counted when it is given.
+// Makes one option, which records whether it is given.
 template <HasFields Options, typename V>
 Option given_option(const FieldInfo& info, V& value, Given<Options>& given) {
   Option option = field_option(info, value);
@@ -113,7 +113,7 @@ Option given_option(const FieldInfo& info, V& value, Given<Options>& given) {
   return option;
 }
 
-// Makes the options of all fields and counts which of them are given; `given` outlives them.
+// Makes an option for each field and records which are given; `given` must outlive them.
 template <HasFields Options>
 std::vector<Option> field_options(Given<Options>& given) {
   std::vector<Option> options;
@@ -123,7 +123,7 @@ std::vector<Option> field_options(Given<Options>& given) {
   return options;
 }
 
-// " --norm max --max-degree 80": names and numbers that were given, as they may be typed again.
+// Returns " --norm max --max-degree 80": given names and numbers, as they can be typed again.
 template <HasFields Options>
 std::string given_text(const Given<Options>& given) {
   std::string text;
@@ -139,8 +139,8 @@ std::string given_text(const Given<Options>& given) {
   return text;
 }
 
-// Makes the option of one field, for commands that take some of the options of a struct. `about`
-// stands before its help.
+// Makes the option of one field, for commands that take only some options of a struct. `about`
+// precedes its help.
 template <HasFields Options>
 Option field_option_of(Options& values, const std::string& name, const std::string& about = "") {
   std::optional<Option> found;
@@ -163,7 +163,7 @@ Option field_option_of(Given<Options>& given, const std::string& name,
   return *found;
 }
 
-// Lengths that were given as parts of the diagonal, in the unit of the shape.
+// Converts lengths given as fractions of the diagonal to the unit of the shape.
 template <HasFields Options>
 void scale_lengths(Options& values, double diagonal) {
   for_each_field<Options>([&](auto member, const FieldInfo& info) {
@@ -176,7 +176,7 @@ void scale_lengths(Options& values, double diagonal) {
     }
   });
 }
-// Whether a length was given.
+// Returns true if a length was given.
 template <HasFields Options>
 bool has_lengths(const Options& values) {
   bool has = false;

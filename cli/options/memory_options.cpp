@@ -22,7 +22,7 @@ std::size_t MemoryOptions::limit() const {
   std::size_t limit = pages > 0 && page > 0
                           ? static_cast<std::size_t>(pages) * static_cast<std::size_t>(page)
                           : std::size_t{8} << 30;
-  // Of a container; "max" is no number.
+  // Limit of a container; "max" is no number.
   std::ifstream group("/sys/fs/cgroup/memory.max");
   if (std::size_t allowed = 0; group >> allowed) limit = std::min(limit, allowed);
   return limit;
@@ -46,7 +46,7 @@ void MemoryOptions::keep(const Session& session) const {
 }
 
 std::optional<std::string> MemoryOptions::refusal(double needed) const {
-  // Less than what libraries have beside it is no matter.
+  // Amounts below the libraries' own memory do not matter.
   constexpr double kNoMatter = 16 << 20;
   if (!gib || needed <= static_cast<double>(limit()) + kNoMatter) return {};
   return fmt::format("more memory than the {:.3g} GiB of --max-memory: {} would do", *gib,

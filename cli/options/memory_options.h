@@ -11,29 +11,29 @@
 
 namespace rholm::cli {
 
-// As many threads as work may have.
+// Returns the number of threads that work may use.
 int threads_of(const Context& context);
 
 struct MemoryOptions {
   std::optional<double> gib;
   std::string work_dir;
 
-  // Bytes: what was said, or what the machine has, or a container of it.
+  // Returns the given limit in bytes, or the memory of the machine or its container.
   std::size_t limit() const;
-  // What was said, or where the system has temporary files.
+  // Returns the given folder, or the system's folder for temporary files.
   std::string folder() const;
-  // Keeps to what was said from here on: what goes beyond is refused while it works. In a batch,
-  // whose rows share the process, only by require().
+  // Enforces the given limit from now on: larger allocations fail. In a batch, whose rows share the
+  // process, only require() enforces it.
   void keep(const Session& session) const;
-  // "more memory than the 0.1 GiB of --max-memory: 0.2 would do" if a limit was said and `needed`
-  // bytes are more. `needed` may be an estimate, and is best a little high.
+  // Returns "more memory than the 0.1 GiB of --max-memory: 0.2 would do" if `needed` bytes exceed a
+  // given limit. `needed` may be an estimate, preferably somewhat high.
   std::optional<std::string> refusal(double needed) const;
-  // Throws OutOfMemory "`what` needs more memory than ..." then. Work that is let pass and comes to
-  // the limit all the same is told that `most` bytes would do, by default a quarter more.
+  // Throws OutOfMemory "`what` needs more memory than ..." in this case. If accepted work still
+  // hits the limit, its message says that `most` bytes would do, by default a quarter more.
   void require(double needed, const std::string& what, double most = 0) const;
 };
 Option max_memory_option(MemoryOptions& options);
-// Both.
+// Returns both options.
 std::vector<Option> memory_options(MemoryOptions& options);
 
 }  // namespace rholm::cli

@@ -9,14 +9,14 @@
 
 namespace rholm::cli {
 
-// "--NAME R", required, as often as wanted.
+// Option "--NAME R", required, which may be repeated.
 Option region_option(const std::string& name, const std::string& help,
                      std::vector<std::string>& texts);
 
-// Of texts that the option has checked.
+// Parses texts that the option has checked.
 std::vector<Region> parse_regions(const std::vector<std::string>& texts);
 
-// What a region may be, for the descriptions of commands.
+// Forms of a region, for the descriptions of commands.
 inline constexpr const char* kRegionHelp =
     "A region is ball:X,Y,Z,RADIUS; vertex:INDEX,RADIUS, a disc along the surface around a vertex "
     "(counted from 0); box:X0,Y0,Z0,X1,Y1,Z1; color:RRGGBB, vertices painted so in another "

@@ -1,4 +1,4 @@
-// "--simplify": fewer triangles for the same surface. Layer: cli.
+// "--simplify": fewer faces for the same surface. Layer: cli.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@ namespace rholm::cli {
 
 inline constexpr const char* kNotSimplified = "none";
 
-// "--simplify auto|N|P%|none". `by_default` says in the help what is done without it.
+// Option "--simplify auto|N|P%|none". `by_default` describes the default in the help.
 Option simplify_option(std::string& text,
                        const char* by_default = "none, the default, leaves it whole");
 
-// Throws UsageError, naming the option as it is typed, for what it may not be.
+// Parses a value. Throws UsageError with the option as typed for a wrong one.
 std::optional<SimplifyOptions> parse_simplify(const std::string& option, const std::string& text);
 
 }  // namespace rholm::cli

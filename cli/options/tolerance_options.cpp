@@ -13,7 +13,7 @@ std::optional<Tolerance> ToleranceOptions::parsed() const {
   }
   Tolerance result = rest.values;
   result.error = *tolerance;
-  // The diagonal is a size of the object in space, the mean radius one of the function.
+  // The diagonal measures the body in space; the mean radius measures the function.
   if (result.unit == ToleranceUnit::kDiagonal && !rest.has("measure")) {
     result.measure = ErrorMeasure::kDistance;
   }

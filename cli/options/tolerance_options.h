@@ -1,4 +1,4 @@
-// "--tolerance E" and what it means. Layer: cli.
+// "--tolerance E" and its interpretation. Layer: cli.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,13 @@ namespace rholm::cli {
 
 struct ToleranceOptions {
   std::optional<double> tolerance;
-  Given<Tolerance> rest;  // but the error itself
+  Given<Tolerance> rest;  // without the error itself
 
-  // None without --tolerance. Throws UsageError for options that do not go together.
+  // Returns nothing without --tolerance. Throws UsageError for incompatible options.
   std::optional<Tolerance> parsed() const;
 };
 
-// --tolerance, --unit, --norm, --measure, --max-degree.
+// Returns --tolerance, --unit, --norm, --measure, --max-degree.
 std::vector<Option> tolerance_options(ToleranceOptions& options);
 
 }  // namespace rholm::cli

@@ -15,8 +15,8 @@
 namespace rholm::cli {
 namespace {
 
-// Starts a program that nobody waits for: a child of a child, which the system takes over. False if
-// there is no such program.
+// Starts a program as a child of a child, which the system adopts, so that nobody waits for it.
+// Returns false if the program does not exist.
 bool start(const char* program, const std::string& argument) {
   int report[2] = {};
   if (::pipe2(report, O_CLOEXEC) != 0) return false;
@@ -34,7 +34,7 @@ bool start(const char* program, const std::string& argument) {
   }
   ::close(report[1]);
   char failed = 0;
-  // Ends without a byte when the program has begun.
+  // The pipe ends without a byte if the program has started.
   const bool begun = child > 0 && ::read(report[0], &failed, 1) == 0;
   ::close(report[0]);
   if (child > 0) ::waitpid(child, nullptr, 0);

@@ -9,12 +9,12 @@
 
 namespace rholm::cli {
 
-// Opens an address in the browser that the desktop has chosen (xdg-open). The address does not
-// stand in the list of processes, which all users can read: the browser is given a file that leads
-// there, which only this user can read and which goes with the object.
+// Opens an address in the desktop's browser (xdg-open). The list of processes, which all users can
+// read, does not show the address: the browser gets a file that redirects to it. Only this user can
+// read the file, and it is removed with the object.
 class Browser {
  public:
-  // Below the folder for temporary files. Opens nothing where that cannot be done; see opened().
+  // Puts the file below the folder for temporary files. Does nothing if that fails; see opened().
   Browser(const std::string& address, const std::filesystem::path& temporary);
   bool opened() const { return opened_; }
 

@@ -17,18 +17,18 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMostHead = std::size_t{32} << 10;  // bytes; chosen: browsers send one or two
-constexpr auto kHeadTime = 10s;  // for all of it, chosen: browsers send it at once
-// Chosen: where too many wait, one that is older goes for one that is new. Pages have sent all of
-// it by then on a busy machine, too.
+constexpr auto kHeadTime = 10s;  // for the whole head; chosen: browsers send it at once
+// Age from which a waiting connection makes room for a new one if too many wait. Chosen: pages have
+// sent the whole head by then, even on a busy machine.
 constexpr auto kLeastTime = 1s;
 
-// Where a line without letters ends the head; npos if none does yet.
+// Returns the end of the head, which is an empty line; npos if it has not arrived.
 std::size_t end_of_head(std::string_view bytes) {
   const std::size_t at = bytes.find("\n\r\n");
   return at == std::string_view::npos ? at : at + 3;
 }
 
-// "/a/b" of "GET /a/b HTTP/1.1".
+// Returns "/a/b" for "GET /a/b HTTP/1.1".
 std::string_view target_of(std::string_view head) {
   const std::string_view line = head.substr(0, head.find('\r'));
   const std::size_t begin = line.find(' ');
@@ -62,7 +62,7 @@ void Connections::add(int socket) {
   room_.wait(lock, [this] { return closing_ || !is_full(); });
   if (closing_) return hang_up(socket);
   waiting_.push_back({.socket = socket, .since = Clock::now(), .head = {}});
-  // A pipe that is full wakes as well.
+  // A full pipe wakes the thread as well.
   (void)!::write(wake_[1], "", 1);
 }
 
@@ -99,7 +99,7 @@ void Connections::watch() {
     }
     lock.lock();
     if (closing_) return;
-    // Connections that came meanwhile stand behind those that were polled.
+    // Connections that arrived since stand behind the polled ones.
     auto one = waiting_.begin();
     for (std::size_t i = 1; i < polled.size(); ++i) {
       const auto next = std::next(one);
@@ -128,7 +128,7 @@ bool Connections::look_at(Waiting& one) {
       work_.notify_one();
       return false;
     }
-    // It fits into what the system keeps; if not, nobody waits for it.
+    // The answer fits into the system's buffer; otherwise it is dropped.
     (void)::send(one.socket, options_.refusal.data(), options_.refusal.size(),
                  MSG_DONTWAIT | MSG_NOSIGNAL);
     break;

@@ -1,9 +1,9 @@
-// Connections from their beginning to their end: who may come in, and what becomes of them when all
-// ends. Layer: cli.
+// Connections from accept to close: admission of requests, and shutdown.
+// Layer: cli.
 //
-// A connection waits until its request line and headers are there; no worker waits for it. A
-// request without the token is answered by the thread that waits for all connections, so that all
-// workers are there for requests with the token.
+// A connection waits until its request line and headers have arrived; no worker waits for it. The
+// thread that watches all connections answers requests without the token, so that all workers are
+// free for requests with the token.
 #pragma once
 
 #include <chrono>
@@ -24,11 +24,11 @@ class Connections {
  public:
   struct Options {
     std::size_t workers = 1;
-    // Whether the target of a request line has the token; called by one thread.
+    // Returns true if the target of a request line has the token; called by one thread.
     std::function<bool(std::string_view target)> may_ask;
-    // The answer to all others, bytes of HTTP.
+    // The answer to all other requests, as bytes of HTTP.
     std::string refusal;
-    // Answers; `head` are the bytes that have been read. Called by the workers. The socket is
+    // Answers a request; `head` holds the bytes read so far. Called by the workers. The socket is
     // closed afterwards.
     std::function<void(int socket, std::string head)> serve;
   };
@@ -38,9 +38,9 @@ class Connections {
   Connections(const Connections&) = delete;
   Connections& operator=(const Connections&) = delete;
 
-  // Takes a socket; waits while there are too many. Closes it if all has ended.
+  // Takes a socket; waits while there are too many. Closes it after close().
   void add(int socket);
-  // Hangs up on everybody, and waits for the workers, whose reads and writes end.
+  // Closes all connections, and waits for the workers, whose reads and writes end.
   void close();
 
  private:
@@ -53,19 +53,19 @@ class Connections {
 
   void watch();
   void work();
-  // Whether it waits on.
+  // Returns true if the connection keeps waiting.
   bool look_at(Waiting& one);
   void drop_late(Clock::time_point now);
   bool is_full() const { return waiting_.size() + ready_.size() >= kMostWaiting; }
 
-  // Requests that are ready make room by themselves.
+  // Only incomplete requests count: complete ones leave the queue on their own.
   bool is_crowded() const { return waiting_.size() >= kMostWaiting / 2; }
 
-  static constexpr std::size_t kMostWaiting = 256;  // chosen: what a limit of 1024 files allows
+  static constexpr std::size_t kMostWaiting = 256;  // chosen: within a limit of 1024 files
 
   const Options options_;
   int wake_[2] = {-1, -1};
-  std::mutex mutex_;  // of all that follows
+  std::mutex mutex_;  // protects all members below
   std::condition_variable room_, work_;
   std::list<Waiting> waiting_;  // oldest first
   std::deque<Waiting> ready_;

@@ -12,7 +12,7 @@
 namespace rholm::cli {
 namespace {
 
-constexpr std::size_t kMaxFiles = 2000;  // chosen: a wrong folder is not read whole
+constexpr std::size_t kMaxFiles = 2000;  // chosen: prevents reading all of a wrong folder
 
 constexpr const char* kNoPage =
     "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>rholm studio</title>"

@@ -1,4 +1,4 @@
-// The files that the browser shows. Layer: cli.
+// The files of the studio's page. Layer: cli.
 #pragma once
 
 #include <map>
@@ -11,15 +11,15 @@ struct PageFile {
   std::string type;  // "text/javascript"
   std::shared_ptr<const std::string> bytes;
 };
-// By their names below the address: "index.html", "assets/main.js".
+// Files by name below the address: "index.html", "assets/main.js".
 using Page = std::map<std::string, PageFile>;
 
-// All files of a folder that has an index.html, read once: nothing else can be asked for. Throws Io
-// for a folder that has none, or more than a page has.
+// Reads all files of a folder that has an index.html, once: no other file can be requested. Throws
+// Io for a folder without one, or with more files than a page has.
 Page read_page(const std::string& folder);
 
-// The page that is installed with the program, or that of the sources it was built from; where
-// there is neither, one that says how to get it.
+// Returns the page installed with the program, or of its source tree; if both are missing, a page
+// that tells how to get it.
 Page own_page();
 
 }  // namespace rholm::cli

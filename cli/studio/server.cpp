@@ -30,18 +30,18 @@ namespace {
 using HttpRequest = httplib::Request;
 using HttpResponse = httplib::Response;
 
-constexpr int kThreads = 64;     // chosen: an open page holds one for its events, a request one
-constexpr int kMaxStreams = 40;  // chosen: the rest of them answer
-// Bytes of a body; chosen. A body that does not say its length may have this many. For a longer one
-// the memory is taken once this many bytes have come.
+constexpr int kThreads = 64;     // chosen: an open page holds one for events, a request holds one
+constexpr int kMaxStreams = 40;  // chosen: the other threads answer requests
+// Bytes of a body; chosen. A body without a stated length may have at most this many. For a longer
+// one, memory is allocated after this many bytes have arrived.
 constexpr std::uint64_t kUnproved = std::uint64_t{64} << 20;
-// Bytes of JSON; chosen: a number in it takes up to 16 times its text. Those above are read one by
-// one.
+// Bytes of JSON; chosen: a number in it takes up to 16 times its text. Larger bodies are read one
+// at a time.
 constexpr std::size_t kSmallJson = std::size_t{1} << 20;
-constexpr auto kIdle = std::chrono::seconds(30);  // of a request or an answer that does not move
-constexpr int kKept = 1 << 20;  // bytes of a heap; chosen: what a look allocates, and no more
-constexpr auto kBeat = std::chrono::seconds(10);         // of streams with nothing to say
-constexpr auto kLook = std::chrono::milliseconds(1000);  // how soon a stream notices that all ends
+constexpr auto kIdle = std::chrono::seconds(30);  // for a request or answer without progress
+constexpr int kKept = 1 << 20;                    // bytes of a heap; chosen: memory of one poll
+constexpr auto kBeat = std::chrono::seconds(10);  // for streams without events
+constexpr auto kLook = std::chrono::milliseconds(1000);  // time in which a stream notices the end
 
 const httplib::Headers& safe_headers() {
   static const httplib::Headers kHeaders = {
@@ -54,27 +54,27 @@ const httplib::Headers& safe_headers() {
   return kHeaders;
 }
 
-// The answer to every request without the token has no body.
+// Returns the answer to every request without the token, which has no body.
 std::string not_found() {
   std::string text = "HTTP/1.1 404 Not Found\r\nConnection: close\r\nContent-Length: 0\r\n";
   for (const auto& [name, value] : safe_headers()) text += fmt::format("{}: {}\r\n", name, value);
   return text + "\r\n";
 }
 
-// A connection as the library reads and writes it. Nothing is waited for longer than kIdle.
+// A connection that the library reads and writes. No wait is longer than kIdle.
 class Connection : public httplib::Stream {
  public:
-  // Reads `most` bytes at most.
+  // Reads at most `most` bytes.
   Connection(int socket, std::string head, std::uint64_t most)
       : socket_(socket), buffer_(std::move(head)), most_(most) {}
 
   bool is_readable() const override { return read_ < buffer_.size() || is_ready(POLLIN, 0); }
   bool is_writable() const override {
     if (!is_ready(POLLOUT, 0)) return false;
-    char byte = 0;  // a browser that has gone can be read, to its end
+    char byte = 0;  // a closed connection is readable, up to its end
     return !is_ready(POLLIN, 0) || ::recv(socket_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0;
   }
-  // The library reads lines byte by byte: they come from a buffer.
+  // The library reads lines byte by byte, so reads come from a buffer.
   ssize_t read(char* bytes, std::size_t n) override {
     if (read_ == buffer_.size()) {
       if (!is_ready(POLLIN, kIdleMilliseconds)) return -1;
@@ -111,11 +111,11 @@ class Connection : public httplib::Stream {
   const int socket_;
   std::string buffer_;
   const std::uint64_t most_;
-  std::size_t read_ = 0;   // of the buffer
-  std::uint64_t all_ = 0;  // bytes that have been read
+  std::size_t read_ = 0;   // position in the buffer
+  std::uint64_t all_ = 0;  // number of bytes read
 };
 
-// Whether a line of the head begins with that name, in small letters.
+// Returns true if a line of the head begins with that lower-case name.
 bool has_header(std::string_view head, std::string_view name) {
   const auto is_same_letter = [](char a, char b) {
     return b == std::tolower(static_cast<unsigned char>(a));
@@ -128,11 +128,11 @@ bool has_header(std::string_view head, std::string_view name) {
   return false;
 }
 
-// Hands each connection to `on_connection`; answer() serves one whose head has been read.
+// Hands each connection to `on_connection`; answer() serves a connection whose head has been read.
 class Server : public httplib::Server {
  public:
   Server() {
-    // The thread that accepts only gives them away.
+    // The accepting thread only hands connections on.
     struct AtOnce : httplib::TaskQueue {
       void enqueue(std::function<void()> give_away) override { give_away(); }
       void shutdown() override {}
@@ -142,7 +142,7 @@ class Server : public httplib::Server {
   std::function<void(int socket)> on_connection;
 
   void answer(int socket, std::string head) {
-    // The library keeps what stands around the pieces of a body, however long that is.
+    // The library keeps the text between chunks of a body, however long it is.
     const bool in_pieces = has_header(head, "transfer-encoding");
     Connection connection(socket, std::move(head),
                           in_pieces ? 2 * kUnproved : std::numeric_limits<std::uint64_t>::max());
@@ -157,8 +157,8 @@ class Server : public httplib::Server {
   }
 };
 
-// Otherwise the allocator learns from large arrays to keep as much at the end of every heap, and
-// threads have heaps of their own.
+// Keeps little freed memory. By default the allocator learns from large arrays to keep as much at
+// the end of every heap, and each thread has a heap.
 void keep_little_memory() {
 #ifdef __GLIBC__
   ::mallopt(M_MMAP_THRESHOLD, kKept);
@@ -166,7 +166,8 @@ void keep_little_memory() {
 #endif
 }
 
-// By a provider, so that the library does not compress it: nothing leaves this machine.
+// Sets the body by a provider, so that the library does not compress it: nothing leaves this
+// machine.
 void set_body(HttpResponse& response, std::shared_ptr<const std::string> body,
               const std::string& type) {
   if (body->empty()) {
@@ -198,8 +199,8 @@ void refuse(HttpResponse& response, int status, const std::string& code, const s
            "application/json");
 }
 
-// A page of somebody else that makes the browser ask. Who types the address, or follows a link to
-// the page itself, is welcome.
+// Returns true for a request that another site's page causes. A typed address or a link to the page
+// itself is accepted.
 bool is_foreign(const HttpRequest& request, bool is_page) {
   const std::string site = request.get_header_value("Sec-Fetch-Site");
   if (site.empty() || site == "same-origin" || site == "none") return false;
@@ -234,7 +235,7 @@ class StudioServer::Parts {
                       "or it may not be used; leave out --port for one that is free",
                       options.port));
     }
-    // The library lets five wait, and more that come at once are hung up on.
+    // The library's queue holds five connections, and closes further ones that arrive at once.
     ::listen(listening_, SOMAXCONN);
     hosts_[0] = fmt::format("127.0.0.1:{}", port);
     hosts_[1] = fmt::format("localhost:{}", port);
@@ -256,7 +257,7 @@ class StudioServer::Parts {
     stopping_ = true;
     studio_.close();
     connections_.close();
-    // A server that has not begun yet cannot be stopped, and would never end.
+    // A server that has not started yet cannot be stopped, and would never end.
     while (!server_.is_running() && !ended)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     server_.stop();
@@ -267,13 +268,13 @@ class StudioServer::Parts {
   static constexpr auto kPause = std::chrono::milliseconds(100);
 
   void set_up() {
-    ::signal(SIGPIPE, SIG_IGN);  // of connections whose browser has gone
+    ::signal(SIGPIPE, SIG_IGN);  // from connections whose browser has gone
     keep_little_memory();
     server_.on_connection = [this](int socket) { connections_.add(socket); };
     server_.set_default_headers(safe_headers());
     server_.set_payload_max_length(max_upload_);
     server_.set_tcp_nodelay(true);
-    // Without the library's SO_REUSEPORT, by which another program could share the port.
+    // Without the library's SO_REUSEPORT, which would let another program share the port.
     server_.set_socket_options([this](socket_t socket) {
       const int yes = 1;
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -298,12 +299,12 @@ class StudioServer::Parts {
                      const httplib::ContentReader& read) { answer_post(request, response, read); });
   }
 
-  // The path below the token.
+  // Returns the path below the token.
   std::string below(const HttpRequest& request) const {
     return request.path.substr(token_.size() + 2);
   }
 
-  // Bytes of a body for a path.
+  // Returns the largest number of bytes of a body for a path.
   std::uint64_t most_of(const HttpRequest& request) const {
     const bool is_file = request.method == "POST" && below(request) == "api/file";
     if (is_file) return max_upload_;
@@ -318,14 +319,14 @@ class StudioServer::Parts {
                : fmt::format("the body of a request may have at most {} bytes", most_of(request)));
   }
 
-  // Whether the target of a request line is below the token.
+  // Returns true if the target of a request line is below the token.
   bool has_token(std::string_view target) const {
     const std::size_t n = token_.size();
     return target.size() >= n + 2 && target[0] == '/' && target[n + 1] == '/' &&
            is_same(target.substr(1, n), token_);
   }
 
-  // Before a body is read.
+  // Checks a request before its body is read.
   bool may_ask(const HttpRequest& request, HttpResponse& response) const {
     if (!has_token(request.path)) {
       response.status = 404;
@@ -361,7 +362,7 @@ class StudioServer::Parts {
     set_body(response, file->second.bytes, file->second.type);
   }
 
-  // Bodies are counted while they come, all that come at once together.
+  // Counts bodies while they arrive; the limit applies to all of them together.
   void answer_post(const HttpRequest& request, HttpResponse& response,
                    const httplib::ContentReader& read) {
     if (request.is_multipart_form_data()) {
@@ -446,7 +447,7 @@ class StudioServer::Parts {
   socket_t listening_ = INVALID_SOCKET;
   std::atomic<bool> stopping_{false};
   std::atomic<int> streams_{0};
-  std::atomic<std::uint64_t> arriving_{0};  // bytes of bodies, until they are answered
+  std::atomic<std::uint64_t> arriving_{0};  // bytes of bodies that are not answered yet
   std::mutex large_json_;
   Server server_;
   Connections connections_{

@@ -1,4 +1,4 @@
-// The studio for a browser of this machine. Layer: cli.
+// Serves the studio to a browser on this machine. Layer: cli.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,12 @@
 namespace rholm::cli {
 
 struct ServerOptions {
-  int port = 0;                // 0: one that is free
-  std::size_t max_upload = 0;  // bytes of a body
+  int port = 0;                // 0: any free port
+  std::size_t max_upload = 0;  // largest body in bytes
 };
 
-// Listens on 127.0.0.1 only, from its construction on. Everything is below an address with a random
-// token in it; without the token there is nothing, and requests of other pages are refused.
+// Listens on 127.0.0.1 only, from construction on. All addresses contain a random token; requests
+// without it and requests from other pages are refused.
 class StudioServer {
  public:
   // Throws Io if the port is taken.
@@ -27,7 +27,7 @@ class StudioServer {
   StudioServer& operator=(const StudioServer&) = delete;
 
   const std::string& address() const;  // "http://127.0.0.1:PORT/TOKEN/"
-  // Serves until `stop` returns true, which is asked ten times a second; then ends all sessions.
+  // Serves until `stop`, called ten times a second, returns true; then ends all sessions.
   void run(const std::function<bool()>& stop);
 
  private:

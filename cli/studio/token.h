@@ -1,4 +1,4 @@
-// What an address must have in it. Layer: cli.
+// The secret part of an address. Layer: cli.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace rholm::cli {
 
-// 32 hexadecimal digits of the system's randomness. Throws Io where there is none.
+// Returns 32 random hexadecimal digits from the system. Throws Io if it has none.
 std::string random_token();
 
-// In a time that does not tell how much of them is equal.
+// Compares in a time that does not depend on how many characters are equal.
 bool is_same(std::string_view a, std::string_view b);
 
 }  // namespace rholm::cli

@@ -9,10 +9,10 @@
 namespace rholm::cli {
 namespace {
 
-// Only calls that are safe in a signal handler.
+// Calls only functions that are safe in a signal handler.
 void on_bus_error(int signal, siginfo_t* info, void*) {
   discard_unfinished_files();
-  if (info->si_code != BUS_ADRERR) {  // not a page behind the end of a file: a fault of ours
+  if (info->si_code != BUS_ADRERR) {  // not beyond the end of a file: a defect of the program
     ::signal(signal, SIG_DFL);
     ::raise(signal);
     return;
@@ -20,7 +20,7 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
   constexpr char kMessage[] =
       "rholm: error: the file was shortened while it was read: wait until the program that writes "
       "it is done, then try again\n";
-  // There is nobody to tell if this fails.
+  // A failure of this write cannot be reported.
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kMessage, sizeof(kMessage) - 1);
   _exit(kRefused);
 }

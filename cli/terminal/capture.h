@@ -1,7 +1,7 @@
-// Where what a command says goes: to the streams of the program, or to who listens. Layer: cli.
+// Destination of a command's output: the program's streams, or a listener. Layer: cli.
 //
-// Commands print by print_text() and Session. A Capture takes all of it, on its own thread only, so
-// that several threads can run commands at once.
+// Commands print by print_text() and Session. A Capture takes all output of its own thread, so that
+// several threads can run commands at once.
 #pragma once
 
 #include <optional>
@@ -14,22 +14,22 @@ namespace rholm::cli {
 
 class Capture {
  public:
-  // From here on, until it ends. Of several on one thread the last counts.
+  // Starts the capture, which its destructor ends. Only the latest of several on a thread counts.
   Capture();
   ~Capture();
   Capture(const Capture&) = delete;
   Capture& operator=(const Capture&) = delete;
 
-  std::string report;                  // for standard output
-  std::vector<std::string> notes;      // of Session::note()
-  std::vector<std::string> warnings;   // of Session::warn()
-  std::optional<Expansion> expansion;  // the last one that was written
+  std::string report;                  // text for standard output
+  std::vector<std::string> notes;      // from Session::note()
+  std::vector<std::string> warnings;   // from Session::warn()
+  std::optional<Expansion> expansion;  // last expansion written
 
  private:
   Capture* outer_;
 };
 
-// That of this thread, or null.
+// Returns the capture of this thread, or null.
 Capture* capture();
 
 }  // namespace rholm::cli

@@ -1,4 +1,4 @@
-// What the program returns, beside the codes of interruption (128 + signal). Layer: cli.
+// Exit codes of the program, besides the codes for interruption (128 + signal). Layer: cli.
 #pragma once
 
 namespace rholm::cli {

@@ -1,4 +1,4 @@
-// JSON of results by their fields. Layer: cli.
+// JSON of results, from their fields. Layer: cli.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace rholm::cli {
 template <HasFields T>
 Json json_of_fields(const T& result);
 
-// A value of any kind that a field may have.
+// Converts a value of any type that a field may have.
 template <typename V>
 Json json_of_value(const V& value) {
   if constexpr (kIsOptional<V>) {
@@ -42,7 +42,7 @@ Json json_of_value(const V& value) {
   }
 }
 
-// The key of a field in JSON, where triangles are called faces.
+// Returns the key of a field in JSON, where triangles are called faces.
 inline std::string key_of(const FieldInfo& info) {
   std::string key = info.name;
   constexpr std::string_view kOurs = "triangles";
@@ -52,7 +52,7 @@ inline std::string key_of(const FieldInfo& info) {
   return key;
 }
 
-// {"field": value, ...} in the order of the list.
+// Returns {"field": value, ...} in the order of the list.
 template <HasFields T>
 Json json_of_fields(const T& result) {
   Json json = Json::object();

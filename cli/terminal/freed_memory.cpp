@@ -26,7 +26,7 @@ std::atomic<std::size_t> limit_in_force = 0;  // 0: none
 std::atomic<double> enough_memory = 0;
 
 #if defined(RLIMIT_DATA) && !defined(RHOLM_SANITIZED)
-// A line of /proc/self/status, in bytes; 0 where there is none.
+// Returns a line of /proc/self/status, in bytes; 0 if it is missing.
 std::size_t own_memory(const std::string& name) {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
@@ -37,9 +37,9 @@ std::size_t own_memory(const std::string& name) {
 }
 
 void limit_data(std::size_t bytes, int threads) {
-  // The system counts what may be written, touched or not: room for the stacks of threads, which
-  // stay all but empty, is added. Chosen: 26 MiB for what libraries have beside the arrays.
-  constexpr std::size_t kStack = std::size_t{4} << 20;  // of the threads of oneTBB
+  // The system counts writable memory, touched or not. Room for the stacks of threads, which are
+  // almost empty, is therefore added. Chosen: 26 MiB for memory of libraries besides arrays.
+  constexpr std::size_t kStack = std::size_t{4} << 20;  // stack size of oneTBB's threads
   constexpr std::size_t kBeside = std::size_t{26} << 20;
   const std::size_t untouched =
       own_memory("VmData") - std::min(own_memory("VmData"), own_memory("RssAnon"));
@@ -67,17 +67,17 @@ void keep_freed_memory() {
 void start_on_huge_pages() {
 #if defined(__GLIBC__) && defined(MADV_HUGEPAGE)
   constexpr std::size_t kHugePage = std::size_t{1} << 21;
-  constexpr int kRoom = 64 << 20;  // chosen: a report of Bennu has little more at a time
-  // The heap grows by that much more than is asked for; nothing of it is touched.
+  constexpr int kRoom = 64 << 20;  // chosen: a report of Bennu needs little more at once
+  // The heap grows by this amount more than requested, without touching it.
   mallopt(M_TOP_PAD, kRoom);
   auto* const first = static_cast<std::byte*>(std::malloc(kHugePage));
   if (first == nullptr) return;
   std::byte* const begin = first + kHugePage - reinterpret_cast<std::uintptr_t>(first) % kHugePage;
   auto* const end = static_cast<std::byte*>(sbrk(0));
-  // A wish that may be refused without harm.
+  // A hint, which the system may ignore without harm.
   if (begin < end) madvise(begin, static_cast<std::size_t>(end - begin), MADV_HUGEPAGE);
   std::free(first);
-  mallopt(M_TOP_PAD, 128 << 10);  // as it is by default
+  mallopt(M_TOP_PAD, 128 << 10);  // the default
 #endif
 }
 
@@ -92,7 +92,7 @@ void keep_large_freed_memory() {
 void limit_memory(std::size_t bytes, int threads) {
   limit_in_force = bytes;
 #ifdef __GLIBC__
-  constexpr int kReturned = 1 << 20;  // chosen: arrays from there on are mapped, and unmapped
+  constexpr int kReturned = 1 << 20;  // chosen: larger arrays are mapped and unmapped
   mallopt(M_MMAP_THRESHOLD, kReturned);
   mallopt(M_TRIM_THRESHOLD, kReturned);
   malloc_trim(0);

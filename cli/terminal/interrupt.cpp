@@ -17,22 +17,22 @@ std::atomic<std::uint64_t> questions = 0;
 std::atomic<std::uint64_t> last_question = std::numeric_limits<std::uint64_t>::max();
 static_assert(std::atomic<int>::is_always_lock_free, "used in a signal handler");
 
-// Exit codes of shells: 128 + signal, 130 for SIGINT.
+// Exits with the code that shells use: 128 + signal, 130 for SIGINT.
 void on_stop(int signal) {
   if (caught_signal.exchange(signal) == 0) return;
   discard_unfinished_files();
   _exit(128 + signal);
 }
 
-// A reader that went away (rholm ... | head): leave silently, as programs do, but leave no litter.
+// Ends silently if the reader of a pipe has gone (rholm ... | head), and removes unfinished files.
 void on_broken_pipe(int signal) {
   discard_unfinished_files();
   ::signal(signal, SIG_DFL);
   ::raise(signal);
 }
 
-// Without SA_RESTART, so that a read from a terminal or a pipe ends. A signal that the parent
-// chose to ignore (nohup, a background job) stays ignored.
+// Installs a handler without SA_RESTART, so that a read from a terminal or a pipe ends. A signal
+// that the parent ignores (nohup, a background job) stays ignored.
 void install(int signal, void (*handler)(int)) {
   struct sigaction old = {};
   if (sigaction(signal, nullptr, &old) == 0 && old.sa_handler == SIG_IGN) return;
@@ -45,12 +45,12 @@ void install(int signal, void (*handler)(int)) {
 }  // namespace
 
 void install_signal_handlers() {
-  // What users, schedulers and limits of processor time send to end a program.
+  // Signals that users, schedulers and limits of processor time send to end a program.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2}) {
     install(signal, on_stop);
   }
   install(SIGPIPE, on_broken_pipe);
-  // A write beyond the limit of file sizes fails like one on a full disk.
+  // A write beyond the limit of file sizes fails as on a full disk.
   install(SIGXFSZ, SIG_IGN);
 }
 

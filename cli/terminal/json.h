@@ -1,4 +1,4 @@
-// What all JSON of the program begins with. Layer: cli.
+// Common definitions for all JSON of the program. Layer: cli.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -16,8 +16,8 @@ const char* name_of(ScalarType type) {
   return kNames[static_cast<int>(type)];
 }
 
-// The same JSON without what a terminal would take for a command. Outside of strings, where an
-// escape is not allowed, nothing of that kind stands but ends of lines.
+// Returns the JSON without control sequences of terminals. Outside of strings, where escapes are
+// not allowed, JSON has no control characters except line ends.
 std::string shown_json(std::string_view json) {
   std::string shown;
   while (!json.empty()) {
@@ -82,7 +82,7 @@ Json json_of(const FastReport& fast) {
 }
 
 void print_json(const Json& json) {
-  // Names of files may hold any bytes: those that are not UTF-8 are replaced.
+  // Names of files may hold any bytes; bytes that are not UTF-8 are replaced.
   print_exactly(shown_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n");
 }
 

@@ -1,11 +1,11 @@
-// What the program is called, in all that it says. Layer: cli.
+// Name of the program in all messages. Layer: cli.
 #pragma once
 
 #include <string>
 
 namespace rholm::cli {
 
-// "rholm", unless set_program_name() gave another one, before there are threads.
+// Returns "rholm", unless set_program_name() set another name, before threads start.
 const std::string& program_name();
 void set_program_name(const std::string& value);
 

@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kBarDelay = 500ms;     // chosen: a shorter run needs no bar
-constexpr auto kBarInterval = 100ms;  // chosen: smooth to the eye, cheap for the terminal
+constexpr auto kBarInterval = 100ms;  // chosen: looks smooth, costs little
 constexpr int kBarLength = 30;
 
 bool environment_has(const char* name) {
@@ -34,7 +34,7 @@ bool stderr_is_terminal() {
 
 bool colours() { return stderr_is_terminal() && !environment_has("NO_COLOR"); }
 
-// "rholm: error: text", the second part in a colour of the terminal.
+// Prints "rholm: error: text", with the second part in a colour of the terminal.
 void print_message(const char* kind, const char* colour, const std::string& text) {
   const std::string label =
       colours() ? fmt::format("\x1b[{}m{}:\x1b[0m", colour, kind) : fmt::format("{}:", kind);

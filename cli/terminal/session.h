@@ -1,4 +1,4 @@
-// One run of a command: how it talks to the user and to the library. Layer: cli.
+// One run of a command: its output to the user and its Context for the library. Layer: cli.
 #pragma once
 
 #include <chrono>
@@ -11,22 +11,22 @@
 
 namespace rholm::cli {
 
-// What every command can be told.
+// Options of every command.
 struct CommonOptions {
   int threads = 0;  // 0: one per processor
   bool quiet = false;
 };
 
-// Text may hold names and words of files. All functions but print_exactly() escape what a terminal
-// would take for a command (escaped_text() in base/plain_text.h).
+// Text may contain names and words from files. All functions except print_exactly() escape control
+// sequences of terminals (escaped_text() in base/plain_text.h).
 
 // Writes a report to standard output, or to the Capture of this thread (capture.h).
 void print_text(const std::string& text);
-// Writes what programs read, as it is.
+// Writes text for programs, unchanged.
 void print_exactly(const std::string& text);
 
-// Text on standard error. Colours only on a terminal and without NO_COLOR. Lines behind the first
-// are set in, so that no name in a message can look like another message.
+// Print on standard error, in colours only on a terminal without NO_COLOR. Lines after the first
+// are indented, so that no name in a message can imitate another message.
 void print_error(const std::string& message);
 void print_note(const std::string& message);
 
@@ -37,13 +37,13 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  // Threads, the progress bar, and the question whether to stop.
+  // Returns threads, progress bar and cancellation.
   const Context& context() const { return context_; }
 
-  // Standard error, unless --quiet: what the user may want to know, and what they should know.
+  // Print on standard error, unless --quiet: useful information, and warnings.
   void note(const std::string& message);
   void warn(const std::string& message);
-  // Standard output, unless --quiet: what a command that writes a file tells beside it.
+  // Prints on standard output, unless --quiet: the report of a command that writes a file.
   void report(const std::string& text);
 
  private:
@@ -53,11 +53,11 @@ class Session {
   CommonOptions options_;
   Context context_;
   bool bar_wanted_ = false;
-  std::size_t bar_width_ = 0;  // letters of the bar on the screen now
+  std::size_t bar_width_ = 0;  // characters of the visible bar
   std::chrono::steady_clock::time_point bar_due_;
 };
 
-// Wall and processor time since it was made.
+// Wall and processor time since construction.
 class Stopwatch {
  public:
   StageTime elapsed() const;

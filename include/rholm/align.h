@@ -1,10 +1,10 @@
-// Turning one function on the sphere onto another. Layer: harmonic.
+// Rotations that turn one function on the sphere onto another. Layer: harmonic.
 //
-// The rotation sought has the largest correlation, equivalently the smallest distance
+// align() finds the rotation with the largest correlation, equivalently the smallest distance
 //   |R a - b|^2 = |a|^2 + |b|^2 - 2 <R a, b>,
-// all by Parseval's identity from coefficients. Degree 0 does not turn and is in the distance only.
-// Functions are compared as they are; the same body seen from another point is another function.
-// For surfaces, align() of expansions sees to that.
+// computed from coefficients by Parseval's identity. Degree 0 does not turn, so it counts in the
+// distance only. Functions are compared as given: the same body about another centre is another
+// function. align() of expansions takes the centres into account.
 #pragma once
 
 #include <array>
@@ -18,46 +18,46 @@
 
 namespace rholm {
 
-// The axes of the quadratic form u^T Q u that the coefficients of degree 2 are: of a radius those
-// of its ellipsoid-like part, longest first. They depend on the centre of the expansion, and on no
-// other degree: the axes of inertia of the solid, of inertia(), are near them but not the same.
+// Principal axes of the quadratic form u^T Q u of the degree-2 coefficients, longest axis first.
+// For a radius they are the axes of its ellipsoid-like part. They depend on the centre and on
+// degree 2 only; the axes of inertia from inertia() are near them but not the same.
 struct PrincipalAxes {
   std::array<Vec3, 3> axes;      // right-handed, orthonormal
-  std::array<double, 3> values;  // of the form, descending; their sum is 0
+  std::array<double, 3> values;  // values of the form along the axes, descending; their sum is 0
   Rotation to_axes;              // turns axes[0] to x, axes[1] to y, axes[2] to z
-  // About these the form turns freely: none, the one axis of revolution, or three where it has no
-  // direction at all (a sphere, a cube).
+  // Axes about which the form can turn without changing. There are none, or the one axis of
+  // revolution, or three if the form has no direction at all (a sphere, a cube).
   std::vector<Vec3> free_axes = {};
 };
-// Of the two signs of each axis that which points to the larger part of degree 3; where that
-// vanishes they are arbitrary. Values that differ by less than 1e-10 of the mean (c_00) are equal:
-// then to_axes is the smallest turn that will do, none for three of them. For a gauge, 1/r, the
-// form's sign is turned.
+// Computes the axes. Each axis points to the larger part of degree 3; where that part vanishes, the
+// sign is arbitrary. Values that differ by less than 1e-10 of the mean (c_00) count as equal. Then
+// to_axes is the smallest sufficient rotation, the identity for three equal values. For a gauge,
+// 1/r, the sign of the form is reversed.
 PrincipalAxes principal_axes(const Coefficients& coefficients,
                              RadialFunction function = RadialFunction::kRadius);
 
-// Where the search for a rotation begins.
+// Starting points of the search for a rotation.
 enum class AlignStart {
   kCorrelation,   // all rotations, by Fourier transforms over SO(3)
-  kPrincipalAxes  // the four ways to lay axes on axes: faster, wrong where two are nearly equal
+  kPrincipalAxes  // the four ways to map axes to axes: faster, wrong if two are nearly equal
 };
 
 EnumNames names_of(AlignStart start);  // "correlation", "principal-axes"
 
-// How the rotation is sought, and what counts as equal.
+// Options of the search, and limits below which correlations count as equal.
 struct AlignOptions {
-  AlignStart start = AlignStart::kCorrelation;  // of the search
+  AlignStart start = AlignStart::kCorrelation;  // where the search starts
   int bandwidth = 20;  // degrees used by the search, 1 ... 64; its grid has steps of about 6 deg
   int refine_degree = 64;  // degrees used by Newton's iteration
-  // Other rotations are reported if their correlation (-1 ... 1) is at most this below the best.
+  // Another rotation is reported if its correlation (-1 ... 1) is at most this below the best one.
   double margin = 0.01;
-  bool mirror = false;  // also try the mirror image of a (x -> -x, then rotated)
-  // Root mean square over the sphere of what is not known of a and b. A function that is constant
-  // but for this, or for 1e-10 of its mean, has nothing to turn: three free axes, no rotation.
+  bool mirror = false;  // true: also try the mirror image of a (x -> -x, then rotated)
+  // Root mean square over the sphere of the unknown part of a and b. A function that is constant up
+  // to this, or up to 1e-10 of its mean, gets three free axes and no rotation.
   double unknown_a = 0, unknown_b = 0;
 };
 
-// Their list (fields.h).
+// Lists the fields of AlignOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<AlignOptions>, const Visitor& field) {
   using O = AlignOptions;
@@ -95,15 +95,15 @@ void visit_fields(FieldsOf<AlignOptions>, const Visitor& field) {
                         .in_program = false});
 }
 
-// A rotation of a, and how well it lays a on b.
+// A rotation of a, and how closely it brings a to b.
 struct AlignedRotation {
-  Rotation rotation;       // of the mirror image, if mirrored
-  bool mirrored = false;   // the reflection x -> -x comes first; y and z stay
-  double correlation = 0;  // of degrees 1 ... refine_degree, normalised: 1 is equal up to a factor
+  Rotation rotation;       // rotation of the mirror image, if mirrored
+  bool mirrored = false;   // true if the reflection x -> -x comes first; y and z stay
+  double correlation = 0;  // of degrees 1 ... refine_degree; 1: equal up to a factor
   double distance = 0;     // root mean square of R a - b over the sphere, all degrees
 };
 
-// Its list.
+// Lists the fields of AlignedRotation.
 template <typename Visitor>
 void visit_fields(FieldsOf<AlignedRotation>, const Visitor& field) {
   using A = AlignedRotation;
@@ -116,18 +116,18 @@ void visit_fields(FieldsOf<AlignedRotation>, const Visitor& field) {
         {.name = "distance", .help = "root mean square of R a - b over the sphere, all degrees"});
 }
 
-// The best rotation, and those that are nearly as good.
+// The best rotation, and the rotations that are nearly as good.
 struct Alignment {
-  AlignedRotation best;  // of several that are equal to rounding the smallest turn, no mirror image
-  // Others that are nearly as good, best first: symmetries of the shape. At most 32.
+  AlignedRotation best;  // among equal ones (to rounding) the smallest turn, not mirrored
+  // Other rotations that are nearly as good, best first: symmetries of the shape. At most 32.
   std::vector<AlignedRotation> ambiguities;
-  // Axes in the frame of b about which turning by a radian changes the correlation by less than the
-  // margin, to second order: a surface of revolution has one, a sphere three.
+  // Axes in the frame of b about which a turn by one radian changes the correlation by less than
+  // the margin, to second order. A surface of revolution has one, a sphere three.
   std::vector<Vec3> free_axes;
-  double unaligned_distance = 0;  // before any rotation
+  double unaligned_distance = 0;  // distance before any rotation
 };
 
-// Its list.
+// Lists the fields of Alignment.
 template <typename Visitor>
 void visit_fields(FieldsOf<Alignment>, const Visitor& field) {
   using A = Alignment;
@@ -142,42 +142,42 @@ void visit_fields(FieldsOf<Alignment>, const Visitor& field) {
   field(&A::unaligned_distance, {.name = "unaligned_distance", .help = "before any rotation"});
 }
 
-// Turns a onto b. Throws InvalidInput for options out of range or coefficients that are not finite;
-// Cancelled.
+// Finds the rotation that turns a onto b. Throws InvalidInput for options out of range or
+// coefficients that are not finite; Cancelled.
 Alignment align(const Coefficients& a, const Coefficients& b, const AlignOptions& options = {},
                 const Context& context = {});
 
-// Which points of two surfaces are laid on each other before they are turned.
+// The points of two surfaces that are brought together before the rotation.
 enum class AlignCenters {
-  kAuto,    // kVolume if both surfaces can be seen from their centroids, else kOwn
-  kVolume,  // centroids of the solids: they move with the shape and hardly feel noise
+  kAuto,    // kVolume if both surfaces can be seen from their centroids, otherwise kOwn
+  kVolume,  // centroids of the solids: they move with the shape and hardly depend on noise
   kOwn      // the centres of the expansions
 };
 EnumNames names_of(AlignCenters centers);  // "auto", "volume", "own"
 
-// The point p becomes R (p - from) + to; mirrored, R M (p - from) + to, with M = diag(-1, 1, 1):
-// the reflection in the plane through `from` across the x axis.
+// Rigid motion of a point p to R (p - from) + to. If mirrored, to R M (p - from) + to with M =
+// diag(-1, 1, 1): the reflection in the plane through `from` across the x axis.
 struct Placement {
   Alignment alignment;                           // R and whether it is mirrored
-  Vec3 from, to;                                 // the points laid on each other, of a and of b
+  Vec3 from, to;                                 // points of a and of b brought together
   AlignCenters centers = AlignCenters::kVolume;  // which points these are: kVolume or kOwn
-  std::string why_own = {};  // of kAuto that took kOwn: why a surface cannot be seen so
+  std::string why_own = {};  // if kAuto chose kOwn: why a surface cannot be seen from its centroid
 };
 
-// The same for surfaces; with kVolume as they are seen from there, up to degree 256 (recentered(),
-// which also throws NotStarShaped). What their errors say is left out counts as not known. Throws
-// InvalidInput if their functions differ.
+// Aligns two surfaces. With kVolume both are first expanded about their centroids, up to degree
+// 256, by recentered(), which may throw NotStarShaped. Truncation errors stated in the expansions
+// count as unknown parts. Throws InvalidInput if the functions of a and b differ.
 Placement align(const Expansion& a, const Expansion& b, AlignCenters centers,
                 const AlignOptions& options = {}, const Context& context = {});
 
-// The expansion a moved as the placement says.
+// Returns the expansion a moved by the placement.
 Expansion placed(const Expansion& a, const Placement& placement, const Context& context = {});
 
-// Root mean square of a - b over the sphere, by Parseval's identity; missing degrees are zero.
+// Returns the root mean square of a - b over the sphere, by Parseval; missing degrees are zero.
 double distance(const Coefficients& a, const Coefficients& b);
 
-// Distance of the rotation-invariant descriptors of Kazhdan, Funkhouser and Rusinkiewicz (2003),
-// the norms per degree (roots of power_spectrum()): at most the distance after any rotation.
+// Returns the distance of the rotation-invariant descriptors of Kazhdan, Funkhouser and
+// Rusinkiewicz (2003), roots of power_spectrum(): a lower bound of the distance after any rotation.
 double descriptor_distance(const Coefficients& a, const Coefficients& b);
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// From a star chart to its coefficients. Layer: transform.
+// Coefficients of a star chart. Layer: transform.
 //
 // Source: Mousa, Chaine, Akkouche, Galin 2007 ("the paper"), corrected and extended:
 // docs/method.md, whose equations (M1)-(M8) are cited.
@@ -17,38 +17,38 @@
 
 namespace rholm {
 
-// Which function is expanded, and by which integrals.
+// The function that is expanded, and the integrals that compute its coefficients.
 enum class Method {
   kEdge,   // r by integrals over flat edges and faces, divided by l(l+1), (M6)
   kGauge,  // q = 1/r by integrals over the arcs of the edges alone, (M4)-(M5)
-  kCurl,   // r by the paper's field, made right, (M1)-(M3): slow, edges only
+  kCurl,   // r by the paper's field, corrected, (M1)-(M3): slow, edges only
   kArea    // r by cubature of r dOmega over the faces
 };
 EnumNames names_of(Method method);  // "edge", "gauge", "curl", "area"
 
-// How the fast engine did it.
+// Settings and errors of a run of the fast engine.
 struct FastReport {
-  bool single = false;               // sources spread in single precision
-  int width = 0;                     // grid points of the window
-  double oversampling = 0;           // of the grid
-  std::size_t lumped_triangles = 0;  // whose sources are those of their vertices
-  std::size_t nodes = 0;             // sources of their own
-  std::size_t vertices = 0;          // sources at vertices
-  // l2 over 1 <= l <= L, relative to the norm of the function without its mean.
+  bool single = false;               // true if sources were spread in single precision
+  int width = 0;                     // number of grid points of the spreading window
+  double oversampling = 0;           // oversampling factor of the grid
+  std::size_t lumped_triangles = 0;  // triangles represented by sources at their vertices
+  std::size_t nodes = 0;             // number of sources that are not at vertices
+  std::size_t vertices = 0;          // number of sources at vertices
+  // l2 error over 1 <= l <= L, relative to the norm of the function without its mean.
   double error = 0;
-  double band_error = 0;  // of the degrees above 3L/4 relative to that band's own norm
-  // The part of the triangles that both errors come from. 1: all were read a second time, finer and
-  // from another side, as small meshes are. Less: what rules leave comes from a sample of a larger
-  // mesh (docs/performance.md says from where on). 0: they are estimates of the model.
+  double band_error = 0;  // error of the degrees above 3L/4, relative to the norm of these degrees
+  // Share of the triangles that both errors come from. 1: a second, finer pass over the rotated
+  // mesh, as for small meshes. Below 1: rule errors come from a sample of a larger mesh (method
+  // 3h). 0: both errors are estimates of the error model.
   double measured_share = 0;
-  double error_doubt = 0;  // of a measured error: by how much more it may be above it
-  int passes = 0;          // over the triangles until the coefficients were found
-  // Whether the error, with its doubt, is within the wanted precision, or within what rounding
-  // leaves at best.
+  double error_doubt = 0;  // the true error may exceed the measured error by this much
+  int passes = 0;          // number of passes over the triangles
+  // True if the error, with its uncertainty, is within the wanted precision, or within the least
+  // error that rounding allows.
   bool reached = true;
 };
 
-// Its list.
+// Lists the fields of FastReport.
 template <typename Visitor>
 void visit_fields(FieldsOf<FastReport>, const Visitor& field) {
   using F = FastReport;
@@ -76,20 +76,20 @@ void visit_fields(FieldsOf<FastReport>, const Visitor& field) {
   field(&F::reached, {.name = "reached", .help = "whether the error is within the precision"});
 }
 
-// What is wanted of analyze(), and how.
+// Degree, method and precision for analyze().
 struct AnalyzeOptions {
   int degree = 64;                // L, 0 ... kMaxDegree
   Method method = Method::kEdge;  // kGauge expands 1/r, the others r
-  // How sums are done: fast ones keep the wanted precision, direct ones are the oracle. The methods
-  // curl and area are always direct.
+  // Engine for sums: the fast engine keeps the wanted precision, direct sums are the reference. The
+  // methods curl and area always use direct sums.
   Engine engine = Engine::kFast;
-  // Wanted error of the coefficients 1 <= l <= L: l2 norm of the error / norm of the function
-  // without its mean; for c_00 relative to c_00. 1e-14 ... 1e-1. Rounding adds about 1e-15 c_00
-  // times the largest r / d_T.
+  // Wanted error, 1e-14 ... 1e-1. For 1 <= l <= L: l2 norm of the error / norm of the function
+  // without its mean. For c_00: relative to c_00. Rounding adds about 1e-15 c_00 times the largest
+  // r / d_T.
   double precision = 1e-8;
 };
 
-// Their list (fields.h).
+// Lists the fields of AnalyzeOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<AnalyzeOptions>, const Visitor& field) {
   using O = AnalyzeOptions;
@@ -113,29 +113,29 @@ void visit_fields(FieldsOf<AnalyzeOptions>, const Visitor& field) {
                         .most = 0.1});
 }
 
-// Coefficients, and how they were found.
+// Coefficients, and how they were computed.
 struct Analysis {
-  Expansion expansion;         // with centre and method, norm and tail where they are known
-  std::size_t edge_nodes = 0;  // quadrature nodes on edges
-  std::size_t face_nodes = 0;  // and on faces
-  // |sum_e s_e int_arc u ds| / sum_e |s_e| int_arc ds: zero for a closed, consistently
-  // oriented mesh, whatever its shape; check of mesh and orientation, (M5). None with the fast
-  // engine, which checks both by a hash over all half-edges.
+  Expansion expansion;         // expansion with centre and method, and with norm and tail if known
+  std::size_t edge_nodes = 0;  // number of quadrature nodes on edges
+  std::size_t face_nodes = 0;  // number of quadrature nodes on faces
+  // |sum_e s_e int_arc u ds| / sum_e |s_e| int_arc ds, (M5). It is zero for a closed, consistently
+  // oriented mesh of any shape, so it checks mesh and orientation. Empty with the fast engine,
+  // which checks both by a hash over all half-edges.
   std::optional<double> closure_residual;
-  std::optional<FastReport> fast;  // of the fast engine with the method edge
-  // That the coefficients were wanted with: a search for a degree may have asked for more than
-  // AnalyzeOptions::precision.
+  std::optional<FastReport> fast;  // set by the fast engine with the method edge
+  // Precision that the coefficients were computed for. The search for a degree may use a finer
+  // precision than AnalyzeOptions::precision.
   double precision = 0;
-  StageTimes times;  // "triangles", "spread", "fourier", "verify", "norms"
-  // Truncation error over solid angle, sqrt(||f - f_L||^2 / 4 pi), in the unit of f, as the
-  // difference of the exact norm and that of the coefficients, and how far it is at most from that
-  // of exact coefficients: they are as exact as the precision. None if that is not below an eighth
-  // of it (its square is known to a quarter), and if the surface is not star-shaped, for there (M7)
-  // is not the norm.
+  StageTimes times;  // stages "triangles", "spread", "fourier", "verify", "norms"
+  // Truncation error over solid angle, sqrt(||f - f_L||^2 / 4 pi), in the unit of f, and its
+  // uncertainty. It is computed from the difference of the exact norm and the norm of the
+  // coefficients, which are as exact as the precision. Empty if the uncertainty is not below an
+  // eighth of the error (its square is then known to a quarter). Empty also if the surface is not
+  // star-shaped: there (M7) is not the norm.
   std::optional<double> truncation_rms, truncation_rms_doubt;
 };
 
-// Its list (fields.h), without the expansion.
+// Lists the fields of Analysis (fields.h), without the expansion.
 template <typename Visitor>
 void visit_fields(FieldsOf<Analysis>, const Visitor& field) {
   using A = Analysis;
@@ -155,37 +155,37 @@ void visit_fields(FieldsOf<Analysis>, const Visitor& field) {
          .help = "how far it is at most from that of exact coefficients"});
 }
 
-// The coefficients of the surface by the method that is asked for. Throws InvalidInput for a degree
+// Computes the coefficients of the surface by the chosen method. Throws InvalidInput for a degree
 // or precision out of range, a centre on a vertex, or (gauge) a face seen edge on.
 Analysis analyze(const StarChart& chart, const AnalyzeOptions& options = {},
                  const Context& context = {});
 
-// int r^2 dOmega and int q^2 dOmega of a star-shaped surface in closed form, (M7).
+// Return int r^2 dOmega and int q^2 dOmega of a star-shaped surface in closed form, (M7).
 double radius_norm_squared(const StarChart& chart);
 double gauge_norm_squared(const StarChart& chart);
 double radius_norm_squared(const MeshView& mesh, const Vec3& center, const Context& context = {});
 
-// S = sum_e int_e (r^2 s_e)^2 ds for the radius, sum_e int_e s_e^2 ds for the gauge: the energy
-// per degree is about S / (pi l^4) beyond the mesh's own resolution, method 5.
+// Returns S = sum_e int_e (r^2 s_e)^2 ds for the radius, sum_e int_e s_e^2 ds for the gauge. The
+// energy per degree is about S / (pi l^4) beyond the mesh's resolution, method 5.
 double tail_strength(const StarChart& chart, RadialFunction function);
-// Of the radius, for a closed mesh where it lies: identical vertices count as one. 16 bytes of
-// memory for each side of an edge whose other side is far away in the order of the triangles.
+// Returns S of the radius for a closed mesh without a copy; identical vertices count as one. Takes
+// 16 bytes of memory per half-edge whose opposite is far away in the order of the triangles.
 double tail_strength(const MeshView& mesh, const Vec3& center, const Context& context = {});
 
-// The largest truncation errors at vertices, times 2 pi (L + 1): max over vertices of |sum of s_e
-// over the edges that meet there|, times r^2 for the radius. Within 10 % of the largest error where
-// L times the angle of the edges is above 10 (measured, L >= 64); on finer meshes too large.
-// Between vertices that are saddles, edges may err more than they do: 2 |s_e| r^2 instead of the
-// sum.
+// Largest truncation errors at vertices, times 2 pi (L + 1): the maximum over vertices of |sum of
+// s_e over the edges that meet there|, times r^2 for the radius. The value is within 10 % of the
+// largest error where L times the angle of the edges is above 10 (measured, L >= 64), and too large
+// on finer meshes. Edges between saddle vertices may have larger errors than the vertices: 2 |s_e|
+// r^2 instead of the sum.
 struct ErrorStrengths {
-  double radius = 0;  // of the radius, in the mesh's unit
-  double gauge = 0;   // of 1/r, in 1/unit
-  // Of the distance between the surfaces: the radius's times cos gamma of the mean slope. Seen
-  // obliquely a vertex is not rounded off evenly: 16 % too small for a box with cos gamma = 0.6.
+  double radius = 0;  // strength for the radius, in the mesh's unit
+  double gauge = 0;   // strength for 1/r, in 1/unit
+  // For the distance between the surfaces: `radius` times cos gamma of the mean slope. A vertex
+  // seen obliquely is rounded unevenly: the value is 16 % too small for a box with cos gamma = 0.6.
   double distance = 0;
 };
 
-// Its list.
+// Lists the fields of ErrorStrengths.
 template <typename Visitor>
 void visit_fields(FieldsOf<ErrorStrengths>, const Visitor& field) {
   using E = ErrorStrengths;
@@ -193,10 +193,10 @@ void visit_fields(FieldsOf<ErrorStrengths>, const Visitor& field) {
   field(&E::gauge, {.name = "gauge", .help = "of 1/r, in 1/unit"});
   field(&E::distance, {.name = "distance", .help = "of the distance between the surfaces"});
 }
-// Of a closed mesh where it lies: identical vertices count as one. Throws InvalidInput as
-// validate() does. 12 bytes of memory per vertex for places, 32 for sums.
+// Returns the strengths of a closed mesh without a copy; identical vertices count as one. Throws as
+// validate(). Takes 12 bytes of memory per vertex for positions, 32 for sums.
 ErrorStrengths vertex_error_strengths(const MeshView& mesh, const Vec3& center);
-// That of the radius, or of the gauge, alone.
+// Returns the strength of the radius or of the gauge alone.
 double vertex_error_strength(const StarChart& chart, RadialFunction function);
 
 }  // namespace rholm

@@ -1,10 +1,10 @@
-// An atlas: a surface of any genus as overlapping caps, each a function on a sphere of its own.
+// Atlas: a surface of any genus as overlapping caps, each a function on its own sphere.
 // Layer: atlas.
 //
-// A cap looks at the surface from a centre on its inner side. A point at distance r in direction u
-// from the centre has local direction (sin theta cos phi, sin theta sin phi, cos theta) in the
-// cap's frame; the sphere is opened by the stereographic dilation tan(theta'/2) = a tan(theta/2),
-// so that a small cap fills a hemisphere, and the surface is (method 7.1)
+// A cap sees the surface from a centre on its inner side. A point at distance r in direction u from
+// the centre has the local direction (sin theta cos phi, sin theta sin phi, cos theta) in the cap's
+// frame. The stereographic dilation tan(theta'/2) = a tan(theta/2) enlarges a small cap to a
+// hemisphere. The surface is (method 7.1)
 //   r(u) = R_0 (1 + sum_lm [C_lm cos(m phi) + S_lm sin(m phi)] N_m P_lm(cos theta')),
 // in the real orthonormal harmonics of coefficients.h.
 #pragma once
@@ -21,41 +21,41 @@
 
 namespace rholm {
 
-// The support of a cap: with (p, q, h) = x - seed along the frame's axes, where
+// Support of a cap: the points x that satisfy, with (p, q, h) = x - seed along the frame's axes,
 //   s^2 = xx (p - px)^2 + 2 xy (p - px)(q - py) + yy (q - py)^2 + (h / support)^2 < 1:
-// the ellipse of its points, so that it has no weight where it has none.
+// This is the ellipse of the cap's points: where the cap has no points it has no weight.
 struct CapSupport {
-  double px = 0, py = 0;          // middle of the ellipse
-  double xx = 0, xy = 0, yy = 0;  // its form, in 1/unit^2
+  double px = 0, py = 0;          // centre of the ellipse
+  double xx = 0, xy = 0, yy = 0;  // quadratic form of the ellipse, in 1/unit^2
 };
 
-// Which harmonics a cap uses.
+// The set of harmonics that a cap uses.
 enum class CapBasis : std::uint8_t {
-  kFull,  // all up to its degree, (L+1)^2
-  kEven   // those with l + m even, (L+1)(L+2)/2: complete on a hemisphere (method 7.8)
+  kFull,  // all harmonics up to its degree, (L+1)^2
+  kEven   // harmonics with l + m even, (L+1)(L+2)/2: complete on a hemisphere (method 7.8)
 };
 
 EnumNames names_of(CapBasis basis);  // "full", "even"
 
-// The number of coefficients of a cap.
+// Returns the number of coefficients of a cap.
 std::size_t n_coefficients(CapBasis basis, int degree);
 
-// One cap: its sphere, its support, and where its coefficients are.
+// One cap: its sphere, its support, and the position of its coefficients.
 struct Cap {
-  CapFrame frame;                    // of its sphere, in the coordinates of the shape
-  CapSupport where;                  // an ellipse about its seed
-  CapBasis basis = CapBasis::kFull;  // says how many coefficients it has
+  CapFrame frame;                    // frame of its sphere, in the coordinates of the shape
+  CapSupport where;                  // its support, an ellipse about its seed
+  CapBasis basis = CapBasis::kFull;  // determines the number of coefficients
   std::uint16_t degree = 0;          // L
-  // Its coefficients start here in Atlas::coefficients. Order: l = 0, 1, ..., in each l the orders
-  // m = 0, then C and S of m = 1, 2, ..., l; the even basis leaves out those with l + m odd.
+  // Index of its first coefficient in Atlas::coefficients. Order: l = 0, 1, ..., in each l the
+  // orders m = 0, then C and S of m = 1, 2, ..., l; the even basis has no odd l + m.
   std::size_t first = 0;
   double error = 0;      // rms distance of the fitted points to the cap
-  double area = 0;       // of the surface that it was made for: all caps' add up to the whole
-  double weight = 1;     // of its potential, a factor of its blend weight
+  double area = 0;       // assigned surface area; the areas of all caps add up to the whole
+  double weight = 1;     // factor of its blend weight
   double deviation = 0;  // largest distance of its surface from the tangent plane of the seed
 };
 
-// Its list (fields.h), without its sphere and its support.
+// Lists the fields of Cap (fields.h), without its sphere and its support.
 template <typename Visitor>
 void visit_fields(FieldsOf<Cap>, const Visitor& field) {
   using C = Cap;
@@ -73,53 +73,53 @@ void visit_fields(FieldsOf<Cap>, const Visitor& field) {
          .unit = FieldUnit::kLength});
 }
 
-// The blend weight of a cap at s^2 < 1 of CapSupport. Either is multiplied by (1 - g^2 / T^2)^2 of
-// its potential g, T the band, and where points are noisy by 1 / (1 + |grad r|^2 / r^2), the
-// squared cosine of the angle between its surface and the sphere: where a cap leans, others see
-// better.
+// Blend weight of a cap at s^2 < 1 of CapSupport. Both are multiplied by (1 - g^2 / T^2)^2 with the
+// potential g and the band T. For noisy points a further factor is 1 / (1 + |grad r|^2 / r^2). It
+// is the squared cosine of the angle between the cap's surface and its sphere, so that a cap that
+// sees the surface obliquely counts less.
 enum class CapBlend : std::uint8_t {
   kSmooth,  // (1 - s^2)^3
   kSpline   // the paper's quadratic B-spline of 3 s / 2 (P44)
 };
 EnumNames names_of(CapBlend blend);  // "smooth", "spline"
 
-// What a cap that is found by integrals over its points is beyond them.
+// Value of a cap outside of its points, for caps computed by integrals over their points.
 enum class CapExtension : std::uint8_t {
-  kZero,   // zero, as the paper has it
-  kSphere  // the sphere it lies on, so that it jumps by its height over the sphere only
+  kZero,   // zero, as in the paper
+  kSphere  // the sphere the cap lies on; the jump is only the cap's height above the sphere
 };
 EnumNames names_of(CapExtension extension);  // "zero", "sphere"
 
-// The caps of a surface. Lengths are in the unit of the points it was made of.
+// The caps of a surface. Lengths are in the unit of the points.
 struct Atlas {
-  std::vector<Cap> caps;               // in any order
-  std::vector<double> coefficients;    // of all caps, each from its Cap::first on
-  CapBlend blend = CapBlend::kSmooth;  // of caps where supports overlap
-  double spacing = 0;   // of the points: median distance to the nearest neighbours' circle
+  std::vector<Cap> caps;               // caps in any order
+  std::vector<double> coefficients;    // coefficients of all caps, each starting at its Cap::first
+  CapBlend blend = CapBlend::kSmooth;  // blend weights where supports overlap
+  double spacing = 0;   // median point spacing, from the circle of nearest neighbours
   double noise = 0;     // standard deviation of the points' distances to the surface; 0 if clean
-  double diagonal = 0;  // of the points' bounding box
-  // Where caps disagree by less they are averaged, so caps have a weight within it of a grid's
-  // points, or within 2.5 steps of the grid if that is more.
+  double diagonal = 0;  // diagonal of the points' bounding box
+  // Width in which the potentials of caps are averaged. A cap has a weight at grid points within
+  // this distance of its surface, or within 2.5 steps of the grid if that is more.
   double band = 0;
 
-  // Those of one of these caps; good as long as the atlas.
+  // Returns the coefficients of one of these caps; valid as long as the atlas.
   std::span<const double> coefficients_of(const Cap& cap) const {
     return {coefficients.data() + cap.first, n_coefficients(cap.basis, cap.degree)};
   }
 };
 
-// Of all caps; 0 without caps.
+// Returns the highest degree of all caps; 0 without caps.
 int highest_degree(const Atlas& atlas);
 
-// The surface's potential as one cap sees it, and its gradient in space.
+// Potential of the surface according to one cap, and its gradient in space.
 struct CapValue {
   // g = (|x - c| - r(u)) / sqrt(1 + |grad r|^2 / r^2): a signed distance to first order, positive
   // outside (method 7.5).
   double distance = 0;
-  Vec3 gradient;       // of g, to first order: a unit vector across the surface
+  Vec3 gradient;       // gradient of g, to first order: a unit vector across the surface
   bool valid = false;  // false at the centre, behind it, and where r(u) <= 0
 };
-// At the point x, of a cap with these coefficients. Anywhere, also where the cap has no weight.
+// Evaluates a cap with these coefficients at the point x, also where the cap has no weight.
 CapValue evaluate(const Cap& cap, std::span<const double> coefficients, const Vec3& x);
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// An atlas as it is kept, and what was measured of it (method 7.8). Layer: reconstruct.
+// An atlas as stored in a file, with its measured errors (method 7.8). Layer: reconstruct.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,18 @@
 
 namespace rholm {
 
-// What a model is measured by. Lengths in the shape's unit.
+// Measured errors of a model. Lengths in the shape's unit.
 struct AtlasErrors {
-  double rms_from = 0, max_from = 0;  // from the shape to the model's surface
-  double rms_to = 0, max_to = 0;      // from the model's surface to the shape; 0 if that is points
-  // The larger of both ways.
+  double rms_from = 0, max_from = 0;  // distances from the shape to the model's surface
+  double rms_to = 0, max_to = 0;      // distances from that surface to the shape; 0 for points
+  // Return the larger of both directions.
   double rms() const { return rms_from > rms_to ? rms_from : rms_to; }
   double max() const { return max_from > max_to ? max_from : max_to; }
-  // Whether both ways were measured.
+  // Returns true if both directions were measured.
   bool two_sided() const { return max_to > 0; }
 };
 
-// Their list.
+// Lists the fields of AtlasErrors.
 template <typename Visitor>
 void visit_fields(FieldsOf<AtlasErrors>, const Visitor& field) {
   using E = AtlasErrors;
@@ -42,23 +42,23 @@ void visit_fields(FieldsOf<AtlasErrors>, const Visitor& field) {
                      .unit = FieldUnit::kLength});
 }
 
-// An atlas and what its file says of it.
+// An atlas, and the metadata of its file.
 struct AtlasModel {
   Atlas atlas;                             // the caps
-  double step = 0;                         // of the grid its surface was measured at
-  double tolerance = 0;                    // that was asked for; 0: none
-  std::optional<AtlasErrors> errors = {};  // as measured on the extracted surface
+  double step = 0;                         // step of the grid at which its surface was measured
+  double tolerance = 0;                    // wanted tolerance; 0: none
+  std::optional<AtlasErrors> errors = {};  // measured on the extracted surface
   std::size_t input_numbers = 0;           // coordinates of the shape: 3 per vertex; 0: not known
-  std::string unit, method;                // may be empty
-  // Of a reconstruction: how its surface is made of the caps, which the file then holds to the bit.
-  // None: holes are closed, and parts below 1/100 of the largest one's area are dropped.
+  std::string unit, method;                // unit of lengths, and method; may be empty
+  // For a reconstruction: rules that extract the same surface from the caps, to the bit. Empty:
+  // holes are closed, and parts below 1/100 of the largest area are dropped.
   std::optional<SurfaceRules> rules = {};
 };
 
-// The model file with an atlas in it: docs/model-file.md. Throws as write_model() and read_model().
+// Write and read the model file of an atlas: docs/model-file.md. Throw as for other models.
 void write_atlas(const AtlasModel& model, const std::filesystem::path& path);
 AtlasModel read_atlas(const std::filesystem::path& path);
-bool is_atlas_file(const std::filesystem::path& path);  // a model file that holds an atlas
-bool is_model_file(const std::filesystem::path& path);  // any model, by its first bytes
+bool is_atlas_file(const std::filesystem::path& path);  // true for a model file that holds an atlas
+bool is_model_file(const std::filesystem::path& path);  // true for any model, by its first bytes
 
 }  // namespace rholm

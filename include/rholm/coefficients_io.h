@@ -14,26 +14,26 @@
 
 namespace rholm {
 
-// How coefficients are laid out in a file.
+// Layout of coefficients in a file.
 enum class CoefficientsFormat {
-  kShtools,  // text, a line `l m C S` per pair; comment lines "# key: value" say the rest
+  kShtools,  // text, a line `l m C S` per pair; comments "# key: value" hold the metadata
   kIcgem,    // text with ICGEM-like header and lines `gfc l m C S`
   kJson,     // {"format": "rholm-coefficients", ...}
-  kNpy       // NumPy array [2][L+1][L+1] of float64, C order, little endian; nothing else
+  kNpy       // NumPy array [2][L+1][L+1] of float64, C order, little endian; no metadata
 };
 const char* to_string(CoefficientsFormat format);  // "shtools", "icgem", "json", "npy"
 CoefficientsFormat parse_coefficients_format(const std::string& name);  // throws Unsupported
-// By extension: .sh .txt .shtools; .gfc .icgem; .json; .npy. None if unknown.
+// Returns the format by extension: .sh .txt .shtools; .gfc .icgem; .json; .npy. Empty if unknown.
 std::optional<CoefficientsFormat> coefficients_format_of(const std::filesystem::path& path);
 
-// What a file that does not say it (bare text, .npy) is taken to mean; what it does say wins unless
-// `override_file` is set.
+// Convention of a file that does not state it (bare text, .npy). A convention stated in the file
+// takes precedence unless `override_file` is set.
 struct CoefficientsReadOptions {
-  Convention convention = {};  // of files that say none
-  bool override_file = false;  // of all files, whatever they say
+  Convention convention = {};  // convention of files that state none
+  bool override_file = false;  // true: use `convention` for all files
 };
 
-// Their list (fields.h).
+// Lists the fields of CoefficientsReadOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<CoefficientsReadOptions>, const Visitor& field) {
   using O = CoefficientsReadOptions;
@@ -44,36 +44,36 @@ void visit_fields(FieldsOf<CoefficientsReadOptions>, const Visitor& field) {
                             .in_program = false});
 }
 
-// What was read, and what of it the file said.
+// Coefficients read from a file, and the metadata found in it.
 struct CoefficientsFile {
-  Expansion expansion;                                       // in the library's own convention
-  CoefficientsFormat format = CoefficientsFormat::kShtools;  // as its content showed
-  Convention convention;                                     // in which the numbers stood
-  std::vector<std::string> assumed;  // what the file did not say: "normalization 4pi", ...
-  // What the file says it is of, if that is no shape: "gravity_field"; the function is then kOther.
+  Expansion expansion;                                       // in the library's convention
+  CoefficientsFormat format = CoefficientsFormat::kShtools;  // found from the content
+  Convention convention;                                     // convention of its numbers
+  std::vector<std::string> assumed;  // not stated in the file: "normalization 4pi", ...
+  // Product named in the file if it is no shape: "gravity_field"; the function is then kOther.
   std::string product;
-  std::vector<std::string> passed_over;  // what it says and what is not used: "radius '6378136.3'"
+  std::vector<std::string> passed_over;  // unused entries of the file: "radius '6378136.3'"
 };
 
-// "-" is standard input; the content decides the format. Throws Io, InvalidInput (malformed,
-// truncated, m > l, not finite, a degree above kMaxDegree), Unsupported.
+// Reads coefficients; the content decides the format; "-" is standard input. Throws Io,
+// InvalidInput (malformed, truncated, m > l, not finite, a degree above kMaxDegree), Unsupported.
 CoefficientsFile read_coefficients(const std::filesystem::path& path,
                                    const CoefficientsReadOptions& options = {},
                                    const Context& context = {});
-// The same for bytes in memory; `name` serves messages and the extension.
+// Parses bytes in memory; `name` is used for messages, and its extension for the format.
 CoefficientsFile parse_coefficients(std::span<const char> bytes, const std::string& name,
                                     const CoefficientsReadOptions& options = {});
 
-// True if the bytes begin like one of the formats above (not for bare text, which is only told
-// from points by its lines).
+// Returns true if the bytes begin like one of the formats above. Bare text is not recognised: only
+// its lines distinguish it from points.
 bool looks_like_coefficients(std::span<const char> bytes);
 
-// How coefficients are written.
+// Options for writing coefficients.
 struct CoefficientsWriteOptions {
-  std::optional<CoefficientsFormat> format = {};  // by default from the extension
-  Convention convention = {};                     // of the numbers; the file says it if it can
+  std::optional<CoefficientsFormat> format = {};  // empty: from the extension
+  Convention convention = {};                     // convention of the numbers; stored if possible
 };
-// Their list (fields.h).
+// Lists the fields of CoefficientsWriteOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<CoefficientsWriteOptions>, const Visitor& field) {
   using O = CoefficientsWriteOptions;
@@ -84,12 +84,12 @@ void visit_fields(FieldsOf<CoefficientsWriteOptions>, const Visitor& field) {
                          .in_program = false});
 }
 
-// Numbers are written with the shortest digits that read back the same. "-" is standard output.
+// Writes coefficients with the shortest digits that read back the same. "-" is standard output.
 void write_coefficients(const Expansion& expansion, const std::filesystem::path& path,
                         const CoefficientsWriteOptions& options = {});
 
-// What names a unit of lengths in every format: one line of UTF-8 text of at most 256 bytes,
-// without blanks at its ends. Throws InvalidInput for anything else.
+// Throws InvalidInput unless the text can be the name of a length unit in every format: one line of
+// UTF-8 text of at most 256 bytes, without blanks at its ends.
 void check_unit(const std::string& unit);
 
 }  // namespace rholm

@@ -12,16 +12,16 @@
 
 namespace rholm {
 
-inline constexpr std::size_t kMaxSamples = 100000000;  // some 8 GB of memory: the sanity limit
+inline constexpr std::size_t kMaxSamples = 100000000;  // about 8 GB of memory: a sanity limit
 
-// Where distances are measured.
+// Number and seed of the samples, and threshold of the F-score.
 struct CompareOptions {
-  std::size_t samples = 200000;  // on each surface, area-weighted, 1 ... kMaxSamples
-  std::uint64_t seed = 1;        // of the samples
-  double threshold = 0.01;       // of the F-score, as a fraction of A's bounding-box diagonal
+  std::size_t samples = 200000;  // number on each surface, area-weighted, 1 ... kMaxSamples
+  std::uint64_t seed = 1;        // seed of the samples
+  double threshold = 0.01;       // for the F-score, as a fraction of the diagonal of A's box
 };
 
-// Their list (fields.h).
+// Lists the fields of CompareOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<CompareOptions>, const Visitor& field) {
   using O = CompareOptions;
@@ -38,12 +38,12 @@ void visit_fields(FieldsOf<CompareOptions>, const Visitor& field) {
                         .above = true});
 }
 
-// Of all samples: root mean square, mean and largest distance, in the shape's unit.
+// Root mean square, mean and largest distance over all samples, in the shape's unit.
 struct Distances {
   double rms = 0, mean = 0, max = 0;  // >= 0
 };
 
-// Their list.
+// Lists the fields of Distances.
 template <typename Visitor>
 void visit_fields(FieldsOf<Distances>, const Visitor& field) {
   using D = Distances;
@@ -52,24 +52,24 @@ void visit_fields(FieldsOf<Distances>, const Visitor& field) {
   field(&D::max, {.name = "max", .help = "largest", .unit = FieldUnit::kLength});
 }
 
-// How far two surfaces lie apart. Lengths are in the shape's unit.
+// Distance between two surfaces A and B. Lengths are in the shape's unit.
 struct Comparison {
-  std::size_t samples = 0;  // on each surface
-  std::uint64_t seed = 0;   // they were drawn with
-  double diagonal = 0;      // of A's bounding box
-  Distances a_to_b;         // from samples of A to their exact closest points on B; shape's unit
-  Distances b_to_a;         // and the other way
-  double hausdorff = 0;     // the larger of the two max: a lower bound of the Hausdorff distance
-  double threshold = 0;     // shape's unit
+  std::size_t samples = 0;  // number on each surface
+  std::uint64_t seed = 0;   // seed of the samples
+  double diagonal = 0;      // diagonal of A's bounding box
+  Distances a_to_b;         // distances from samples of A to their exact closest points on B
+  Distances b_to_a;         // distances from samples of B to their exact closest points on A
+  double hausdorff = 0;     // larger of the two max: a lower bound of the Hausdorff distance
+  double threshold = 0;     // distance for precision and recall; shape's unit
   double precision = 0;     // share of B's samples within the threshold of A
   double recall = 0;        // share of A's samples within the threshold of B
   double f_score = 0;       // harmonic mean of the two
-  // Median and mean of the angle between the oriented normal at a sample and that at its closest
-  // point, both directions together, degrees 0 ... 180.
+  // Median and mean angle between the oriented normal at a sample and the normal at its closest
+  // point, over both directions together, degrees 0 ... 180.
   double normal_median_degrees = 0, normal_mean_degrees = 0;
 };
 
-// Their list.
+// Lists the fields of Comparison.
 template <typename Visitor>
 void visit_fields(FieldsOf<Comparison>, const Visitor& field) {
   using C = Comparison;
@@ -95,18 +95,18 @@ void visit_fields(FieldsOf<Comparison>, const Visitor& field) {
   field(&C::normal_mean_degrees, {.name = "normal_mean_degrees", .help = "mean of that angle"});
 }
 
-// Closest points are exact (double precision) on the triangles of the other mesh. Throws
-// InvalidInput for a mesh without area, samples out of range or a threshold that is not positive.
+// Compares two meshes by exact closest points on triangles (double precision). Throws InvalidInput
+// for a mesh without area, samples out of range or a threshold that is not positive.
 Comparison compare(const Mesh& a, const Mesh& b, const CompareOptions& options = {},
                    const Context& context = {});
 
-// The same, with the same bits, of meshes that need not fit in memory: they are gone through some
-// times, in portions of triangles that take no more than `memory` bytes, or 3 MB, besides some 110
-// bytes a sample. Triangles near each other in memory are best near each other in space, too.
+// Compares meshes that need not fit in memory, with the same bits as above. Reads them several
+// times, in portions of triangles of at most `memory` bytes (3 MB if less), plus about 110 bytes
+// per sample. Fastest if triangles near in memory are also near in space.
 Comparison compare(const MeshInPlace& a, const MeshInPlace& b, std::size_t memory,
                    const CompareOptions& options = {}, const Context& context = {});
 
-// Distance from each point to the surface: exact closest points.
+// Returns the distance from each point to its exact closest point on the surface.
 std::vector<double> distances_to_surface(const std::vector<Vec3>& points, const Mesh& surface,
                                          const Context& context = {});
 

@@ -1,4 +1,4 @@
-// A surface as few large caps: a model smaller than its data (method 7.8). Layer: model.
+// A surface as a small number of large caps, smaller than its data (method 7.8). Layer: model.
 #pragma once
 
 #include <cstddef>
@@ -18,18 +18,18 @@ namespace rholm {
 
 inline constexpr int kMaxCapDegree = 24;  // chosen: beyond, sums over scattered points are slow
 
-// What a model is to keep, and how it is sought.
+// Tolerance and limits of compress().
 struct CompressOptions {
-  double tolerance = 0;  // rms distance between the surfaces, both ways, in the shape's unit; > 0
-  std::size_t samples = 0;  // that caps are fitted to; 0: by the tolerance
-  int max_degree = 14;      // of a cap, 2 ... kMaxCapDegree
-  std::uint64_t seed = 1;   // of samples and of the search
-  // Numbers that the model may take (size_of()); 0: as many as the shape has coordinates, three per
-  // vertex or point. A shape that would take more is refused.
+  double tolerance = 0;     // rms distance between the surfaces, both directions, shape's unit; > 0
+  std::size_t samples = 0;  // number of samples for fitting caps; 0: chosen by the tolerance
+  int max_degree = 14;      // highest degree of a cap, 2 ... kMaxCapDegree
+  std::uint64_t seed = 1;   // seed of samples and of the search
+  // Largest number of values in the model (size_of()). 0: the number of coordinates of the shape,
+  // three per vertex or point. A shape that needs more is refused.
   std::size_t max_numbers = 0;
 };
 
-// Their list (fields.h).
+// Lists the fields of CompressOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<CompressOptions>, const Visitor& field) {
   using O = CompressOptions;
@@ -61,13 +61,13 @@ void visit_fields(FieldsOf<CompressOptions>, const Visitor& field) {
                           .least = 0});
 }
 
-// How large a model is: coefficients that are not zero, and the numbers of the caps' frames.
+// Size of a model: nonzero coefficients, and the numbers of the caps' frames.
 struct AtlasSize {
-  std::size_t caps = 0, coefficients = 0, frame_numbers = 0;            // how many of each
-  std::size_t numbers() const { return coefficients + frame_numbers; }  // of the whole model
+  std::size_t caps = 0, coefficients = 0, frame_numbers = 0;            // counts
+  std::size_t numbers() const { return coefficients + frame_numbers; }  // size of the whole model
 };
 
-// Its list.
+// Lists the fields of AtlasSize.
 template <typename Visitor>
 void visit_fields(FieldsOf<AtlasSize>, const Visitor& field) {
   using S = AtlasSize;
@@ -76,27 +76,27 @@ void visit_fields(FieldsOf<AtlasSize>, const Visitor& field) {
   field(&S::frame_numbers, {.name = "frame_numbers", .help = "numbers of the caps' frames"});
 }
 
-// Counts them.
+// Counts caps, nonzero coefficients and frame numbers of an atlas.
 AtlasSize size_of(const Atlas& atlas);
 
-// How a model came about, and what it keeps.
+// Report of compress(): how the model was computed, and how well it keeps the shape.
 struct CompressReport {
-  std::size_t samples = 0;      // that caps were fitted to
-  bool turned_normals = false;  // of points: all of them, they pointed into the solid
-  double hidden = 0;  // share of a mesh that lies inside of its solid, where parts run into each
-                      // other: left out, and not measured
-  double gap = 0;     // between sheets that face each other: less on a twentieth of the area
-  double aimed = 0;   // the tolerance that was aimed at: thin shapes need a smaller one than asked
-  double uncovered = 0;                   // share of the samples that no cap met by 4 tolerances
-  std::size_t components = 0, genus = 0;  // of the extracted surface
-  bool met = false;                       // the tolerance
-  // The surface has as many parts and handles as the shape, if that is a closed manifold and no
-  // part of it is hidden; true for others.
+  std::size_t samples = 0;      // number of samples that caps were fitted to
+  bool turned_normals = false;  // true if the points' normals all pointed inwards and were turned
+  double hidden = 0;  // share of a mesh inside of its own solid, where parts intersect; left out,
+                      // and not measured
+  double gap = 0;     // between facing sheets; smaller on a twentieth of the area
+  double aimed = 0;   // tolerance used; for thin shapes smaller than the wanted one
+  double uncovered = 0;                   // share of samples beyond 4 tolerances of each cap
+  std::size_t components = 0, genus = 0;  // numbers of the extracted surface
+  bool met = false;                       // true if the tolerance is met
+  // True if the surface has as many parts and handles as the shape. Compared only for a closed
+  // manifold without hidden parts; true for other shapes.
   bool topology_kept = false;
-  StageTimes times = {};  // "samples", "caps", "fit", "surface"
+  StageTimes times = {};  // stages "samples", "caps", "fit", "surface"
 };
 
-// Its list.
+// Lists the fields of CompressReport.
 template <typename Visitor>
 void visit_fields(FieldsOf<CompressReport>, const Visitor& field) {
   using R = CompressReport;
@@ -122,39 +122,39 @@ void visit_fields(FieldsOf<CompressReport>, const Visitor& field) {
   field(&R::times, {.name = "times", .help = "seconds of each stage"});
 }
 
-// A shape as few caps.
+// A compressed shape, and its report.
 struct Compressed {
-  AtlasModel model;       // with the errors of its surface
-  CompressReport report;  // how it was found
+  AtlasModel model;       // model with the errors of its surface
+  CompressReport report;  // statistics of the computation
 };
 
-// Covers the shape with few caps, fits them, drops the coefficients its error can do without,
-// extracts the surface and measures it, until it is within the tolerance both ways and hangs
-// together as the shape does. A mesh may be open, and is first made outward(); of one whose parts
-// run into each other the outer surface is taken; points need normals (if they point into a solid
-// that the points lie all around, they are turned) and are taken as evenly spread (measured from
-// the points only). Throws InvalidInput for shapes without area, triangles that are not oriented
-// alike, and options out of range; Unsupported for shapes too thin for the grid, and where the caps
-// would take more numbers than `max_numbers`. The tolerance may be missed, see `met`, and so may
-// parts and handles, see `topology_kept`. Same input, same bits for any number of threads.
+// Computes a model of a small number of caps. It covers the shape with caps, fits them, drops
+// coefficients that the error does not need, extracts the surface and measures it. This is repeated
+// until the surface is within the tolerance in both directions and connected like the shape. A mesh
+// may be open; outward() is applied first. If parts of a mesh intersect, the outer surface is used.
+// Points need normals and count as evenly spread; errors are measured from the points only. If
+// normals point into a solid that the points surround, they are turned. Throws InvalidInput for no
+// area, inconsistent orientation, options out of range; Unsupported for shapes too thin for the
+// grid and caps above `max_numbers`. See `met` and `topology_kept`: both may fail. Same input, same
+// bits for any number of threads.
 Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context = {});
 Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                     const Context& context = {});
 
-// How a surface is extracted from a model.
+// Options for extracting the surface from a model.
 struct AtlasSynthesisOptions {
-  double step = 0;  // edge of the grid's cubes; 0: the model's, and see `simplify`
-  // The caps have no higher degrees, and are fitted to the model's own surface with those they
-  // have.
+  double step = 0;  // edge of the grid's cubes; 0: the model's step (see also `simplify`)
+  // Highest degree of the caps. Caps of higher degrees are fitted again, with this degree, to the
+  // model's own surface.
   std::optional<int> degree = {};
-  // Fewer triangles for the same surface; none: as the model's rules say. A level, of a degree
-  // below the highest, whose step and `simplify` are not given, is simplified to a tenth of the
-  // error that its degree makes.
+  // Reduces the number of triangles; empty: as the model's rules
+  // say. A surface of a lower degree is simplified to a tenth of the
+  // error of that degree if neither `step` nor `simplify` is given.
   std::optional<SimplifyOptions> simplify = {};
-  std::size_t max_memory = std::size_t{8} << 30;  // bytes: refused if more is foreseen
+  std::size_t max_memory = std::size_t{8} << 30;  // bytes; throws if the estimate is above
 };
 
-// Their list.
+// Lists the fields of AtlasSynthesisOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<AtlasSynthesisOptions>, const Visitor& field) {
   using O = AtlasSynthesisOptions;
@@ -181,25 +181,25 @@ void visit_fields(FieldsOf<AtlasSynthesisOptions>, const Visitor& field) {
                          .in_program = false});
 }
 
-// The surface of a model, from it alone: closed, oriented outwards, with normals nx, ny, nz. Of a
-// reconstruction it is the surface that reconstruct() made, to the bit where `step` and `degree`
-// are not given: open where that is open, and simplified as that is, unless `simplify` is given.
-// Throws InvalidInput for a step so large that no surface is left, OutOfMemory for one too small,
-// and Unsupported for a degree so low that caps stand beside each other as plates, with the least
-// that will do.
+// Extracts the surface from a model: closed, oriented outwards, with normals nx, ny, nz. A
+// reconstruction gives the surface of reconstruct(), also if that is open or simplified. It
+// is the same to the bit if `step`, `degree` and `simplify` are not given. Throws
+// InvalidInput for a step so large that no surface is left, OutOfMemory for a step too small.
+// Throws Unsupported, with the least sufficient degree, for a degree at which caps no longer
+// join.
 Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options = {},
                 const Context& context = {});
 
-inline constexpr std::uint32_t kNoCap = ~std::uint32_t{0};  // where a cap's number is wanted
-// The cap of the largest blend weight at each point, in small gaps between caps the nearest one;
-// kNoCap for an atlas without caps.
+inline constexpr std::uint32_t kNoCap = ~std::uint32_t{0};  // stands for no cap in dominant_caps()
+// Returns for each point the cap of largest blend weight, in small gaps between caps the nearest
+// cap. Returns kNoCap for an atlas without caps.
 std::vector<std::uint32_t> dominant_caps(const Atlas& atlas, const std::vector<Vec3>& points,
                                          const Context& context = {});
-// Sets red, green, blue: a colour per cap, caps that touch of different hues; grey without a cap.
+// Sets red, green, blue by cap: touching caps differ in hue; points without a cap are grey.
 void set_cap_colors(std::vector<Attribute>& attributes, const Atlas& atlas,
                     const std::vector<std::uint32_t>& caps);
-// The same by the degrees of the caps: dark blue for the lowest of the atlas to yellow for the
-// highest.
+// Sets red, green, blue by the degree of the cap: dark blue for the lowest degree of the atlas to
+// yellow for the highest.
 void set_degree_colors(std::vector<Attribute>& attributes, const Atlas& atlas,
                        const std::vector<std::uint32_t>& caps);
 

@@ -1,4 +1,4 @@
-// How a long computation runs: threads, progress, cancellation. Layer: base.
+// Execution of long computations: threads, progress, cancellation. Layer: base.
 #pragma once
 
 #include <functional>
@@ -8,31 +8,31 @@
 
 namespace rholm {
 
-// Called from time to time, never from two threads at once, with the name of the running stage
-// and the part of it that is done, 0 ... 1. Return false to cancel: the computation then throws
-// Error{kCancelled} and leaves its outputs untouched.
+// Called from time to time, never from two threads at once. The arguments are the name of the
+// running stage and the finished part of it, 0 ... 1. Return false to cancel: the computation then
+// throws Error{kCancelled} and leaves its outputs untouched.
 using ProgressCallback = std::function<bool(std::string_view stage, double fraction)>;
 
 // Results are the same bits for every number of threads.
 struct Context {
   int threads = 0;                 // worker threads; 0 means one per processor
-  ProgressCallback progress = {};  // none: nobody is told, nothing is cancelled
+  ProgressCallback progress = {};  // none: no progress is reported and nothing is cancelled
 };
 
-// While it lives, loops of the library on the thread that made it ask `keep_going` from time to
-// time (every few milliseconds, as a rule), also those of functions that take no Context, and those
-// between two calls of a ProgressCallback. Where it returns false, they throw Error{kCancelled}, as
-// if the callback had. Of several on one thread the last counts. It is never called by other
-// threads that work for this one, and must not throw.
+// Cancels loops of the library on the thread that creates the scope. They call
+// `keep_going` every few milliseconds, as a rule, also without a Context and
+// between calls of a ProgressCallback. If it returns false they throw
+// Error{kCancelled}, as if the callback had. Only the latest of several scopes
+// on a thread counts. Worker threads never call it, and it must not throw.
 class CancelScope {
  public:
-  // From here on, until it ends.
+  // Starts the scope; the destructor ends it.
   explicit CancelScope(std::function<bool()> keep_going);
   ~CancelScope();
   CancelScope(const CancelScope&) = delete;
   CancelScope& operator=(const CancelScope&) = delete;
 
-  // Asks.
+  // Calls the function.
   bool keep_going() const { return keep_going_(); }
 
  private:
@@ -42,10 +42,10 @@ class CancelScope {
 
 // Time of a stage, seconds.
 struct StageTime {
-  double wall = 0;  // on the clock
-  double cpu = 0;   // of all processors together
+  double wall = 0;  // wall-clock time
+  double cpu = 0;   // processor time, all processors together
 };
-// Times of stages by their names.
+// Times of stages, by name.
 using StageTimes = std::map<std::string, StageTime>;
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// Descriptors: figures of a surface, each declared once. Layer: surface.
+// Descriptors: characteristic numbers of a surface, each declared once. Layer: surface.
 #pragma once
 
 #include <optional>
@@ -8,17 +8,17 @@
 
 namespace rholm {
 
-// A figure of the solid that stays when the shape is moved or turned. rholm info, batches, Python
-// and docs/reference.md have their descriptors from descriptors().
+// A number that describes the solid and does not change when the shape is moved or rotated. The
+// tables of rholm info, batches, Python and docs/reference.md come from descriptors().
 struct Descriptor {
-  const char* name;        // of the key in JSON, the column of a batch, the property in Python
+  const char* name;        // key in JSON, column of a batch, property in Python
   int length_power;        // its unit is the unit of length to this power
   const char* definition;  // one sentence without a full stop
-  const char* source;      // who defined it; empty for what everybody means by the name
-  // Nothing where the measures do not tell.
+  const char* source;      // publication that defined it; empty for a common notion
+  // Returns the number; nothing where the measures do not determine it.
   std::optional<double> (*value)(const SurfaceMeasures& measures);
 };
-// All descriptors, each once.
+// Returns all descriptors, each once.
 std::span<const Descriptor> descriptors();
 
 }  // namespace rholm

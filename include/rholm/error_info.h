@@ -1,4 +1,4 @@
-// What is said of each kind of error, and what the program and Python do at it. Layer: base.
+// Description of each kind of error, and the reactions of the program and Python. Layer: base.
 #pragma once
 
 #include <span>
@@ -10,18 +10,18 @@ namespace rholm {
 
 // A kind of error.
 struct ErrorInfo {
-  ErrorCode code;            // which it is
-  const char* name;          // in reports: "InvalidInput"
-  int exit_code;             // of the program; a signal that cancelled is added to 128
-  const char* python_class;  // of the Python package: "InvalidInputError"
-  const char* python_base;   // what that class is too: "ValueError"; empty if it is only an Error
+  ErrorCode code;            // kind of error
+  const char* name;          // name in reports: "InvalidInput"
+  int exit_code;             // exit code of the program; cancelled by a signal: 128 + its number
+  const char* python_class;  // class in the Python package: "InvalidInputError"
+  const char* python_base;   // second base class there: "ValueError"; empty for none
   const char* meaning;       // one sentence
 };
-// All kinds of errors.
+// Returns the descriptions of all kinds of errors.
 std::span<const ErrorInfo> error_infos();
-// The description of one kind.
+// Returns the description of one kind.
 const ErrorInfo& error_info(ErrorCode code);
-// The name of a kind in JSON: "invalid_input".
+// Returns the name of a kind in JSON: "invalid_input".
 std::string snake_case_name(ErrorCode code);
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// Whole files: bytes in, bytes out. Layer: io.
+// Reading and writing of whole files. Layer: io.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,17 @@
 
 namespace rholm {
 
-// Writes bytes to a temporary file beside `path` that replaces it when complete, so that an
-// interrupted run leaves the old file whole; "-" is standard output. Throws Io.
+// Writes bytes to a temporary file beside `path`, which replaces `path` when complete: an
+// interrupted run leaves the old file unchanged. "-" is standard output. Throws Io.
 void write_file(const std::filesystem::path& path, std::span<const char> bytes);
 
-// A PNG file in memory. Throws InvalidInput for an image whose buffer does not fit.
+// Returns a PNG file in memory. Throws InvalidInput for an image whose buffer has a wrong size.
 std::vector<char> encode_png(const Image& image);
-// Writes it in the same way. Throws Io as well.
+// Writes a PNG file by write_file(). Throws Io as well.
 void write_png(const std::filesystem::path& path, const Image& image);
 
-// Removes the temporary files of all writes in progress. Async-signal-safe: for a program
-// that leaves from a signal handler.
+// Removes the temporary files of all writes in progress. It is async-signal-safe: a program may
+// call it in a signal handler before it exits.
 void discard_unfinished_files() noexcept;
 
 }  // namespace rholm

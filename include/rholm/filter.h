@@ -1,7 +1,7 @@
 // Filters: a factor for each degree, the same for all its orders. Layer: harmonic.
 //
-// A filter is a vector of gains g_0 ... g_N; degrees above N have gain 0. Factors that do not
-// depend on the order leave the filter blind to how the shape is turned.
+// A filter is a vector of gains g_0 ... g_N; degrees above N have gain 0. Gains do not depend on
+// the order m, so filtering commutes with rotation of the shape.
 #pragma once
 
 #include <optional>
@@ -15,10 +15,10 @@
 
 namespace rholm {
 
-// How a low-pass filter falls from 1 at degree 0 to 0 above its degree L. Sharper is closer to the
-// shape and rings more at edges. windows() has what each is.
+// Shapes of the fall of a low-pass filter from 1 at degree 0 to 0 above its degree L. A sharper
+// fall keeps more of the shape and rings more at edges. windows() describes each one.
 enum class Window {
-  // The row of that name in windows().
+  // Each value is described by its row in windows().
   kIdeal,
   kLanczos,
   kLanczos2,
@@ -28,98 +28,98 @@ enum class Window {
   kPlateau
 };
 
-// A window, and the parameters of all windows. A window uses its own parameters only.
+// A window, and the parameters of all windows. Each window uses only its own parameters.
 struct WindowOptions {
-  Window window = Window::kLanczos;  // how it falls
+  Window window = Window::kLanczos;  // shape of the fall
   int order = 4;                     // p of kExponential
-  // t of kHeat. By default the gain at L is 1/2, t = ln 2 / (L(L+1)).
+  // t of kHeat. By default t = ln 2 / (L(L+1)), so that the gain at L is 1/2.
   std::optional<double> time = {};
 };
 
 // A parameter of a window.
 struct WindowParameter {
-  const char* name;    // of the field, of the option of the program, of the argument in Python
-  const char* symbol;  // in formulas
+  const char* name;    // name of the field, the program's option, and the Python argument
+  const char* symbol;  // symbol in formulas
   const char* help;    // one sentence without a full stop
-  std::variant<int WindowOptions::*, std::optional<double> WindowOptions::*> field;  // that it is
-  double min, max;               // the range, both ends allowed
-  bool replaces_cutoff = false;  // whether L is not used where the parameter is given
+  std::variant<int WindowOptions::*, std::optional<double> WindowOptions::*> field;  // member set
+  double min, max;               // range, both ends allowed
+  bool replaces_cutoff = false;  // true if L is not used where the parameter is given
 
-  // Whether only whole numbers are values.
+  // Returns true if only whole numbers are allowed.
   bool whole() const { return std::holds_alternative<int WindowOptions::*>(field); }
-  // The value in `options`; nothing where a window chooses it by L.
+  // Returns the value in `options`; nothing where the window chooses it from L.
   std::optional<double> value(const WindowOptions& options) const;
-  // Throws InvalidInput for a value out of range, and for a fraction where the field is whole.
+  // Sets the value. Throws InvalidInput if out of range, or for a fraction in a whole-number field.
   void set(WindowOptions& options, double value) const;
 };
 
-// All that is known of a window. The program, Python, the studio and docs/reference.md have their
-// windows from here.
+// Description of a window. The program, Python, the studio and docs/reference.md take their windows
+// from this table.
 struct WindowInfo {
-  Window window;        // its number
+  Window window;        // the enum value
   const char* name;     // "lanczos"
-  const char* formula;  // the gain of degree l up to L, in one line
-  const char* help;     // what the window is good for, one sentence without a full stop
-  // Of a step at L = 64 (see overshoot() below), in two digits; 0 for none.
+  const char* formula;  // gain of degree l up to L, in one line
+  const char* help;     // use of the window, one sentence without a full stop
+  // Overshoot of a step at L = 64 (see overshoot() below), to two digits; 0 for none.
   double overshoot;
-  // The gain of degree l >= 0; above L it is used only where `cut_off` is false.
+  // Returns the gain of degree l >= 0; above L it is used only if `cut_off` is false.
   double (*gain)(double l, double cutoff, const WindowOptions& options);
-  std::span<const WindowParameter> parameters = {};  // that it uses
-  bool cut_off = true;                               // whether the gain is 0 above L
+  std::span<const WindowParameter> parameters = {};  // parameters it uses
+  bool cut_off = true;                               // true if the gain is 0 above L
 };
 
-// All windows, each once, in the order of their numbers.
+// Returns all windows, each once, in the order of the enum.
 std::span<const WindowInfo> windows();
 const WindowInfo& window_info(Window window);  // throws InvalidInput for a number without a window
 const char* to_string(Window window);          // "ideal", "lanczos", "lanczos2", ...
 Window parse_window(const std::string& name);  // throws InvalidInput
 
-// Gains of degrees 0 ... `degree`. cutoff is the L of the window, 0 ... kMaxDegree; a parameter may
-// replace it. Each throws InvalidInput for a parameter or degree out of range.
+// Return the gains of degrees 0 ... `degree`. cutoff is the L of the window, 0 ... kMaxDegree; a
+// parameter may replace it. Each throws InvalidInput for a parameter or degree out of range.
 //
-// low_pass keeps degrees up to cutoff; high_pass those from cutoff >= 1 on, 1 - low_pass(cutoff -
-// 1); band_pass those from `from` to `to` >= from, low_pass(to) - low_pass(from - 1).
+// low_pass keeps degrees up to cutoff. high_pass keeps degrees from cutoff >= 1 on: 1 -
+// low_pass(cutoff - 1). band_pass keeps `from` ... `to` >= from: low_pass(to) - low_pass(from - 1).
 std::vector<double> low_pass(int cutoff, int degree, const WindowOptions& options = {});
 std::vector<double> high_pass(int cutoff, int degree, const WindowOptions& options = {});
 std::vector<double> band_pass(int from, int to, int degree, const WindowOptions& options = {});
 
-// Unsharp masking: 1 + amount (1 - g), of the gains of a low-pass filter.
+// Returns 1 + amount (1 - g) for the gains of a low-pass filter: unsharp masking.
 std::vector<double> sharpened(std::span<const double> gains, double amount);
 
-// c_lm times g_l, cut off after the last degree whose gain is not 0. Throws InvalidInput for a
-// gain that is not finite.
+// Returns c_lm times g_l, cut off after the last degree whose gain is not 0. Throws InvalidInput
+// for a gain that is not finite.
 Coefficients filter(const Coefficients& coefficients, std::span<const double> gains);
 
-// The same of a surface. `name` says what was done and is added to the expansion's method. Norm
-// and tail of the unfiltered function are dropped. Of errors those of the radius stay that follow:
-// with E_l the energy of degree l, rms^2 grows by sum (1 - g_l)^2 E_l / (4 pi), as the degrees of a
-// radius are orthogonal to each other and to what its expansion leaves out.
+// Filters a surface. `name` names the filter and is added to the expansion's method. Norm and tail
+// are dropped. Errors of the radius are kept if they follow: with E_l the energy of degree l, rms^2
+// grows by sum (1 - g_l)^2 E_l / (4 pi). The degrees of a radius are orthogonal to each other and
+// to its truncation error.
 Expansion filter(const Expansion& expansion, std::span<const double> gains,
                  const std::string& name);
 
-// A surface cut off at a degree; unchanged if it has no higher ones. Norm and tail stay, as they
-// are of the whole function. Errors follow as for filter(). Throws InvalidInput for a negative
-// degree.
+// Returns a surface cut off at a degree; unchanged if it has no higher degrees. Norm and tail stay,
+// because they describe the whole function. Errors follow as in filter(). Throws InvalidInput for a
+// negative degree.
 Expansion truncated(const Expansion& expansion, int degree);
 
-// How far a filtered step leaves 0 ... 1, in parts of its height. Each 0 where it does not (below
-// 1e-12).
+// Overshoot of a filtered step beyond 0 ... 1, relative to its height. A value below 1e-12 is given
+// as 0.
 struct Overshoot {
   double above = 0;  // largest value - 1
-  double below = 0;  // - smallest value
+  double below = 0;  // minus the smallest value
 };
 
-// Its list.
+// Lists the fields of Overshoot.
 template <typename Visitor>
 void visit_fields(FieldsOf<Overshoot>, const Visitor& field) {
   using O = Overshoot;
   field(&O::above, {.name = "above", .help = "largest value - 1"});
   field(&O::below, {.name = "below", .help = "minus the smallest value"});
 }
-// Of the function that is 1 within 60 degrees of the pole and 0 beyond, whose coefficients are
-// known in closed form, (P_{l-1}(1/2) - P_{l+1}(1/2)) / 2.
+// Returns the overshoot for a step: 1 within 60 degrees of the pole and 0 beyond. Its coefficients
+// are known in closed form, (P_{l-1}(1/2) - P_{l+1}(1/2)) / 2.
 Overshoot overshoot(std::span<const double> gains);
-// Of low_pass(degree); of a window that is not cut off to 8 times the degree.
+// Returns the overshoot of low_pass(degree); a window without cut-off is used to 8 times `degree`.
 Overshoot overshoot(Window window, int degree);
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// Meshes larger than memory: what can be done with one where it lies in a file. Layer: io.
+// Operations on meshes larger than memory, in a mapped file. Layer: io.
 #pragma once
 
 #include <cstddef>
@@ -14,56 +14,56 @@
 
 namespace rholm {
 
-// Whether vertices have more than their coordinates.
+// Returns true if vertices have more than their coordinates.
 bool has_attributes(const MappedMesh& mesh);
 
-// Their names and types, without values.
+// Returns names and types of the attributes, without values.
 std::vector<Attribute> described_attributes(const MappedMesh& mesh);
-// What read_shape() would warn of: values that are not finite, with counts.
+// Returns the warnings that read_shape() would give: counts of values that are not finite.
 std::vector<std::string> attribute_warnings(const MappedMesh& mesh);
 
-// Whether all faces are triangles: see MappedMesh::counts_are_three().
+// Returns true if all faces have three corners: see MappedMesh::counts_are_three().
 bool has_triangles_only(const MappedMesh& mesh, const Context& context = {});
 
-// As MappedMesh::release(), of vertices.
+// Does for vertices what MappedMesh::release() does for faces.
 void release_vertices(const MappedMesh& mesh, std::size_t first, std::size_t n);
 
-// The mesh with its release() and release_vertices(): good as long as the mesh.
+// Returns the mesh with its release() and release_vertices(); valid as long as `mesh`.
 MeshInPlace in_place(const MappedMesh& mesh);
 
-// As write_shape() of the mesh read, with the same bytes, and the mesh stays where it lies. Throws
-// also InvalidInput for faces that are no triangles.
+// Writes the same bytes as write_shape() for the mesh that read_shape() returns, without reading it
+// into memory. Throws in addition InvalidInput for faces with other than three corners.
 std::vector<std::string> write_shape(const MappedMesh& mesh, const std::filesystem::path& path,
                                      const ShapeWriteOptions& options = {},
                                      const Context& context = {});
 
-// What convert_mesh() has written.
+// Metadata and messages of convert_mesh().
 struct ConvertedMesh {
-  std::vector<Attribute> attributes = {};  // of the mesh, without values
-  std::vector<std::string> warnings = {};  // those of read_shape()
-  std::vector<std::string> written = {};   // and those of write_shape()
+  std::vector<Attribute> attributes = {};  // attributes of the mesh, without values
+  std::vector<std::string> warnings = {};  // warnings of read_shape()
+  std::vector<std::string> written = {};   // warnings of write_shape()
 };
-// Writes the mesh of a binary PLY, of vertices and faces as map_mesh() takes them but with any
-// number of corners, as write_shape() does what read_shape() has read, with the same bytes; and the
-// mesh stays where it lies. None, and nothing is written, for all other files, and where something
-// is wrong with faces: read_shape() reads it, or says what is wrong. Throws as write_shape().
+// Converts the mesh of a binary PLY without reading it into memory. It writes the same bytes as
+// read_shape() with write_shape(). Vertices and faces are stored as for map_mesh(), but faces may
+// have any number of corners. Returns nothing and writes nothing for other files or wrong faces:
+// use read_shape(), which may report the error. Throws as write_shape().
 std::optional<ConvertedMesh> convert_mesh(const std::filesystem::path& from,
                                           const std::filesystem::path& to,
                                           const ShapeWriteOptions& options = {},
                                           const Context& context = {});
 
-// What can be told of a mesh without knowing which triangles are neighbours.
+// Properties of a mesh that need no adjacency of faces.
 struct MeshSurvey {
-  Bounds bounds;         // of all vertices
-  double area = 0;       // of all triangles
-  bool closed = false;   // every edge is run through as often one way as the other, by a hash that
-                         // others pass once in 2^60: closed, and oriented
+  Bounds bounds;         // bounding box of all vertices
+  double area = 0;       // sum over all faces
+  bool closed = false;   // every edge is used equally often in both directions, by a hash with
+                         // false positives at 2^-60: closed and oriented
   double volume = 0;     // signed; meaningful if closed
-  Vec3 volume_centroid;  // of the solid; likewise, and if the volume is not zero
+  Vec3 volume_centroid;  // centroid of the solid; meaningful if closed and with volume
 };
-// Reads the vertices once and the triangles a few times. Throws InvalidInput for coordinates that
-// are not finite, indices out of range, and faces that are no triangles; Cancelled. Same bits for
-// any number of threads.
+// Reads the vertices once and the faces a few times. Throws InvalidInput for coordinates that are
+// not finite, indices out of range, and faces with other than three corners; Cancelled. Same bits
+// for any number of threads.
 MeshSurvey survey_mesh(const MappedMesh& mesh, const Context& context = {});
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// Units of length, and the same surface in another one. Layer: harmonic.
+// Units of length, and scaling of a surface to another unit. Layer: harmonic.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,13 @@
 
 namespace rholm {
 
-// How many metres a unit has, of those that are known: m, its decimal parts and multiples from fm
-// to Gm (um and µm), angstrom, in, ft, yd, mi, au; and the English words for them. None for
-// any other text. "mm" and "Mm" differ, "KM" is km.
+// Returns the length of a known unit in metres: m with decimal prefixes from fm to Gm (um and µm),
+// angstrom, in, ft, yd, mi, au, and their English words. Returns nothing for any other text. "mm"
+// and "Mm" differ, "KM" is km.
 std::optional<double> metres_of(const std::string& unit);
 
-// The surface with all its lengths times `factor`, finite and above 0: coefficients, centre, norm
-// and errors. The unit's name is the caller's. Throws InvalidInput for another factor.
+// Returns the surface with all lengths times `factor`, finite and above 0: coefficients, centre,
+// norm and errors. The caller sets the unit's name. Throws InvalidInput for another factor.
 Expansion scaled(const Expansion& expansion, double factor);
 
 }  // namespace rholm

@@ -10,7 +10,7 @@
 
 namespace rholm {
 
-// The type a scalar had in its file; kept so that a writer can give it back.
+// Type of a scalar in its file; kept so that a writer can restore it.
 enum class ScalarType : std::uint8_t {
   kInt8,     // -2^7 ... 2^7 - 1
   kUint8,    // 0 ... 2^8 - 1
@@ -26,8 +26,8 @@ enum class ScalarType : std::uint8_t {
 // (and alpha), normals nx, ny, nz, texture coordinates u, v, as in PLY files. Every type above
 // is exact in a double.
 struct Attribute {
-  std::string name = {};                   // any but the coordinates'
-  ScalarType type = ScalarType::kFloat32;  // in its file, and in files it is written to
+  std::string name = {};                   // any name except the coordinates'
+  ScalarType type = ScalarType::kFloat32;  // in its file, and in files written
   std::vector<double> values = {};         // one per vertex or point
 };
 
@@ -36,20 +36,20 @@ using Triangle = std::array<std::uint32_t, 3>;  // vertex indices, counter-clock
 // Triangles that share vertices.
 struct Mesh {
   std::vector<Vec3> vertices = {};         // in any unit
-  std::vector<Triangle> triangles = {};    // of them
-  std::vector<Attribute> attributes = {};  // per vertex, each of vertices.size() values
+  std::vector<Triangle> triangles = {};    // vertex indices
+  std::vector<Attribute> attributes = {};  // per vertex, each with vertices.size() values
 };
 
 // Points without faces.
 struct PointCloud {
   std::vector<Vec3> points = {};   // in any unit
   std::vector<Vec3> normals = {};  // empty, or one per point (as in the file, not normalised)
-  std::vector<Attribute> attributes = {};  // per point; normals are not repeated here
+  std::vector<Attribute> attributes = {};  // per point, without the normals
 };
 
-// The attribute of that name, or nullptr.
+// Returns the attribute of that name, or nullptr.
 const Attribute* find_attribute(const std::vector<Attribute>& attributes, const std::string& name);
-// Puts one at the end, instead of any of its name.
+// Appends an attribute, and removes an existing one with the same name.
 void set_attribute(std::vector<Attribute>& attributes, Attribute attribute);
 
 // Throws InvalidInput unless every coordinate is finite, every index is below the number of

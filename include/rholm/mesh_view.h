@@ -1,4 +1,4 @@
-// A triangle mesh where it lies: arrays of another program, or the bytes of a file. Layer: shape.
+// A mesh in memory owned by others: arrays of a program, or a mapped file. Layer: shape.
 #pragma once
 
 #include <cstddef>
@@ -10,21 +10,21 @@
 
 namespace rholm {
 
-// Vertices and triangles at fixed distances in memory. Native byte order; nothing needs to be
-// aligned. The view owns nothing.
+// Vertices and faces at fixed strides in memory, in native byte order. Nothing needs to be aligned.
+// The view owns no memory.
 struct MeshView {
   // Vertex i has its coordinates x, y, z one after the other at vertices + i * vertex_stride.
   const std::byte* vertices = nullptr;
-  std::size_t n_vertices = 0;                    // how many
-  std::size_t vertex_stride = 0;                 // bytes from one to the next
+  std::size_t n_vertices = 0;                    // number of vertices
+  std::size_t vertex_stride = 0;                 // bytes between consecutive vertices
   ScalarType coordinate = ScalarType::kFloat64;  // or kFloat32
-  // Triangle t has its three 32-bit vertex indices one after the other at triangles + t *
+  // Face t has its three 32-bit vertex indices one after the other at triangles + t *
   // triangle_stride, counter-clockwise from outside.
   const std::byte* triangles = nullptr;
-  std::size_t n_triangles = 0;      // how many
-  std::size_t triangle_stride = 0;  // bytes from one to the next
+  std::size_t n_triangles = 0;      // number of faces
+  std::size_t triangle_stride = 0;  // bytes between consecutive faces
 
-  // Vertex i < n_vertices; not checked.
+  // Returns vertex i < n_vertices; not checked.
   Vec3 vertex(std::size_t i) const {
     const std::byte* at = vertices + i * vertex_stride;
     if (coordinate == ScalarType::kFloat32) {
@@ -36,7 +36,7 @@ struct MeshView {
     std::memcpy(v, at, sizeof v);
     return {v[0], v[1], v[2]};
   }
-  // Triangle t < n_triangles; not checked, nor are its indices.
+  // Returns face t < n_triangles; neither t nor the indices are checked.
   Triangle triangle(std::size_t t) const {
     Triangle corners;
     std::memcpy(corners.data(), triangles + t * triangle_stride, sizeof corners);
@@ -44,17 +44,17 @@ struct MeshView {
   }
 };
 
-// Good as long as the mesh is there and does not change.
+// Returns a view that is valid while the mesh exists and does not change.
 MeshView view_of(const Mesh& mesh);
-// A copy of what the view shows, without attributes. Nothing is checked.
+// Returns a copy of the viewed mesh, without attributes. Nothing is checked.
 Mesh mesh_of(const MeshView& view);
 
-// A mesh that need not fit in memory, and what takes rows that have been used out of it: they come
-// back when they are used again. Without a function rows stay.
+// A mesh that need not fit in memory, with functions that remove used rows from memory. A removed
+// row is loaded again when it is used. Without a function rows stay in memory.
 struct MeshInPlace {
-  MeshView mesh;                                                                 // as it lies
-  std::function<void(std::size_t first, std::size_t n)> release_vertices = {};   // n from the first
-  std::function<void(std::size_t first, std::size_t n)> release_triangles = {};  // likewise
+  MeshView mesh;                                                                 // not copied
+  std::function<void(std::size_t first, std::size_t n)> release_vertices = {};   // n vertices
+  std::function<void(std::size_t first, std::size_t n)> release_triangles = {};  // n faces
 };
 
 // Throws InvalidInput unless every coordinate is finite and every index is below the number of

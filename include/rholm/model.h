@@ -1,4 +1,4 @@
-// The whole way from a mesh to a model, and the model file. Layer: model.
+// From a mesh to a model, and the model file. Layer: model.
 #pragma once
 
 #include <cstddef>
@@ -22,17 +22,17 @@
 
 namespace rholm {
 
-// What is wanted of a model, and what may be done to the mesh.
+// Degree or tolerance of a model, and the permitted changes to the mesh.
 struct EncodeOptions {
   AnalyzeOptions analyze = {};  // degree, method, precision
-  // The smallest degree that keeps it, instead of analyze.degree.
+  // If set, the smallest degree that keeps this tolerance replaces analyze.degree.
   std::optional<Tolerance> tolerance = {};
-  bool errors = true;       // measure and predict them: Expansion::errors of a star-shaped surface
-  ChartOptions chart = {};  // the centre, and whether others than star-shaped are taken
-  double weld_tolerance = 0;  // in the shape's unit; 0 welds bit-identical vertices
+  bool errors = true;         // measure and predict Expansion::errors, for star-shaped surfaces
+  ChartOptions chart = {};    // the centre, and whether other than star-shaped surfaces are allowed
+  double weld_tolerance = 0;  // tolerance in the shape's unit; 0 merges bit-identical vertices
 };
 
-// Their list (fields.h), with the lists of their parts.
+// Lists the fields of EncodeOptions (fields.h), with the lists of their parts.
 template <typename Visitor>
 void visit_fields(FieldsOf<EncodeOptions>, const Visitor& field) {
   using O = EncodeOptions;
@@ -58,14 +58,14 @@ void visit_fields(FieldsOf<EncodeOptions>, const Visitor& field) {
                              .least = 0});
 }
 
-// How a tolerance was kept: see ToleranceAnalysis.
+// Report on how a tolerance was kept: see ToleranceAnalysis.
 struct ToleranceReport {
-  double allowed = 0, reached = 0;  // errors, in the mesh's unit
-  bool met = false;                 // the tolerance
-  std::vector<int> degrees;  // that were tried; the model's is the last one, or cut off from it
+  double allowed = 0, reached = 0;  // wanted and final error, in the mesh's unit
+  bool met = false;                 // true if reached <= allowed
+  std::vector<int> degrees;  // tried degrees; the model has the last one, or is truncated from it
 };
 
-// Its list.
+// Lists the fields of ToleranceReport.
 template <typename Visitor>
 void visit_fields(FieldsOf<ToleranceReport>, const Visitor& field) {
   using T = ToleranceReport;
@@ -76,22 +76,22 @@ void visit_fields(FieldsOf<ToleranceReport>, const Visitor& field) {
                       .help = "that were tried; the model's is the last one, or cut off from it"});
 }
 
-// A mesh as coefficients, and what was found out on the way.
+// A mesh as coefficients, with a report.
 struct Encoded {
   Analysis analysis;                         // analysis.expansion is the model
-  std::optional<ToleranceReport> tolerance;  // if one was asked for
-  StarReport star;                           // the centre, and how well it sees the surface
-  double diagonal = 0;                       // of the bounding box
-  std::size_t vertices = 0;                  // after welding, where that was needed
-  std::size_t faces = 0, edges = 0;          // likewise
-  std::size_t merged_vertices = 0, collapsed_triangles = 0;  // by welding, as in Welded
-  bool flipped = false;                                      // the mesh was inside out
-  // "read", "topology", "center", "transform" and its parts, "rays" of a surface that is not
-  // star-shaped.
+  std::optional<ToleranceReport> tolerance;  // if a tolerance was wanted
+  StarReport star;                           // the centre, and how well the surface is seen from it
+  double diagonal = 0;                       // diagonal of the bounding box
+  std::size_t vertices = 0;                  // number after welding, if the mesh was welded
+  std::size_t faces = 0, edges = 0;          // numbers after welding
+  std::size_t merged_vertices = 0, collapsed_triangles = 0;  // results of welding, as in Welded
+  bool flipped = false;                                      // true if the mesh was inside out
+  // Stages "read", "topology", "center", "transform" and its parts; "rays" for a surface that is
+  // not star-shaped.
   StageTimes times;
 };
 
-// Its list (fields.h).
+// Lists the fields of Encoded (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<Encoded>, const Visitor& field) {
   using E = Encoded;
@@ -108,36 +108,36 @@ void visit_fields(FieldsOf<Encoded>, const Visitor& field) {
   field(&E::times, {.name = "times", .help = "stages: (wall, cpu) in seconds"});
 }
 
-// Welds, turns right side out, checks, finds the centre, transforms: a mesh that needs neither of
-// the first is worked through where it lies. Throws InvalidInput for options out of range, and what
-// its stages throw.
+// Welds the mesh, turns it right side out, checks it, finds the centre, computes coefficients. A
+// mesh that needs neither welding nor turning is not copied. Throws InvalidInput for options out of
+// range, and the errors of its stages.
 Encoded encode(const Mesh& mesh, const EncodeOptions& options = {}, const Context& context = {});
-// The same for arrays of another program: copied only if it must be changed first.
+// Encodes arrays of another program; they are copied only if they must be changed.
 Encoded encode(const MeshView& mesh, const EncodeOptions& options = {},
                const Context& context = {});
-// The same for a mesh in a mapped file, worked through where it lies; none if it must be read
-// and changed first: not closed and oriented outwards as it is, not star-shaped (unless that is
-// allowed and the centre given), other methods than edge by the fast engine, or welding asked for.
-// What is no fault of the mesh (options, memory, Cancelled) is thrown.
+// Encodes a mesh in a mapped file, without a copy. Returns nothing if the file must be read.
+// Causes: a mesh not closed, not oriented outwards, or not star-shaped (unless allowed with a given
+// centre). Further causes: welding wanted, or not the method edge with the fast engine. Throws
+// errors that do not concern the mesh (options, memory, Cancelled).
 std::optional<Encoded> encode_mapped(const MappedMesh& mesh, const EncodeOptions& options = {},
                                      const Context& context = {});
-// The same for a file. A large binary PLY file is mapped, not read, and worked through where it
-// lies (see mapped_mesh.h), if nothing has to be changed: its triangles closed and oriented
-// outwards, no welding asked for. What cannot be taken as it lies is not tried so again once it is
-// read. Encoded::times has "read", too. `warnings` of the reader are appended.
+// Encodes the mesh of a file. A large binary PLY file is mapped, not read (mapped_mesh.h), if its
+// mesh needs no change: closed, oriented outwards, no welding wanted. If mapping fails, the file is
+// read and not mapped again. Encoded::times also has "read". The reader's warnings are appended to
+// `warnings`.
 Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options = {},
                     const Context& context = {}, std::vector<std::string>* warnings = nullptr);
-// The same where the caller reads what cannot stay in the file.
+// Encodes a file in the same way; the function `read` reads the mesh if the file is not mapped.
 Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
                     const Context& context, const std::function<Mesh()>& read);
 
-// The model file: HDF5, layout in docs/model-file.md. Written to a temporary file that replaces
-// `path` when complete; "-" can be read but not written (HDF5 seeks). Throws Io, InvalidInput,
-// Unsupported (a newer major version).
+// Write and read the model file: HDF5, layout in docs/model-file.md. Writing goes to a temporary
+// file that replaces `path` when complete. "-" can be read but not written (HDF5 seeks). Throw Io,
+// InvalidInput, Unsupported (a newer major version).
 void write_model(const Expansion& expansion, const std::filesystem::path& path);
 Expansion read_model(const std::filesystem::path& path);
 
-// Any file of coefficients: a model file, or what read_coefficients() reads.
+// Reads any file of coefficients: a model file, or a file for read_coefficients().
 CoefficientsFile read_any_coefficients(const std::filesystem::path& path,
                                        const CoefficientsReadOptions& options = {},
                                        const Context& context = {});

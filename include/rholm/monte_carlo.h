@@ -1,22 +1,22 @@
-// Coefficients of the radius by Monte Carlo, as the paper has it, with a deviation that is honest.
+// Coefficients of the radius by Monte Carlo, as in the paper, with a reliable deviation.
 // Layer: paper.
 //
-// kEdges: points on the edges, uniform along the flat edge as in (P40) (on the arc only their
-// density would differ), and the corrected field of (M1)-(M3) on both of its faces. kTriangles:
-// points uniform on the spherical triangles, r conj(Y) times the solid angle (the paper's reference
-// [16]). Each edge or triangle, a "place", gets the same number of points. Both are unbiased. All
-// sums are direct, O(samples L^2).
+// kEdges: points on the edges, uniform along the flat edge as in (P40), and the corrected field of
+// (M1)-(M3) on both faces of the edge. On the arc only the density of the points would differ.
+// kTriangles: points uniform on the spherical triangles, r conj(Y) times the solid angle (the
+// paper's reference [16]). Each edge or triangle is a "place" and gets the same number of points.
+// Both are unbiased. All sums are direct, O(samples L^2).
 //
-// The deviation. Points come in pairs; half the difference of a pair says how one place scatters,
-// and the squares of all differences add up to the variance of each coefficient: its estimate has
-// about as many degrees of freedom as there are pairs that matter (Satterthwaite), on a mesh of
-// many faces a large number already with two samples a place. Standard deviations of whole-surface
-// estimates would have rounds - 1 of them instead, and 3 sigma of 4 rounds hold 94 %. Where few
-// pairs matter (a coarse mesh, few samples) `deviation` is wider than the standard error by
-// Student's factor, so that 3 deviations hold the error in about 99.7 % of all seeds there too:
-// measured over 1000 seeds at 2, 4, 8 and 32 points a place on meshes of 4 and 8 faces, 99.6
-// to 99.9 % of all coefficients, at least 98.7 % of each. Stopping at a wanted deviation uses the
-// standard error.
+// The deviation. Points come in pairs. Half the difference of a pair measures the scatter at one
+// place, and the sum of all squared differences estimates the variance of each coefficient. The
+// estimate has about as many degrees of freedom as there are pairs that matter (Satterthwaite):
+// many on a mesh of many faces, already with two samples per place. Deviations of whole-surface
+// estimates would have rounds - 1 degrees of freedom, and 3 sigma of 4 rounds hold 94 %. If the
+// number of pairs that matter is small (coarse mesh, small samples), `deviation` is the standard
+// error times Student's factor. Then 3 deviations hold the error in about 99.7 % of all seeds.
+// Over 1000 seeds at 2, 4, 8 and 32 points per place on meshes of 4 and 8 faces they hold 99.6
+// to 99.9 % of all coefficients, and at least 98.7 % of each. The stopping rule uses the standard
+// error.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@
 
 namespace rholm {
 
-// Where the random points are.
+// Places of the random points.
 enum class SamplePlaces {
   kEdges,     // on the flat edges
   kTriangles  // on the spherical triangles
@@ -42,20 +42,20 @@ EnumNames names_of(SamplePlaces places);  // "edge", "triangle"
 
 inline constexpr std::size_t kMostSamples = std::size_t{1} << 30;  // chosen: a sanity limit
 
-// How much is wanted, and when to stop.
+// Number of samples, and when to stop.
 struct MonteCarloOptions {
   int degree = 64;                             // L, 0 ... kMaxDegree
-  SamplePlaces places = SamplePlaces::kEdges;  // of the points
-  std::uint64_t seed = 1;                      // of their random numbers
-  // Points on each edge / triangle, 2 ... kMostSamples; an odd number is taken as the next even
-  // one. None: rounds of samples are added until `deviation` is reached.
+  SamplePlaces places = SamplePlaces::kEdges;  // where the points are
+  std::uint64_t seed = 1;                      // seed of the random numbers
+  // Points on each edge or triangle, 2 ... kMostSamples; an odd number is raised to the next even
+  // one. Empty: rounds of samples are added until `deviation` is reached.
   std::optional<std::size_t> samples = {};
   // Wanted relative_deviation, 1e-8 ... 1.
   double deviation = 1e-2;
-  // Where to stop without having reached it: points on each place, 2 ... kMostSamples.
+  // Points on each place at which to stop even without `deviation`, 2 ... kMostSamples.
   std::size_t most_samples = 4096;
 };
-// Their list (fields.h).
+// Lists the fields of MonteCarloOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<MonteCarloOptions>, const Visitor& field) {
   using O = MonteCarloOptions;
@@ -88,28 +88,28 @@ void visit_fields(FieldsOf<MonteCarloOptions>, const Visitor& field) {
          .most = kMostSamples});
 }
 
-// Coefficients, and how far they may be off.
+// Coefficients, and their standard errors.
 struct MonteCarlo {
-  Expansion expansion;  // the mean
-  // Of each coefficient: 3 of it hold the true error in about 99.7 % of all seeds.
+  Expansion expansion;  // mean over the samples
+  // For each coefficient: 3 deviations hold the true error in about 99.7 % of all seeds.
   Coefficients deviation;
-  std::size_t places = 0;   // edges or triangles that were sampled
-  std::size_t samples = 0;  // on each of them
-  int rounds = 0;           // in which they were added
-  // sqrt(V / (M - V)): V the sum of the squared standard errors over 1 <= l <= L, M that of the
-  // squared coefficients found (V of which is scatter). For L = 0 that of c_00. None above 1, or
-  // above 1/2 with fewer than 100 pairs of points: M - V is itself no more than scatter there.
+  std::size_t places = 0;   // number of sampled edges or triangles
+  std::size_t samples = 0;  // number of points on each place
+  int rounds = 0;           // number of rounds of samples
+  // sqrt(V / (M - V)) over 1 <= l <= L: V is the sum of the squared standard errors, M the sum of
+  // the squared coefficients, of which V is scatter. For L = 0 both are for c_00. Empty above 1,
+  // and above 1/2 with fewer than 100 pairs of points: there M - V is itself mere scatter.
   std::optional<double> relative_deviation;
-  bool reached = false;  // the wanted deviation; true for a fixed number of samples
-  // For each l, the standard error of its 2l + 1 coefficients together, l2: over the sphere, its
-  // function of degree l is this over sqrt(4 pi) off, root mean square.
+  bool reached = false;  // the wanted deviation is reached; true for a fixed number of samples
+  // For each l, the l2 standard error of its 2l + 1 coefficients together. Over sqrt(4 pi) it is
+  // the root mean square error of the function of degree l over the sphere.
   std::vector<double> degree_deviation;
-  // As in Analysis, the doubt by 3 deviations: none unless samples are very many.
+  // Same meaning as in Analysis; the uncertainty is 3 deviations. Empty without very many samples.
   std::optional<double> truncation_rms, truncation_rms_doubt;
-  StageTimes times;  // "samples", "sums", "norms"
+  StageTimes times;  // stages "samples", "sums", "norms"
 };
 
-// Its list, without the coefficients.
+// Lists the fields of MonteCarlo, without the coefficients.
 template <typename Visitor>
 void visit_fields(FieldsOf<MonteCarlo>, const Visitor& field) {
   using M = MonteCarlo;
@@ -130,9 +130,9 @@ void visit_fields(FieldsOf<MonteCarlo>, const Visitor& field) {
   field(&M::times, {.name = "times", .help = "seconds of each stage"});
 }
 
-// Same chart, options and seed give the same bits for every number of threads. Throws InvalidInput
-// for options out of range, a surface that no direction sees, or one that comes too near to the
-// centre.
+// Computes coefficients with the same bits for the same chart, options and seed, for every number
+// of threads. Throws InvalidInput for options out of range, a surface without solid angle as seen
+// from the centre, or one that comes too near to the centre.
 MonteCarlo monte_carlo(const StarChart& chart, const MonteCarloOptions& options = {},
                        const Context& context = {});
 

@@ -1,6 +1,6 @@
-// The paper's atlas (its sections 5.1 to 5.6), kept to compare with: patches by a kd-tree, each on
-// its best-fitting sphere, coefficients by integrals over the Delaunay triangles of its points.
-// Layer: model.
+// The paper's atlas (its sections 5.1 to 5.6), kept for comparison. Patches come from a kd-tree,
+// each on its best-fitting sphere; coefficients are integrals over the Delaunay triangles of its
+// points. Layer: model.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +14,15 @@ namespace rholm {
 
 // The paper's parameters.
 struct PatchAtlasOptions {
-  int degree = 16;                               // of every cap, 0 ... kMaxCapDegree
-  CapExtension extension = CapExtension::kZero;  // of caps beyond their points
-  double min_cosine = 0.5;  // of normals to the mean normal of their patch (P36), 0 ... 1
-  // A patch is widened by the points around it: the radius of its cell over that of its own points,
-  // 1 ... 4. Caps have no weight at the rims of their cells, where their series are wrong.
+  int degree = 16;                               // degree of every cap, 0 ... kMaxCapDegree
+  CapExtension extension = CapExtension::kZero;  // values of caps outside of their points
+  double min_cosine = 0.5;  // cosine of a normal to its patch's mean normal (P36), 0 ... 1
+  // Enlarges a patch by surrounding points: radius of its cell over radius of its own points, 1 ...
+  // 4. Caps have no weight at the rims of their cells, where their series are wrong.
   double overlap = 1.5;
 };
 
-// Their list (fields.h).
+// Lists the fields of PatchAtlasOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<PatchAtlasOptions>, const Visitor& field) {
   using O = PatchAtlasOptions;
@@ -50,35 +50,35 @@ void visit_fields(FieldsOf<PatchAtlasOptions>, const Visitor& field) {
                       .in_program = false});
 }
 
-// The caps, and the surface they make.
+// The caps, and the surface extracted from them.
 struct PatchAtlas {
-  AtlasModel model;           // blended by the paper's weights; errors as measured on its surface
-  Mesh surface;               // with normals nx, ny, nz
-  double rms_along_rays = 0;  // of all points of the cells to the series of their caps, (P42)
+  AtlasModel model;           // blended by the paper's weights; errors measured on its surface
+  Mesh surface;               // surface with normals nx, ny, nz
+  double rms_along_rays = 0;  // rms distance of the cells' points to their caps' series, (P42)
 };
 
-// A mesh is its vertices, with the mean normals of their faces; its errors are measured both ways,
-// those of points from the points. Points need normals. Throws InvalidInput for options out of
-// range, and points that no patch can be made of. Same bits for any number of threads.
+// Computes the paper's atlas. A mesh counts as its vertices with the mean normals of their faces;
+// its errors are measured both ways, errors for points from the points only. Points need normals.
+// Throws InvalidInput for bad options or no patch. Same bits for any number of threads.
 PatchAtlas patch_atlas(const Mesh& mesh, const PatchAtlasOptions& options,
                        const Context& context = {});
 PatchAtlas patch_atlas(const PointCloud& cloud, const PatchAtlasOptions& options,
                        const Context& context = {});
 
-// The steps before any expansion (the paper's Figure 3), each patch in a colour of its own.
+// A step before the expansion that patch_picture() shows (the paper's Figure 3).
 enum class PatchView {
   kPatches,    // the points of each patch, joined by their Delaunay triangles on its sphere
-  kTriangles,  // the same, each triangle by itself and smaller, so that gaps show them
-  kSpheres     // the same on the sphere of each patch: what the series begin from
+  kTriangles,  // the same, but each triangle separate and smaller, so that gaps separate them
+  kSpheres     // the same on the sphere of each patch: the directions where the series are fitted
 };
 EnumNames names_of(PatchView view);  // "patches", "triangles", "spheres"
 
-// Patches to look at.
+// A mesh that shows patches, each patch in a colour of its own.
 struct PatchPicture {
-  Mesh mesh;                // with red, green, blue; patches share no vertices
-  std::size_t patches = 0;  // how many
+  Mesh mesh;                // mesh with red, green, blue; patches share no vertices
+  std::size_t patches = 0;  // number of patches
 };
-// options.degree, extension and overlap are not used. Throws as patch_atlas().
+// Makes the picture; ignores options.degree, extension and overlap. Throws as patch_atlas().
 PatchPicture patch_picture(const Mesh& mesh, PatchView view, const PatchAtlasOptions& options = {},
                            const Context& context = {});
 PatchPicture patch_picture(const PointCloud& cloud, PatchView view,

@@ -1,4 +1,4 @@
-// Points without faces: made from meshes, put in order, given normals. Layer: shape.
+// Points without faces: sampling, cleaning, alignment of scans, normals. Layer: shape.
 #pragma once
 
 #include <cstddef>
@@ -12,62 +12,62 @@
 
 namespace rholm {
 
-inline constexpr std::size_t kMaxPoints = 100000000;  // some 5 GB of memory: the sanity limit
-inline constexpr double kMaxDensityRatio = 1000;      // bounds the tries per point
+inline constexpr std::size_t kMaxPoints = 100000000;  // about 5 GB of memory: a sanity limit
+inline constexpr double kMaxDensityRatio = 1000;      // limits the number of attempts per point
 
-inline constexpr double kMaxPatternRatio = 1000;  // rows as good as alone
-inline constexpr int kMaxScans = 1000;            // the sanity limit
+inline constexpr double kMaxPatternRatio = 1000;  // chosen: rows are then isolated
+inline constexpr int kMaxScans = 1000;            // a sanity limit
 
-// Where points lie on a surface. All but random ones are rows: steps along them are the smaller.
+// Arrangement of points on a surface. All but kRandom have rows: steps along a row are smaller.
 enum class SamplePattern {
   kRandom,  // independent of each other
   kSlices,  // where planes across the axis cut it, as in a stack of tomograms
   kRings,   // where planes through the axis and the middle cut it, at equal angles
   kLines,   // where rays of each scanner meet it first, row by row
-  kGrid,    // where lines meet it that face it: a grid along the axis, and two across it
+  kGrid,    // where lines that it faces meet it: a grid along the axis, and two across it
 };
-// "random", "slices", "rings", "lines", "grid".
+// Returns the names of patterns, as in option lists.
 EnumNames names_of(SamplePattern pattern);  // "random", "slices", "rings", "lines", "grid"
 
-// What is measured of a surface, and how badly. Lengths are fractions of the diagonal of the
-// mesh's bounding box.
+// Sampling and simulated measurement errors. Lengths are fractions of the diagonal of the mesh's
+// bounding box.
 struct SampleOptions {
-  std::size_t points = 100000;  // 1 ... kMaxPoints, before holes; with a pattern about as many
-  // Standard deviation of a Gaussian displacement, the same and independent along x, y and z: so
-  // the distance to a flat surface has it too.
+  std::size_t points = 100000;  // 1 ... kMaxPoints, before holes; approximate with a pattern
+  // Standard deviation of a Gaussian displacement, equal and independent along x, y and z. The
+  // distance to a flat surface has the same standard deviation.
   double noise = 0;
-  // Each normal is turned about an axis in the tangent plane, of uniform direction, by an angle
-  // that is Gaussian with mean 0 and this standard deviation, degrees.
+  // Standard deviation, in degrees, of the angle between exact and given normals: Gaussian, mean 0.
+  // The axis of each normal's rotation lies in the tangent plane and has uniform direction.
   double normal_noise = 0;
-  // Share of the points that is replaced (floor(share * points) of them, evenly spread over the
-  // list) by points uniform in the bounding box grown by 10 %, with normals uniform on the sphere.
+  // Share of the points replaced by outliers: floor(share * points), evenly spread over the list.
+  // Outliers are uniform in the bounding box grown by 10 %, with normals uniform on the sphere.
   double outliers = 0;
-  // Balls about points uniform on the surface; what lies in one is removed, after all the above.
+  // Number of holes: balls about uniform points of the surface, in which points are removed last.
   int holes = 0;
-  double hole_radius = 0;  // of these balls, 0 ... 1
-  // The density falls exponentially along the longest axis of the bounding box, from the low
-  // coordinate to the high, to 1 / density_ratio; 1 ... kMaxDensityRatio.
+  double hole_radius = 0;  // radius of these balls, 0 ... 1
+  // The density falls exponentially to 1 / density_ratio along the longest axis of the bounding
+  // box, from low to high coordinates; 1 ... kMaxDensityRatio.
   double density_ratio = 1;
-  SamplePattern pattern = SamplePattern::kRandom;  // where points lie
-  // Steps from row to row over those along them, 1 ... kMaxPatternRatio. Of rings at the mean
-  // distance from the axis, of lines in angles.
+  SamplePattern pattern = SamplePattern::kRandom;  // arrangement of the points
+  // Step between rows divided by the step along rows, 1 ... kMaxPatternRatio. For rings at their
+  // mean distance from the axis, for lines in angles.
   double pattern_ratio = 1;
-  Vec3 pattern_axis = {0, 0, 1};  // of any length but 0; rows of scanners run across it
-  // Scanners all around, at three times the radius of a ball about the middle that holds the
-  // surface; each has its part of the points, of what it sees. 0: points are of no scanner. With
-  // any, points have the attribute `scan`, 0 ... scans - 1. Random points and lines have them.
+  Vec3 pattern_axis = {0, 0, 1};  // axis of any length but 0; rows of scanners run across it
+  // Number of scanners around the surface, at three times the radius of its bounding ball. Each
+  // gets its part of the points, where it sees the surface. 0: no scanners. Otherwise points get
+  // the attribute `scan`, 0 ... scans - 1. Allowed for random points and lines.
   int scans = 0;
-  // Each scan is moved as a rigid body, at random; the root mean square distance that points of the
-  // surface then have from where they were, over all scans.
+  // Each scan is moved as a random rigid body. This is the root mean square distance, over all
+  // scans, that points of the surface are moved.
   double misalignment = 0;
-  // By so much more than the first scan the last one is noisy; others lie between.
+  // Relative excess of the last scan's noise over the first scan's; other scans lie between.
   double scan_noise = 0;
-  bool sensor = false;     // attributes sensor_x, sensor_y, sensor_z: the scanner of each point
-  bool normals = true;     // given with the points
-  std::uint64_t seed = 1;  // of all random numbers
+  bool sensor = false;     // adds attributes sensor_x, sensor_y, sensor_z: each point's scanner
+  bool normals = true;     // adds normals
+  std::uint64_t seed = 1;  // seed of all random numbers
 };
 
-// Their list (fields.h).
+// Lists the fields of SampleOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<SampleOptions>, const Visitor& field) {
   using O = SampleOptions;
@@ -147,25 +147,25 @@ void visit_fields(FieldsOf<SampleOptions>, const Visitor& field) {
         {.name = "seed", .help = "of all random numbers", .value = "S", .in_program = false});
 }
 
-// Points on the surface, independent random ones, uniform by area (unless the density falls), or in
-// a pattern, with the exact normals of their faces. Attributes but normals are interpolated
-// linearly between the corners of the face, before noise; whole numbers are rounded; outliers have
-// those of some other place of the surface. Same mesh and options, same points for any number of
-// threads. Throws InvalidInput for a mesh that is not valid or has no area, for options that are
-// out of range or do not go together, and where holes, a pattern or scanners leave no point.
+// Samples points on the surface with the exact normals of their faces: independent random points,
+// uniform by area (unless the density falls), or a pattern. Attributes except normals are
+// interpolated linearly between the corners of the face, before noise; whole numbers are rounded.
+// Outliers get the attributes of another place of the surface. Same mesh and options, same points
+// for any number of threads. Throws InvalidInput for a mesh that is invalid or has no area, for
+// options that are out of range or incompatible, and if no point is left.
 PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options = {},
                           const Context& context = {});
 
-// What clean() found.
+// Counts of clean().
 struct CleanReport {
-  std::size_t points = 0;            // before
+  std::size_t points = 0;            // number of points before
   std::size_t not_finite = 0;        // points dropped: a coordinate is NaN or infinite
   std::size_t duplicates = 0;        // points dropped: at the place of an earlier one
-  std::size_t opposite_normals = 0;  // of these, with a normal against the earlier one's
-  std::size_t zero_normals = 0;      // of the points that stay, if there are normals
+  std::size_t opposite_normals = 0;  // duplicates whose normal opposes the earlier one's
+  std::size_t zero_normals = 0;      // remaining points with zero normals, if there are normals
 };
 
-// Its list.
+// Lists the fields of CleanReport.
 template <typename Visitor>
 void visit_fields(FieldsOf<CleanReport>, const Visitor& field) {
   using C = CleanReport;
@@ -180,24 +180,24 @@ void visit_fields(FieldsOf<CleanReport>, const Visitor& field) {
         {.name = "zero_normals", .help = "of the points that stay, those with a zero normal"});
 }
 
-// Makes a list of points fit for work: drops what is not finite, and merges points at one
-// place (to 2^-23 of the diagonal of their bounding box) into the first one, which keeps its
-// attributes. Its normal becomes the mean direction of all their normals, but for those at more
-// than 90 degrees to its own. Normals that are not finite become zero. Throws InvalidInput if
-// normals or attributes are not one per point.
+// Drops points that are not finite, and merges points at one place (to 2^-23
+// of the diagonal of their bounding box). A merged point keeps the attributes
+// of its first point. Its normal is the mean direction of the normals within
+// 90 degrees of the first one's normal. Normals that are not finite become
+// zero. Throws InvalidInput if normals or attributes are not one per point.
 CleanReport clean(PointCloud& cloud, const Context& context = {});
 
-// What align_scans() did. Lengths are in the unit of the points.
+// Report of align_scans(). Lengths are in the unit of the points.
 struct ScanAlignment {
-  std::size_t scans = 0;  // different values of the attribute; 0 without one
-  std::size_t pairs = 0;  // points of one scan that were compared with those of another
-  // Of these pairs, along the normal: 1.48 times the median of the distances, the standard
-  // deviation if most of them are Gaussian. Before anything moved, and after.
+  std::size_t scans = 0;  // number of scans by attribute value; 0 without it
+  std::size_t pairs = 0;  // number of pairs of points from different scans
+  // Distances of these pairs along the normal, before and after: 1.48 times the median, which is
+  // the standard deviation if most distances are Gaussian.
   double distance_before = 0, distance = 0;
-  double moved = 0;  // root mean square way of all points
+  double moved = 0;  // root mean square displacement of all points
 };
 
-// Its list.
+// Lists the fields of ScanAlignment.
 template <typename Visitor>
 void visit_fields(FieldsOf<ScanAlignment>, const Visitor& field) {
   using S = ScanAlignment;
@@ -212,32 +212,32 @@ void visit_fields(FieldsOf<ScanAlignment>, const Visitor& field) {
   field(&S::moved, {.name = "moved", .help = "root mean square way of all points"});
 }
 
-// Brings scans of one surface together, each moved as a rigid body: points with the attribute
-// `scan`, whole numbers, at most kMaxScans different ones. Pairs of near points of two scans that
-// face the same way shall lie on one sphere; least squares over all scans at once, with weights
-// that fall for large distances, until nothing moves (Chen, Medioni 1992; Rusinkiewicz 2019). What
-// no pair knows of, as a turn of a ball, is left alone, and the mean of all points does not move.
-// Normals and attributes sensor_x, sensor_y, sensor_z go with their points. For scans that are off
-// by a few spacings and overlap; does nothing without the attribute, or with one scan. Throws
-// InvalidInput for a cloud that is not valid. Same input, same bits for any number of threads.
+// Aligns scans of one surface, each moved as a rigid body. The attribute `scan` of points holds
+// whole numbers, at most kMaxScans different ones. Near points of two scans with similar normals
+// are paired, and each pair shall lie on one sphere (Chen, Medioni 1992; Rusinkiewicz 2019). Least
+// squares over all scans, with weights that fall for large distances, are repeated until nothing
+// moves. A motion that no pair determines, such as a rotation of a ball, is left out, and the mean
+// of all points stays. Normals and attributes sensor_x, sensor_y, sensor_z are moved too. For
+// overlapping scans within a few spacings; does nothing with fewer than two scans. Throws
+// InvalidInput for an invalid cloud. Same input, same bits for any number of threads.
 ScanAlignment align_scans(PointCloud& cloud, const Context& context = {});
 
-// How normals are found and which side is outside.
+// Options for computing normals and their signs.
 struct OrientOptions {
-  int neighbors = 0;             // of a fit, 3 ... 1000; 0: chosen from the data
-  bool keep_directions = false;  // of the normals there are (zero ones are computed): signs only
-  // The surface is seen from here from inside: normals point away. Decides every sign alone.
+  int neighbors = 0;             // number in a fit, 3 ... 1000; 0: chosen from the data
+  bool keep_directions = false;  // keep directions of given nonzero normals, choose only signs
+  // Point inside from which the surface is seen: normals point away from it. Decides all signs.
   std::optional<Vec3> center = {};
-  // It has been measured from here: normals point to it. Decides every sign alone, so that there is
-  // a centre, or a sensor, or none. With none, attributes sensor_x, sensor_y, sensor_z of the cloud
-  // do, if there are all three, of finite values: the place that each point was measured from.
+  // Point from which the surface was measured: normals point to it. Decides all signs, so it
+  // excludes `center`. Without both, attributes sensor_x, sensor_y, sensor_z of the cloud are used
+  // if all three exist with finite values: the place each point was measured from.
   std::optional<Vec3> sensor = {};
-  // Points far from all others are not looked for; with a centre or a sensor they never are.
+  // True: isolated points are not searched for; with a centre or a sensor they never are.
   bool keep_outliers = false;
-  bool confidence = false;  // the cloud gets an attribute `confidence`, instead of any of that name
+  bool confidence = false;  // adds the attribute `confidence`, replacing an existing one
 };
 
-// Their list (fields.h).
+// Lists the fields of OrientOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<OrientOptions>, const Visitor& field) {
   using O = OrientOptions;
@@ -262,27 +262,27 @@ void visit_fields(FieldsOf<OrientOptions>, const Visitor& field) {
         {.name = "confidence", .help = "give each point its confidence, 0 ... 1, as an attribute"});
 }
 
-// What orient() did, and how sure it is.
+// Counts and confidence of orient().
 struct OrientReport {
-  std::size_t points = 0;      // given
+  std::size_t points = 0;      // number of given points
   std::size_t duplicates = 0;  // points at the place of an earlier one; they share its normal
-  int neighbors = 0;           // of a fit
-  std::size_t components = 0;  // of the graph of neighbours; 0 with a centre or a sensor
-  std::size_t computed = 0;    // normals whose direction is new
-  std::size_t flipped = 0;     // normals that point to the other side now than they did
-  // Points far from all others, outliers: they take the normal of the nearest one that is none,
-  // with a confidence of 0.
+  int neighbors = 0;           // number of neighbours in a fit
+  std::size_t components = 0;  // parts of the neighbour graph; 0 with a centre or a sensor
+  std::size_t computed = 0;    // normals with a new direction
+  std::size_t flipped = 0;     // normals whose sign changed
+  // Isolated points, far from all others: they get the normal of the nearest point that is not
+  // isolated, with confidence 0.
   std::size_t outliers = 0;
-  std::size_t undetermined = 0;  // points whose neighbours lie on a line: their normals are zero
-  // Of a point, 0 ... 1: its sign is right with the probability (1 + confidence) / 2, or a larger
-  // one. From how far its neighbours' normals agree with its own, and how nearly the winding number
-  // is 1 behind and 0 before it; with a centre or a sensor, from the angle between normal and line
-  // of sight.
+  std::size_t undetermined = 0;  // points whose neighbours are collinear: their normals are zero
+  // Mean confidence, 0 ... 1. The sign of a point is right with at least the probability (1 +
+  // confidence) / 2. The confidence follows from the agreement of neighbouring normals, and from
+  // winding numbers near 1 behind the point and 0 in front. With a centre or a sensor it follows
+  // from the angle between normal and line of sight.
   double mean_confidence = 0;
   double unsure = 0;  // share of the points with a confidence below 0.5
 };
 
-// Its list.
+// Lists the fields of OrientReport.
 template <typename Visitor>
 void visit_fields(FieldsOf<OrientReport>, const Visitor& field) {
   using R = OrientReport;
@@ -306,21 +306,21 @@ void visit_fields(FieldsOf<OrientReport>, const Visitor& field) {
   field(&R::unsure, {.name = "unsure", .help = "share of the points with a confidence below 0.5"});
 }
 
-// Share of unsure points from which normals, and a surface made with them, should not be trusted.
-inline constexpr double kTooUnsure = 0.2;  // chosen: a fifth of the shape inside out is no shape
+// Share of unsure points above which normals, and surfaces made with them, are unreliable.
+inline constexpr double kTooUnsure = 0.2;  // chosen: a shape with a fifth inside out is unusable
 
-// Gives points unit normals that point out of the solid they bound. Directions: planes and
-// paraboloids through the nearest points, between rows where points lie in rows, and beside sharp
-// edges through those of one side only. Signs: along a minimum spanning tree of the graph of
-// neighbours (Hoppe 1992), then, between parts that it joins in doubt or not at all, so that their
-// winding numbers agree; a closed part inside another bounds a cavity. Where the winding number of
-// all says that this is wrong, in thin, sparse or unevenly sampled places, signs come from a field
-// that all points share, and directions from fits to one sheet at a time. What is open and has no
-// inside (a plane) points to the side of its mean normal's largest component. Same input, same bits
-// for any number of threads.
+// Computes unit normals that point out of the solid. Directions come from planes and paraboloids
+// through the nearest points. They are fitted between rows where points lie in rows, and to one
+// side only beside sharp edges. Signs come from a minimum spanning tree of the neighbour graph
+// (Hoppe 1992). Parts that the tree joins with low confidence or not at all are oriented so that
+// their winding numbers agree. A closed part inside another one bounds a cavity. In thin, sparse
+// or uneven places the winding number of all points may contradict: signs then come from a field
+// of all points, directions from fits to one sheet. An open part without inside (a plane)
+// follows the largest component of its mean normal. Same input, same bits for any number of
+// threads.
 //
-// Throws InvalidInput for a cloud that is not valid (clean() helps), more than kMaxPoints points,
-// options out of range, and points that lie on one line: they have no plane.
+// Throws InvalidInput for an invalid cloud (clean() helps), more than kMaxPoints points, options
+// out of range, and points that all lie on one line.
 OrientReport orient(PointCloud& cloud, const OrientOptions& options = {},
                     const Context& context = {});
 

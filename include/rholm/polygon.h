@@ -1,4 +1,4 @@
-// Polygons cut into triangles. Layer: shape.
+// Division of polygons into triangles. Layer: shape.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +9,19 @@
 
 namespace rholm {
 
-// Appends the triangles of the polygon with these corners (indices below vertices.size(), in
-// order around it) to `triangles`: n - 2 of them for n corners, none for fewer than three. The
-// orientation of the polygon is kept and every triangle uses three of its corners.
+// Appends the triangles of the polygon with these corners to `triangles`: n - 2 for n corners, none
+// for fewer than three. Corners are indices below vertices.size(), in order around the polygon.
+// Every triangle uses three corners and keeps the polygon's orientation.
 //
-// A quadrilateral is cut along the shorter of its diagonals that lie inside, a convex polygon
-// as a fan from its first corner, any other by clipping ears in the plane of its mean (Newell)
-// normal. Where that is not possible - the polygon crosses itself, has no area, or has more than
-// kMaxClippedCorners corners and is not convex - it is a fan too, right or not.
+// A quadrilateral is cut along the shorter of its inner diagonals, a convex polygon as a fan from
+// its first corner. Other polygons are cut by ear clipping in the plane of the mean (Newell)
+// normal. Clipping is impossible for a polygon that crosses itself, has no area, or is not convex
+// with more than kMaxClippedCorners corners. It is cut as a fan, right or not.
 void triangulate_polygon(const std::vector<Vec3>& vertices, std::span<const std::uint32_t> corners,
                          std::vector<Triangle>& triangles);
 
-// Clipping takes O(n^2) steps, at 1000 corners a few milliseconds; the limit bounds the time per
-// corner of a file whatever it holds.
+// Clipping takes O(n^2) steps, a few milliseconds for 1000 corners. The limit bounds the time per
+// corner for any file.
 inline constexpr std::size_t kMaxClippedCorners = 1000;
 
 }  // namespace rholm

@@ -1,11 +1,11 @@
-// Surfaces from points: the whole way. Layer: reconstruct.
+// Reconstruction of surfaces from points. Layer: reconstruct.
 //
-// Up to ReconstructOptions::tile_points points are worked on in one piece. More are cut into tiles
-// of space by a tree that depends on the points alone. Each tile is reconstructed with the points
-// around it, and the parts are one surface, without seams. The surface depends on the points and
-// the options only: its bytes are the same for any number of threads, any memory, any folder, and,
-// in several tiles, any order of the points (of points at one place the first one's attributes
-// count).
+// Up to ReconstructOptions::tile_points points are reconstructed in one tile. Larger clouds are cut
+// into tiles of space by a tree that depends on the points alone. Each tile uses the points around
+// it too, and the parts join to one surface without seams. The surface depends on points and
+// options only: its bytes are the same for any number of threads, memory and folder. With several
+// tiles the order of points does not matter either, except at points with the same place: the
+// attributes of the first one are used.
 #pragma once
 
 #include <cstddef>
@@ -28,20 +28,20 @@
 
 namespace rholm {
 
-// Points of a tile at most, by default: some 1.8 GB of memory on two threads.
+// Default maximum of points in a tile: about 1.8 GB of memory on two threads.
 inline constexpr std::uint64_t kTilePoints = std::uint64_t{1} << 20;
 
-// What a reconstruction in tiles will take, bytes.
+// Resources for a reconstruction in tiles; sizes in bytes.
 struct TileForecast {
-  std::uint64_t points = 0;   // that are finite, and no far strays
-  std::uint64_t tiles = 0;    // that space is cut into
-  std::uint64_t memory = 0;   // beside what is stored: of a tile, or, if more, of a rough body's
-                              // handles in all
+  std::uint64_t points = 0;   // finite points that are not isolated far away
+  std::uint64_t tiles = 0;    // number of tiles
+  std::uint64_t memory = 0;   // besides `stored`: of a tile, or if more, of all handles of a rough
+                              // body
   std::uint64_t stored = 0;   // between the steps, in a folder or in memory
-  std::uint64_t written = 0;  // the surface as a file
+  std::uint64_t written = 0;  // size of the surface's file
 };
 
-// Its list (fields.h).
+// Lists the fields of TileForecast (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<TileForecast>, const Visitor& field) {
   using F = TileForecast;
@@ -54,62 +54,62 @@ void visit_fields(FieldsOf<TileForecast>, const Visitor& field) {
   field(&F::written, {.name = "written", .help = "bytes of the surface as a file"});
 }
 
-// About; attributes of the points are not counted. Throws InvalidInput for tile_points that
-// ReconstructOptions cannot have.
+// Estimates the resources, without attributes of the points. Throws InvalidInput for tile_points
+// out of the range in ReconstructOptions.
 TileForecast foresee_tiles(std::uint64_t points, std::uint64_t tile_points = kTilePoints);
 
-// What is wanted of the surface; by default the data decide.
+// Properties of the surface, and limits. Defaults are chosen from the data.
 struct ReconstructOptions {
-  // Edge of the grid's cubes, in the unit of the points; 0: from their spacing and their noise.
+  // Edge of the grid's cubes, in the unit of the points; 0: from spacing and noise of the points.
   double step = 0;
-  // Caps grow while their points fit to within this rms distance, in the unit of the points; 0: as
-  // exact as the points are.
+  // Caps grow as long as their points fit within this rms distance, in the unit of the points. 0:
+  // as exact as the points.
   double tolerance = 0;
-  std::optional<double> noise = {};      // standard deviation of the points; estimated if not given
-  HolePolicy holes = HolePolicy::kFill;  // where points are missing
+  std::optional<double> noise = {};      // standard deviation of the points; empty: estimated
+  HolePolicy holes = HolePolicy::kFill;  // places without points: close or cut open
   CapBlend blend = CapBlend::kSmooth;    // kSpline: the paper's weights, for comparison
-  // Parts of the surface with less than this share of the largest one's area are dropped.
+  // Parts of the surface with an area below this share of the largest part's area are dropped.
   double min_component = 0.01;
-  // Points that belong to no surface stay; else those are removed that are far from all others, at
-  // any distance, and where there are such those near the surface with normals or heights of their
-  // own.
+  // False: isolated points far from all others, at any distance, are removed. If such points exist,
+  // points near the surface with deviating normals or heights are removed too. True: all points are
+  // kept.
   bool keep_outliers = false;
-  // All points have been measured from here; without, attributes sensor_x, sensor_y, sensor_z of
-  // the cloud say where each was, if there are all three, of finite values. Computed normals then
-  // point to their sensors, and holes are not closed across what has been seen to be empty: what
-  // lines of sight go through.
+  // Point from which all points were measured. If empty, attributes
+  // sensor_x, sensor_y, sensor_z of the cloud are used if all three exist
+  // with finite values. Computed normals point to the sensors, and holes
+  // are not closed across space that lines of sight show to be empty.
   std::optional<Vec3> sensor = {};
-  // Points with an attribute `scan` stay where they are; else the scans are brought together first,
-  // by align_scans(); those of several tiles by the motions of a sample of at most tile_points.
+  // True: points with an attribute `scan` stay in place. False: align_scans() aligns scans first;
+  // with several tiles, it finds the motions from a sample of at most tile_points points.
   bool keep_scans = false;
-  // The vertices get an attribute `confidence`, 0 ... 1, instead of any of that name: how sure the
-  // signs of the normals are that were computed, less where no points are near (0 from four
-  // spacings on) and where an opposite sheet is nearer than three spacings.
+  // Adds a vertex attribute `confidence`, 0 ... 1, in place of an existing one: the confidence of
+  // the signs of computed normals. It is reduced far from points (0 from four spacings on) and
+  // where an opposite sheet is nearer than three spacings.
   bool confidence = false;
-  std::optional<SimplifyOptions> simplify = {};  // fewer triangles for the same surface
-  // More points than that are cut into tiles of at most so many, 1000 ... 2^28: fewer take less
-  // memory and more time. The surface of other tiles is another one, as good.
+  std::optional<SimplifyOptions> simplify = {};  // reduces the number of triangles
+  // Largest number of points in a tile, 1000 ... 2^28. More points are cut into tiles; smaller
+  // tiles take less memory and more time, and give another surface of equal accuracy.
   std::uint64_t tile_points = kTilePoints;
-  // Bytes: what needs more is refused, with the tile_points or the step that would do. It never
-  // changes the surface.
+  // Bytes. A larger need throws an error that names a sufficient tile_points or step. The limit
+  // never changes the surface.
   std::size_t max_memory = std::size_t{8} << 30;
-  // A binary PLY to write the surface to, which appears when it is complete. Then neither the
-  // surface nor its caps have to fit into memory, and Reconstruction has its report only.
+  // Binary PLY file for the surface, which appears when complete. Surface and caps then need not
+  // fit into memory, and Reconstruction contains only its report.
   std::filesystem::path output = {};
-  // A model file of all caps to write as well, as write_atlas() makes it; they must fit into
-  // memory.
+  // Model file for all caps, written as by
+  // write_atlas(). The caps must fit into memory.
   std::filesystem::path model = {};
-  // Folder in which tiles are kept meanwhile, if memory has no room for them; by default that of
-  // the system's temporary files.
+  // Folder for intermediate tiles that do not fit into memory; by default the system's folder for
+  // temporary files.
   std::filesystem::path work_dir = {};
-  // What is done in several tiles is kept in the folder OUTPUT.tiles of work_dir until the surface
-  // is complete: the same call goes on from there after a run that ended early. Needs `output`.
+  // Keeps finished work on several tiles in the folder OUTPUT.tiles of work_dir until the surface
+  // is complete. After an interruption the same call continues from there. Needs `output`.
   bool resume = false;
-  // Called before the work on several tiles, once the points have been counted.
+  // Called when several tiles are needed, after the points are counted and before the work.
   std::function<void(const TileForecast& forecast)> foreseen = {};
 };
 
-// Their list (fields.h).
+// Lists the fields of ReconstructOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<ReconstructOptions>, const Visitor& field) {
   using O = ReconstructOptions;
@@ -200,70 +200,70 @@ void visit_fields(FieldsOf<ReconstructOptions>, const Visitor& field) {
                      .changes_result = false});
 }
 
-// What was found in the points, and what became of them. Lengths are in their unit.
+// Findings of reconstruct(), and changes to the points. Lengths are in the unit of the points.
 struct ReconstructReport {
-  std::size_t points = 0;          // given, with those that add_dropped() adds
-  std::size_t dropped_points = 0;  // not finite, at the place of another, without a normal
-  std::size_t outliers = 0;        // removed
-  ScanAlignment scans;             // what became of them, if there are any
-  double unsure = 0;              // share of the points the sign of whose computed normal is unsure
-  bool computed_normals = false;  // the points had none, or given ones that were replaced
-  bool turned_normals = false;    // all given ones: they agreed, and pointed into the solid
-  // Given normals that contradicted those around them, or the winding number of all, and were
+  std::size_t points = 0;          // number of points given, with add_dropped()
+  std::size_t dropped_points = 0;  // not finite, duplicate, or without a normal
+  std::size_t outliers = 0;        // number of removed outliers
+  ScanAlignment scans;             // alignment of the scans, if there are any
+  double unsure = 0;               // share of points whose computed normal has an unsure sign
+  bool computed_normals = false;   // the points had no normals, or they were replaced
+  bool turned_normals = false;     // all given normals were consistent but inward
+  // Given normals that contradicted their neighbours, or the winding number of all points, and were
   // turned.
   std::size_t mended_normals = 0;
-  // Share of given normals more than 45 degrees off the normal of the plane of their neighbours.
-  // Above kMostCrooked all of them are computed instead.
+  // Share of given normals at more than 45 degrees to the normal of the plane of their neighbours.
+  // Above kMostCrooked all normals are computed instead.
   double crooked_normals = 0;
-  // Points whose normals contradict those around them, where turning some does not help.
+  // Points whose normals contradict their neighbours, where turning normals does not help.
   std::size_t contradicting_normals = 0;
   std::vector<Vec3> contradictions = {};  // the first three of these points
-  // Length of the lines along which sheets of the points cross each other, in diagonals of the
-  // points: an estimate. Not looked for, and 0, where points are noisier than 1.4 % of the
+  // Estimated length of the lines along which sheets of the points cross. Its unit is the diagonal
+  // of the points. It is 0, and not searched for, where points are noisier than 1.4 % of the
   // diagonal.
   double crossing_length = 0;
   std::vector<Vec3> crossings = {};  // up to three points near these lines
-  // Share of the points that lie off the surface: the rms distance of the 32 points around from it
-  // is more than 1/5.5 of the distance to the opposite wall, so that points fill the body, or their
-  // noise hides how thick it is; or more than half a spacing, and all points are spread evenly
-  // across the surface, as noise is not. About 200 points are asked, or 67 if few of
-  // these are off, before it is simplified.
+  // Share of points off the surface: the 32 points around have a large rms distance from the
+  // surface. It exceeds 1/5.5 of the distance to the opposite wall: points fill the body, or noise
+  // hides its thickness. Another case is an rms distance above half a spacing, with all points
+  // spread evenly across the surface, unlike noise. Tested at about 200 points, or 67 if only some
+  // are off, before simplification.
   double points_off_surface = 0;
   std::vector<Vec3> places_off_surface = {};  // up to three of these points
-  // Share of the points at which the winding number of all points says that the given normal,
-  // which is kept, points into the solid.
+  // Share of points at which the winding number of all points says that the given normal, which is
+  // kept, points into the solid.
   double inward_normals = 0;
-  double spacing = 0;  // median distance between neighbours, as if on a square grid
-  double noise = 0;    // standard deviation along the normal, 0 if within the shape's own
-  double normal_noise_degrees = 0;     // of the normals against the surface
-  std::size_t neighbours = 0;          // points of a typical cap
-  std::size_t caps = 0;                // of the atlas
+  double spacing = 0;  // median distance of neighbours, as on a square grid
+  double noise = 0;    // standard deviation along the normal; 0 if within the shape's own variation
+  double normal_noise_degrees = 0;     // angle of normals against the surface
+  std::size_t neighbours = 0;          // number of points of a typical cap
+  std::size_t caps = 0;                // number of caps of the atlas
   double step = 0;                     // edge of the grid's cubes
-  std::size_t holes = 0;               // places without points that were closed, or cut out
-  std::size_t smooth_holes = 0;        // of those closed, by a surface that continues the rim
-  std::size_t cut_handles = 0;         // bridges and tunnels smaller than points can tell
-  std::size_t dropped_components = 0;  // parts of the surface that were too small
-  std::size_t faces = 0;               // of the surface before it was simplified
-  double simplify_error = 0;           // by simplify(), as Simplification::error
-  // Of the surface; of what of it closes holes; and what the points stand for, by the circles of
-  // their neighbours. The first without the second is about the third, unless the points contradict
-  // each other: scans that are off, double walls.
+  std::size_t holes = 0;               // closed or cut out places without points
+  std::size_t smooth_holes = 0;        // holes closed by a surface that continues the rim
+  std::size_t cut_handles = 0;         // bridges and tunnels too small for the points
+  std::size_t dropped_components = 0;  // number of parts of the surface that were too small
+  std::size_t faces = 0;               // number, before simplification
+  double simplify_error = 0;           // Simplification::error of simplify()
+  // Area of the surface, area of its parts that close holes, and area represented by the points, by
+  // the circles of their neighbours. The first minus the second is about the third, unless the
+  // points contradict each other: misaligned scans, double walls.
   double area = 0, closed_area = 0, points_area = 0;
-  double volume = 0;  // signed, of the surface: negative if its normals point inwards
-  // With the option `confidence`, shares of the surface's area: without data nearer than three
-  // spacings, thinner than one and a half, and with a confidence below 1/2.
+  double volume = 0;  // signed: negative if the surface's normals point inwards
+  // Shares of the surface's area, with the option `confidence`: without data within three spacings,
+  // thinner than one and a half spacings, and with a confidence below 1/2.
   double unseen_area = 0, thin_area = 0, unsure_area = 0;
-  std::size_t memory = 0;    // foreseen for points, grid and surface, bytes
-  StageTimes times;          // "points", "caps", "surface", "attributes"; of tiles "survey", ...
-  Bounds bounds = {};        // of the points that are finite; of several tiles without far strays
-  std::uint64_t tiles = 1;   // that space was cut into
-  std::uint64_t stored = 0;  // bytes between the steps of tiles, at most at a time
-  std::uint64_t vertices = 0, triangles = 0;  // of the surface
-  std::uint64_t coefficients = 0;             // of all caps
-  std::vector<std::string> warnings = {};     // of the file that the points were read from
+  std::size_t memory = 0;    // estimate for points, grid and surface, bytes
+  StageTimes times;          // "points", "caps", "surface", "attributes"; tiles: "survey", ...
+  Bounds bounds = {};        // box of finite points; several tiles: without far isolated points
+  std::uint64_t tiles = 1;   // number of tiles
+  std::uint64_t stored = 0;  // largest amount of bytes stored between steps of tiles
+  std::uint64_t vertices = 0, triangles = 0;  // numbers, of the surface
+  std::uint64_t coefficients = 0;             // number, in all caps
+  std::vector<std::string> warnings = {};     // warnings of the reader of the points' file
 };
 
-// Its list (fields.h).
+// Lists the fields of ReconstructReport (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<ReconstructReport>, const Visitor& field) {
   using R = ReconstructReport;
@@ -356,60 +356,60 @@ void visit_fields(FieldsOf<ReconstructReport>, const Visitor& field) {
         {.name = "warnings", .help = "of the file that the points were read from, list of str"});
 }
 
-// Adds n points to a report that the reader of their file dropped before (ShapeFile::dropped).
+// Adds n points to a report that the reader of the file dropped (ShapeFile::dropped).
 void add_dropped(std::size_t n, ReconstructReport& report);
 
-// Share of given normals that are not perpendicular to the surface, above which none is believed:
-// fewer are those of outliers.
+// Largest share of given normals that may deviate more than 45 degrees from the surface's normal.
+// Above it all normals are replaced; a smaller share is due to outliers.
 inline constexpr double kMostCrooked = 0.25;
-// Of n points, contradicting_normals above this times sqrt(n), and inward_normals above the second:
-// a surface made of them should not be trusted. Measured by tests/cli/clouds_test.py.
+// Above these limits a surface of n points is unreliable: contradicting_normals / sqrt(n), and
+// inward_normals (kMostInward). Measured by tests/cli/clouds_test.py.
 inline constexpr double kMostContradicting = 0.5;
-inline constexpr double kMostInward = 0.1;  // the second
-// The same of crossing_length (chosen). Bodies have at most 0.03, and sheets that cross 0.2 and
-// more but for 3 of 24 clouds, which are noisy (tests/cli/clouds_test.py --crossings).
+inline constexpr double kMostInward = 0.1;  // limit of inward_normals
+// Limit of crossing_length (chosen). Bodies have at most 0.03, crossing sheets 0.2 and more, except
+// for 3 of 24 clouds, which are noisy (tests/cli/clouds_test.py --crossings).
 inline constexpr double kMostCrossing = 0.12;
-// The same of points_off_surface. Real shapes with noise of 1 % of the diagonal have up to 0.46,
+// Limit of points_off_surface. Real shapes with noise of 1 % of the diagonal have up to 0.46,
 // points that fill slabs and rods 0.52 and more (tests/cli/clouds_test.py --walls).
 inline constexpr double kMostOffSurface = 0.5;
 
-// Parts of points_area: a surface that has less or more of it, without what closes holes, should
-// not be trusted. Of clean bodies it is 0.6 ... 1.4 with a thousand points and 0.9 ... 1.2 with
-// more, of noisy ones 0.8 and more, of two walls a few spacings apart 0 ... 0.3
-// (scripts/scan-limits --walls).
+// Limits of (area - closed_area) / points_area outside of which a surface is unreliable. The ratio
+// is 0.6 ... 1.4 for clean bodies of a thousand points and 0.9 ... 1.2 for more points. It is 0.8
+// and more for noisy bodies, 0 ... 0.3 for two walls a few spacings apart (scripts/scan-limits
+// --walls).
 inline constexpr double kLeastArea = 0.5;
-// The same, for more.
+// The upper limit of this ratio.
 inline constexpr double kMostArea = 1.6;
 
-// A surface, its caps, and how they were found.
+// A surface, its caps, and the report.
 struct Reconstruction {
   // With ReconstructOptions::output the mesh and the model are left empty.
-  Mesh mesh;  // closed and oriented outwards (open with HolePolicy::kKeep), with normals nx, ny, nz
-  // The caps that the mesh was extracted from. synthesize() makes the same mesh of it, without the
-  // attributes of the points (SurfaceRules::left_out).
+  Mesh mesh;  // closed (open with HolePolicy::kKeep), outward normals nx, ny, nz
+  // The caps that the mesh was extracted from. synthesize() makes the same mesh from them, without
+  // the attributes of the points (SurfaceRules::left_out).
   AtlasModel model;
-  ReconstructReport report;  // what happened on the way
+  ReconstructReport report;  // findings, counts and times
 };
 
-// Points with normals that point outwards to a surface. Normals have any length; they are computed
-// by orient() if there are none. If they point into a solid that the points lie all around, all are
-// turned. If some contradict those around them, these are turned. The report says what was done.
-// Attributes of the points are carried over, averaged over the nearest ones that have a finite
-// value and rounded to their type; not a number where none has. Throws InvalidInput for fewer than
-// 16 different points, options out of range, points that no closed surface goes with, and a folder
-// to resume from that has other files, or what a run with another input or other options has left;
-// OutOfMemory if more than allowed would be needed (with the tile_points or the step that would
-// do); Io if the output cannot be written, a disk has not the room that is foreseen, or another
-// process works in the folder; Unsupported for an output that is named as another format.
+// Reconstructs a surface from points. Normals should point outwards and may have any
+// length; orient() computes missing ones. If all point into a solid that the points
+// surround, all are turned; single contradicting normals are turned too (see the report).
+// Attributes are averaged over the nearest points with finite values and rounded to their
+// type; NaN without such points. Throws InvalidInput for fewer than 16 different points,
+// options out of range, or points without a fitting closed surface. It is also thrown if
+// the folder to resume from has other files, or work of other input or options.
+// OutOfMemory: need above the limit (names sufficient tile_points or step). Io: unwritable
+// output, too little disk space, or another process in the folder. Unsupported: output
+// named as another format.
 Reconstruction reconstruct(const PointCloud& cloud, const ReconstructOptions& options = {},
                            const Context& context = {});
-// The same, without a copy of the points.
+// Reconstructs a surface without a copy of the points.
 Reconstruction reconstruct(PointCloud&& cloud, const ReconstructOptions& options = {},
                            const Context& context = {});
-// The same of the points of a file. Those that PointStream reads, binary and text PLY and lines of
-// numbers, are read in portions if they are more than a tile; a mesh and any other format as a
-// whole, and of a mesh the vertices, with the mean normals of their faces. `columns` is as in
-// ShapeReadOptions. Throws as read_shape() and PointStream do, too.
+// Reconstructs a surface from the points of a file. Formats of PointStream (PLY, lines of numbers)
+// with more points than a tile are read in portions, other formats and meshes as a whole. A mesh
+// contributes vertices with the mean normals of their faces. `columns` is as in ShapeReadOptions.
+// Throws also as read_shape() and PointStream.
 Reconstruction reconstruct(const std::filesystem::path& points,
                            const ReconstructOptions& options = {}, const Context& context = {},
                            const std::string& columns = {});

@@ -15,48 +15,48 @@
 
 namespace rholm {
 
-// Of one panel: some 1.5 GB of memory, and ten for each pixel of a screen.
+// Limit for one panel: about 1.5 GB of memory, and ten points for each pixel of a screen.
 inline constexpr std::size_t kMaxPointsInPicture = 20000000;
 
-// One thing in the picture: a mesh, or points. Panels stand side by side.
+// One mesh or point cloud in the picture. Panels stand side by side.
 struct Panel {
-  const Mesh* mesh = nullptr;  // not owned; must be there while the picture is made
+  const Mesh* mesh = nullptr;  // not owned; must exist while the picture is made
   std::string label = {};      // below the panel; may be empty
-  // Per vertex or point, coloured by the colour map; empty: plain.
+  // One value per vertex or point, shown by the colour map; empty: a plain colour.
   std::vector<double> scalars = {};
   bool smooth = false;  // shade with vertex normals nx, ny, nz if the mesh has them
-  // Per vertex, red, green, blue 0 ... 1 as a screen shows them (sRGB); instead of scalars.
+  // Red, green, blue per vertex, 0 ... 1 as a screen shows them (sRGB); replace scalars.
   std::vector<std::array<float, 3>> colors = {};
-  const PointCloud* points = nullptr;  // in place of a mesh; not owned either; drawn as balls
-  // Of these balls, in the points' unit; 0: the points' usual distance, so that those of a surface
-  // close it.
+  const PointCloud* points = nullptr;  // used if there is no mesh; not owned; drawn as balls
+  // Radius of these balls, in the points' unit; 0: the points' typical spacing, so that the balls
+  // of a surface leave no gaps.
   double point_radius = 0;
 };
 
-// The properties red, green and blue as panels have them: whole numbers are bytes, others parts of
-// 1; empty if the mesh has none.
+// Return the attributes red, green and blue as colours of a panel: whole numbers count as bytes,
+// others as fractions of 1. Empty if the shape has no colours.
 std::vector<std::array<float, 3>> vertex_colors(const Mesh& mesh);
 std::vector<std::array<float, 3>> vertex_colors(const PointCloud& cloud);
 
 // Size, point of view, light and colours of a picture.
 struct RenderOptions {
-  int width = 1024, height = 768;   // of the whole picture, pixels, 16 ... 16384
-  bool perspective = false;         // otherwise parallel lines stay parallel
-  bool fit_each = false;            // every panel is filled; otherwise all have the same scale
-  Vec3 view = {-0.55, 0.75, -0.4};  // from the eye into the scene
-  Vec3 up = {0, 0, 1};              // upwards in the picture, as far as the view allows
-  int samples = 3;         // per pixel side: samples^2 rays a pixel that is an edge, 1 ... 16
+  int width = 1024, height = 768;   // size of the whole picture in pixels, 16 ... 16384
+  bool perspective = false;         // true: perspective; false: parallel projection
+  bool fit_each = false;            // true: each panel is filled; false: one scale for all
+  Vec3 view = {-0.55, 0.75, -0.4};  // direction of sight, from the eye into the scene
+  Vec3 up = {0, 0, 1};              // up direction in the picture, as far as the view allows
+  int samples = 3;         // along the side of a pixel on an edge: samples^2 rays, 1 ... 16
   int occlusion_rays = 4;  // per sample, 0 ... 256; 0 switches ambient occlusion off
-  // Every pixel has all of its samples, and these all of their rays to the lights. Otherwise only
-  // edges do, and pixels of one surface share rays with those around them: seven times as fast.
+  // True: every pixel gets all samples, and every sample all rays to the lights. False: only pixels
+  // on edges do, and pixels of one surface share rays with their neighbours: seven times as fast.
   bool fine = false;
   // Range of the colour map; by default the range of all scalars.
   std::optional<double> scale_min = {}, scale_max = {};
-  bool scale_bar = true;         // drawn below the panels, with its label
-  std::string scale_label = {};  // what the scalars are
+  bool scale_bar = true;         // true: a colour bar with its label is drawn below the panels
+  std::string scale_label = {};  // quantity shown by the scalars
 };
 
-// Their list (fields.h).
+// Lists the fields of RenderOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<RenderOptions>, const Visitor& field) {
   using O = RenderOptions;
@@ -118,15 +118,15 @@ void visit_fields(FieldsOf<RenderOptions>, const Visitor& field) {
                           .in_program = false});
 }
 
-// All panels side by side, their labels below. Throws InvalidInput for no panel, a panel without a
-// triangle or point, or with both, more than kMaxPointsInPicture points, sizes out of range.
+// Draws all panels side by side, with labels below. Throws InvalidInput for no panel, a panel
+// without a face or point, or with both, too many points (kMaxPointsInPicture), sizes out of range.
 Image render(std::span<const Panel> panels, const RenderOptions& options = {},
              const Context& context = {});
 
-// Energy per degree on logarithmic scales as an SVG document, with the predicted tail
-// S / (pi l^4) if the expansion knows it. With a tolerance (rms over solid angle, in the function's
-// unit, above 0) also its energy 4 pi E^2 and, if the norm is known, the energy of all degrees
-// beyond l, which crosses it where the tolerance is kept.
+// Returns a plot of the energy per degree on logarithmic scales (SVG), with the predicted tail S /
+// (pi l^4) if known. A tolerance (rms over solid angle, in the function's unit, above 0) adds its
+// energy 4 pi E^2. If the norm is known it also adds the energy of all degrees beyond l; the curves
+// cross where the tolerance is kept.
 std::string spectrum_svg(const Expansion& expansion, const std::string& title,
                          std::optional<double> tolerance = {});
 

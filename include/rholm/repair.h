@@ -1,4 +1,4 @@
-// Damaged meshes made fit for work. Layer: shape.
+// Repair of damaged meshes. Layer: shape.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@
 
 namespace rholm {
 
-// Edges of a hole that can be closed. Chosen: closing one takes some seconds.
+// Largest number of edges of a hole to close. Chosen: closing such a hole takes some seconds.
 inline constexpr std::size_t kMostHoleEdges = 500;
 
-// What may be done to a mesh.
+// Tolerance for welding, and size of holes to close.
 struct RepairOptions {
   double weld = 0;  // tolerance of weld(), in the mesh's unit; 0 joins identical vertices
-  // Holes with at most so many edges are closed, 0 ... 500. Chosen: what scanners and exports
-  // leave open by mistake is smaller, the open end of a bust is larger.
+  // Holes with at most this number of edges are closed, 0 ... 500. Chosen: accidental holes of
+  // scanners and exports are smaller, the open end of a bust is larger.
   std::size_t max_hole = 100;
 };
 
-// Their list (fields.h).
+// Lists the fields of RepairOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<RepairOptions>, const Visitor& field) {
   using O = RepairOptions;
@@ -39,30 +39,30 @@ void visit_fields(FieldsOf<RepairOptions>, const Visitor& field) {
                        .most = kMostHoleEdges});
 }
 
-// What has been done, and what could not be.
+// Counts of repairs and of remaining defects.
 struct RepairReport {
-  Inspection before;                     // of the mesh welded exactly
-  std::size_t merged_vertices = 0;       // by welding
-  std::size_t collapsed_triangles = 0;   // by welding: two corners became one
-  std::size_t isolated_vertices = 0;     // dropped: in no triangle
-  std::size_t duplicate_triangles = 0;   // dropped: same three vertices as an earlier one
-  std::size_t degenerate_triangles = 0;  // thinner than rounding, dropped or swapped
-  std::size_t junctions = 0;             // vertices on edges of others' faces (T-junctions), joined
-  std::size_t flipped_triangles = 0;     // turned, so that their part is oriented alike, outwards
-  std::size_t inside_out_parts = 0;      // closed parts turned as a whole, flipped_triangles too
-  std::size_t cavities = 0;              // closed parts that lie within another: face inwards
-  std::size_t split_vertices = 0;        // new vertices where sheets met in one
-  std::size_t closed_holes = 0;          // by new triangles
-  std::size_t hole_triangles = 0;        // put into them
-  std::size_t large_holes = 0;           // left: more edges than allowed
-  std::size_t largest_hole = 0;          // edges of the largest of these
-  std::size_t sheets = 0;                // holes left: borders of open sheets, see repair()
-  std::size_t one_sided_parts = 0;       // left: they have no orientation (Moebius strips)
-  std::optional<double> closes_at{};     // what closing_tolerance() says of what is left open
-  Inspection after;                      // of the result, welded exactly
+  Inspection before;                     // state of the mesh after exact welding
+  std::size_t merged_vertices = 0;       // vertices merged by welding
+  std::size_t collapsed_triangles = 0;   // faces dropped by welding: two corners were merged
+  std::size_t isolated_vertices = 0;     // vertices dropped: not used by a face
+  std::size_t duplicate_triangles = 0;   // faces dropped: same three vertices as an earlier face
+  std::size_t degenerate_triangles = 0;  // faces thinner than rounding; dropped or swapped
+  std::size_t junctions = 0;             // joined T-junctions: vertices on edges of other faces
+  std::size_t flipped_triangles = 0;     // faces turned: their part is now consistent and outward
+  std::size_t inside_out_parts = 0;      // closed parts turned as a whole, in flipped_triangles too
+  std::size_t cavities = 0;              // closed parts inside another part: oriented inwards
+  std::size_t split_vertices = 0;        // new vertices where sheets met in one vertex
+  std::size_t closed_holes = 0;          // holes closed by new faces
+  std::size_t hole_triangles = 0;        // new faces in closed holes
+  std::size_t large_holes = 0;           // holes not closed: more edges than allowed
+  std::size_t largest_hole = 0;          // number of edges of the largest of these
+  std::size_t sheets = 0;                // holes not closed: borders of open sheets, see repair()
+  std::size_t one_sided_parts = 0;       // parts without orientation (Moebius strips); not changed
+  std::optional<double> closes_at{};     // closing_tolerance() for the remaining borders
+  Inspection after;                      // state of the result, exactly welded
 };
 
-// Its list.
+// Lists the fields of RepairReport.
 template <typename Visitor>
 void visit_fields(FieldsOf<RepairReport>, const Visitor& field) {
   using R = RepairReport;
@@ -99,29 +99,29 @@ void visit_fields(FieldsOf<RepairReport>, const Visitor& field) {
   field(&R::after, {.name = "after", .help = "state of the result, welded exactly"});
 }
 
-// The mesh as far as it could be mended.
+// A repaired mesh, and the report.
 struct Repaired {
   Mesh mesh;            // closed parts face outwards, cavities inwards
-  RepairReport report;  // what was wrong, and what still is
+  RepairReport report;  // repairs and remaining defects
 };
 
-// repair() takes these steps, in this order:
-// - It welds vertices, and drops vertices in no triangle, duplicate and degenerate triangles.
-// - It splits a triangle where vertices of others lie on its edge (T-junctions), within the
+// Repairs a mesh. repair() takes these steps, in this order:
+// - It welds vertices, and drops unused vertices, duplicate and degenerate faces.
+// - It splits a face where vertices of other faces lie on its edge (T-junctions), within the
 //   rounding of the coordinates.
-// - It separates sheets where three or more triangles meet in an edge, or several fans in a vertex.
-//   Copies of a vertex move apart by 1e-6 of the diagonal into their own sheets, or readers would
-//   weld them again.
-// - It orients each part alike, as the larger part of its area was.
-// - It closes holes with flat triangles between their own vertices, of the least bend and area, or
-//   around one new vertex where those would meet others. A hole whose cover would be larger than
-//   3/4 of the part is the border of an open sheet, and stays.
-// - It orients closed parts outwards, and inwards those that lie within an odd number of others.
+// - It separates sheets where three or more faces share an edge, or several fans share a vertex.
+//   Copies of a vertex are moved by 1e-6 of the diagonal into their own sheets, because readers
+//   would weld them again.
+// - It orients each part consistently, like the larger share of its area.
+// - It closes holes with flat triangles between their vertices, of least bend and area, or around
+//   one new vertex where triangles would cross others. A hole whose cover would be larger than 3/4
+//   of the part stays: it is the border of an open sheet.
+// - It orients closed parts outwards, or inwards inside an odd number of other parts.
 //
-// Vertices keep their order and attributes, new ones come last; normals nx, ny, nz of turned
-// triangles turn along. A mesh that needs nothing comes back as weld() makes it. Same bits for any
-// number of threads. Throws InvalidInput for a mesh that is not valid or options out of range;
-// Cancelled.
+// Vertices keep their order and attributes; new ones come last. Normals
+// nx, ny, nz of turned faces are turned too. A mesh without defects comes
+// back as weld() returns it. Same bits for any number of threads. Throws
+// InvalidInput for an invalid mesh or options out of range; Cancelled.
 Repaired repair(const Mesh& mesh, const RepairOptions& options = {}, const Context& context = {});
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// All that is known of a model on one page. Layer: report.
+// A report of a model on one HTML page. Layer: report.
 #pragma once
 
 #include <cstdint>
@@ -14,28 +14,28 @@
 
 namespace rholm {
 
-// How to get something again: "This page", "rholm report ...".
+// A command that makes something again: "This page", "rholm report ...".
 struct ReportCommand {
-  std::string what = {};     // that is got
-  std::string command = {};  // to type in a shell
+  std::string what = {};     // result of the command
+  std::string command = {};  // text to type in a shell
 };
 
-// What the page says beside its figures.
+// Texts of the page, and settings of its figures.
 struct ReportOptions {
-  std::string title = {};                    // what the page is of, as a rule a file's name
-  std::string shape_name = {};               // of the shape, as a rule a file's name
-  std::vector<ReportCommand> commands = {};  // shown as they are, in this order
-  std::vector<std::string> notes = {};       // what must be known of the input, a sentence each
+  std::string title = {};                    // title of the page, usually a file's name
+  std::string shape_name = {};               // name of the shape, usually a file's name
+  std::vector<ReportCommand> commands = {};  // shown unchanged, in this order
+  std::vector<std::string> notes = {};       // facts on the input, a sentence each
   std::optional<double> tolerance = {};  // wanted rms error of the function: a line in the plots
-  double weld_tolerance = 0;             // of the shape, in its unit
-  int picture_size = 480;                // pixels of each picture's side, 16 ... 4096
-  std::optional<std::uint64_t> file_bytes = {};  // of an atlas: how large its file is
-  // JavaScript that shows view_data() in the page, the file viewer/viewer.js of the studio's: the
-  // surface of an expansion can be turned, and any degree of it looked at. Not of an atlas.
+  double weld_tolerance = 0;             // tolerance for welding the shape, in its unit
+  int picture_size = 480;                // side of each picture in pixels, 16 ... 4096
+  std::optional<std::uint64_t> file_bytes = {};  // size of an atlas's file
+  // JavaScript that shows view_data() in the page: the file viewer/viewer.js of the studio. It lets
+  // readers turn the surface of an expansion and choose its degree. An atlas does not use it.
   std::string viewer = {};
 };
 
-// Their list (fields.h), without the commands.
+// Lists the fields of ReportOptions (fields.h), without the commands.
 template <typename Visitor>
 void visit_fields(FieldsOf<ReportOptions>, const Visitor& field) {
   using O = ReportOptions;
@@ -82,31 +82,31 @@ void visit_fields(FieldsOf<ReportOptions>, const Visitor& field) {
          .in_python = false});
 }
 
-// A page of HTML (UTF-8) that needs no other file and runs no script but the viewer, if there is
-// one: pictures of the shape and of the model at a few degrees, where they differ, the spectrum, a
-// table of degrees and their errors, figures, conventions, and how to get all that again. For a
-// screen of any width and for paper.
+// Returns a page of HTML (UTF-8) that needs no other file and no script except the viewer. Its
+// pictures show the shape, the model at several degrees, and their difference. It has the spectrum,
+// a table of degrees and errors, further numbers, conventions, and commands. It suits screens of
+// any width and paper.
 //
-// `shape`: the mesh that the model is of, or nullptr if it is not at hand: then there is no picture
-// of it, and of errors only what the expansion itself knows. Below 3 MB with pictures of the
-// default size, and up to 7 MB more with a viewer. No degree above 512 is drawn or measured point
-// by point: neither the pictures nor the patience have room for it. Same input, same bytes, for any
-// number of threads. Throws InvalidInput for options out of range, an empty mesh, or coefficients
-// that have no surface.
+// `shape` is the mesh of the model, or nullptr: then its picture is missing,
+// and errors are those stored in the expansion. The page is below 3 MB with
+// pictures of the default size, and up to 7 MB more with a viewer. Degrees
+// above 512 are neither drawn nor measured point by point: chosen, for size and
+// time. Same input, same bytes, for any number of threads. Throws InvalidInput
+// for options out of range, an empty mesh, or coefficients without a surface.
 std::string report_html(const Expansion& expansion, const Mesh* shape, const ReportOptions& options,
                         const Context& context = {});
 
-// The same of an atlas: its surface at a few limits of the degree, its caps in colours, where it
-// differs from `shape`, what each degree adds, a table of limits and their errors. Surfaces are
-// extracted at the model's own step; distances to and from the shape are those of 100 000 points on
-// each. The tolerance of the options is not looked at: the model has its own. Throws InvalidInput
-// as above, and for an atlas without caps.
+// Returns the page of an atlas. It shows surfaces at several limits of the degree, the caps in
+// colours, the difference to `shape`, and the effect of each degree. A table lists limits and
+// errors. Surfaces use the model's own step; distances are measured at 100 000 points of each
+// surface. The tolerance of the options is ignored, because the model has its own. Throws
+// InvalidInput as above, and for an atlas without caps.
 std::string report_html(const AtlasModel& model, const Mesh* shape, const ReportOptions& options,
                         const Context& context = {});
 
-// What a viewer shows of an expansion, as docs/studio.md has it: its coefficients to
-// degree 512, errors of degrees, and the shape, with at most 200 000 faces; none if it cannot be
-// made as simple. `shape` may be nullptr. Throws InvalidInput for coefficients that have no
+// Returns the data of the viewer (docs/studio.md): coefficients to degree 512, errors of
+// degrees, and the shape with at most 200 000 faces. A shape that cannot be simplified to that
+// number is left out. `shape` may be nullptr. Throws InvalidInput for coefficients without a
 // surface.
 std::string view_data(const Expansion& expansion, const Mesh* shape, const std::string& title,
                       const Context& context = {});

@@ -1,4 +1,4 @@
-// What is left out when an expansion is cut off. Layer: transform.
+// Truncation error at every degree of an expansion. Layer: transform.
 #pragma once
 
 #include <optional>
@@ -8,36 +8,36 @@
 
 namespace rholm {
 
-// What is left out when an expansion is cut off at each of its degrees.
+// Error made when an expansion is truncated at each of its degrees.
 struct RmsBeyond {
   // Root mean square of f - f_l over solid angle, l = 0 ... L, in the function's unit, by Parseval
-  // (M7); that of L is the truncation error of the expansion itself. Empty where it is not known:
-  // where the square is below four times what it may be off by (elsewhere the root is right to
-  // 13 %), and everywhere without norm_squared.
+  // (M7). The last one is the truncation error of the expansion. Empty if its square is below four
+  // times its uncertainty (otherwise the root is right to 13 %), and always empty without
+  // norm_squared.
   std::vector<std::optional<double>> rms;
-  // The same of f_L - f_l: what the expansion's own degrees above l hold.
+  // Root mean square of f_L - f_l: the content of the expansion's own degrees above l.
   std::vector<double> rms_within;
-  // What 4 pi rms^2 may be off by, as exact as the coefficients are; empty without norm_squared.
-  // Where errors say otherwise they decide: an exact error bounds it, and a measured one that
-  // differs from the norm's tells what the coefficients lack.
+  // Uncertainty of 4 pi rms^2, from the coefficients' precision; empty without norm_squared. Known
+  // errors take precedence: an exact error bounds it, and a measured error that differs from the
+  // norm's shows the energy that the coefficients lack.
   std::optional<double> doubt;
-  double precision = 0;               // the expansion's, or the default of AnalyzeOptions
-  bool precision_is_assumed = false;  // whether the expansion's is not known
-  // Whether it counts what lies above the expansion's own degree, which norm_squared tells.
+  double precision = 0;               // the expansion's, or AnalyzeOptions' default
+  bool precision_is_assumed = false;  // true if the expansion's precision is unknown
+  // Returns true if rms includes degrees above the expansion's own, known from norm_squared.
   bool includes_tail() const { return doubt.has_value(); }
-  // What there is to show of each degree: rms, or without norm_squared rms_within, but for the last
-  // degree, of which it says nothing.
+  // Returns the values to show for each degree: rms, or rms_within if norm_squared is missing. Then
+  // the last degree has no value.
   std::vector<std::optional<double>> figures() const;
-  // Whether rms of degree l is known, and its square is 50 times what it may be off by, or more:
+  // Returns true if rms of degree l is known and its square is at least 50 times its uncertainty:
   // right to a hundredth.
   bool is_exact(int l) const;
-  // Where rms is empty, it is at most this; empty without norm_squared.
+  // Returns an upper bound of rms where rms is empty; nothing without norm_squared.
   std::optional<double> bound() const;
-  // The smallest degree whose rms, or else its bound, is at most the tolerance; none if there is
-  // none, or if it is not known.
+  // Returns the smallest degree whose rms, or bound if rms is empty, is at most the tolerance.
+  // Returns nothing if no degree is known to be.
   std::optional<int> degree_within(double tolerance) const;
 };
-// For every degree l of an expansion.
+// Computes the errors for every degree l of an expansion.
 RmsBeyond rms_beyond(const Expansion& expansion);
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// Fewer triangles for the same surface. Layer: shape.
+// Reduction of the number of faces of a mesh. Layer: shape.
 #pragma once
 
 #include <cstddef>
@@ -10,18 +10,18 @@
 
 namespace rholm {
 
-// Where to stop: whichever comes first. With none of them given reconstruct() and the synthesis of
-// an atlas allow an error of 1/50 of their grid's step.
+// When simplification stops: at the first limit reached. Without limits, reconstruct() and the
+// synthesis of an atlas allow an error of 1/50 of their grid's step.
 struct SimplifyOptions {
-  std::size_t triangles = 0;  // no more than these are left
-  double share = 0;           // no more than this share of the given triangles is left, 0 ... 1
-  // No vertex goes whose place in the result would be farther than this, in the mesh's unit, from
-  // the planes of the triangles it stands for (root of the mean of the squares, weighted with
-  // areas).
+  std::size_t triangles = 0;  // largest number of faces in the result; 0: any
+  double share = 0;           // largest share of the given faces in the result, 0 ... 1
+  // Largest error, in the mesh's unit. It is the distance of a vertex's place in the result from
+  // the planes of its original faces (root mean square, weighted by area). A vertex with a larger
+  // error is not removed.
   double max_error = std::numeric_limits<double>::infinity();
 };
 
-// Their list (fields.h).
+// Lists the fields of SimplifyOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<SimplifyOptions>, const Visitor& field) {
   using O = SimplifyOptions;
@@ -42,18 +42,18 @@ void visit_fields(FieldsOf<SimplifyOptions>, const Visitor& field) {
                         .unit = FieldUnit::kLength});
 }
 
-// The mesh with fewer triangles.
+// A simplified mesh, and its error.
 struct Simplification {
-  Mesh mesh;  // its vertices are some of the given ones, with their attributes, in their order
-  double error = 0;  // the largest that was allowed, as max_error counts it
+  Mesh mesh;         // a subset of the vertices, with attributes, in the given order
+  double error = 0;  // largest error made, measured as max_error
 };
 
-// Edges shrink to one of their ends, those first that change the surface least (quadric error of
-// Garland and Heckbert 1997, without new places). A surface stays what it is: closed and 2-manifold
-// where it was, of the same genus, with the same borders and no triangle turned over; edges of more
-// than two triangles, and vertices of more than one fan, stay as they are. It may therefore end
-// with more triangles than wanted. Vertices in no triangle go. Throws InvalidInput for a mesh that
-// is not valid, options out of range, and none given. Same bits for any number of threads.
+// Collapses edges to one of their ends, least change of the surface first (quadric
+// error of Garland and Heckbert 1997, without new positions). Topology is kept:
+// closed, 2-manifold, genus, borders; no face is turned over. Edges of more than
+// two faces and vertices of more than one fan stay, so more faces than wanted may
+// remain. Vertices without faces are removed. Throws InvalidInput for an invalid
+// mesh, options out of range, or no limit. Same bits for any number of threads.
 Simplification simplify(Mesh mesh, const SimplifyOptions& options, const Context& context = {});
 
 }  // namespace rholm

@@ -1,9 +1,9 @@
-// Local smoothing: detail finer than a wavelength is taken from a region of a mesh. Layer: edit.
+// Local smoothing: removes detail finer than a wavelength from a region. Layer: edit.
 //
-// Overlapping caps of a few wavelengths cover the region and its transition. In each the surface
-// is a function on an opened sphere and is fitted by harmonics up to a degree whose waves have that
-// length on the surface; the fits are blended. Vertices move along the rays of the caps, by their
-// weight in the region. Any genus, closed or open; connectivity stays.
+// Overlapping caps of some wavelengths in size cover the region and its transition. In each cap the
+// surface is a function on an opened sphere. It is fitted by harmonics up to the degree whose waves
+// have the wanted length on the surface; the fits are blended. Vertices move along the rays of the
+// caps, by their weight in the region. Any genus, closed or open; connectivity stays.
 #pragma once
 
 #include <cstddef>
@@ -19,29 +19,29 @@
 
 namespace rholm {
 
-// What the smooth surface is fitted to.
+// Points that the smooth surface is fitted to.
 enum class PatchFitting : std::uint8_t {
-  kMean,    // all points, by least squares: averages over what is finer than the wavelength
-  kRobust,  // all but what stands out, narrower than half the wavelength: scratches, spikes
-  kAround   // what is not in the region, robustly: the region is bridged, with the detail of its
-            // rim carried in; it may be half a wavelength wide, and nothing else moves
+  kMean,    // all points, by least squares: averages over detail finer than the wavelength
+  kRobust,  // robust: ignores outliers narrower than half the wavelength, scratches, spikes
+  kAround   // points outside the region, robust: bridges a region up to half a wavelength wide,
+            // with the detail of its rim; nothing else moves
 };
 EnumNames names_of(PatchFitting fitting);  // "mean", "robust", "around"
 
-// What is to go from a region.
+// Wavelength and method of the smoothing.
 struct PatchOptions {
-  // The finest detail that may stay: waves of this length keep their height, of 0.8 of it half,
-  // of 0.6 nothing (docs/editing.md has the curve). In the unit of the vertices, > 0.
+  // Finest detail to keep: waves of this length keep their height, 0.8 of this length half of it,
+  // 0.6 none (curve in docs/editing.md). In the unit of the vertices, > 0.
   double wavelength = 0;
-  // Width of the region's transition; by default the wavelength. kAround needs none.
+  // Width of the region's transition; by default the wavelength. kAround needs no transition.
   std::optional<double> transition = {};
-  PatchFitting fitting = PatchFitting::kRobust;  // of the caps
-  // Moves only what stands out from a robust fit, and fades a quarter of a wavelength beyond:
-  // scratches go, the texture around them stays.
+  PatchFitting fitting = PatchFitting::kRobust;  // fitting of the caps
+  // True: moves only outliers of a robust fit, and fades within a quarter of a wavelength around
+  // them. Scratches are removed, the texture around them stays.
   bool repair = false;
 };
 
-// Their list (fields.h).
+// Lists the fields of PatchOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<PatchOptions>, const Visitor& field) {
   using O = PatchOptions;
@@ -64,32 +64,32 @@ void visit_fields(FieldsOf<PatchOptions>, const Visitor& field) {
                      .help = "move only what stands out, scratches and spikes; texture stays"});
 }
 
-// What an analysis knows: the vertices that may move, and where fits of each degree want them.
+// Result of an analysis: the vertices that may move, and their moves for fits of each degree.
 struct Patch {
-  double wavelength = 0;                // of the analysis, in the unit of the vertices
-  int degree = 0;                       // of the fits for that wavelength
-  std::vector<std::uint32_t> vertices;  // those that may move
-  std::vector<Vec3> positions;          // as they are
-  std::vector<double> weights;          // in the region, above 0
-  // From there to the fit of degree d at [i (degree + 1) + d].
+  double wavelength = 0;                // wavelength of the analysis, in the unit of the vertices
+  int degree = 0;                       // degree of the fits for that wavelength
+  std::vector<std::uint32_t> vertices;  // indices of the vertices that may move
+  std::vector<Vec3> positions;          // their given positions
+  std::vector<double> weights;          // their weights in the region, above 0
+  // The move of vertex i to the fit of degree d is at [i (degree + 1) + d].
   std::vector<Vec3> moves;
-  std::size_t caps = 0;       // that cover the region
-  std::size_t unreached = 0;  // vertices that no cap sees: they stay
+  std::size_t caps = 0;       // number of caps that cover the region
+  std::size_t unreached = 0;  // number of vertices that no cap sees: they stay
 };
 
 // Covers the region with caps and fits them: the slow part. Throws InvalidInput for a wavelength
-// that is not positive or not above the mesh's spacing there, for a region that is too wide to be
-// bridged, and what region_weights() throws.
+// that is not positive or not above the mesh's spacing there, for a region too wide to be bridged,
+// and errors of region_weights().
 Patch analyze_patch(const Mesh& mesh, std::span<const Region> regions, const PatchOptions& options,
                     const Context& context = {});
 
-// What a slider moves.
+// Settings that update() applies quickly, for example while a slider moves.
 struct PatchUpdate {
-  double wavelength = 0;  // by default the analysis'; longer ones up to longest_wavelength()
-  double strength = 1;    // 0 leaves all as it is, 1 takes the detail away, -1 doubles it
+  double wavelength = 0;  // 0: of the analysis; up to longest_wavelength()
+  double strength = 1;    // 0 changes nothing, 1 removes the detail, -1 doubles it
 };
 
-// Its list (fields.h). The bounds of the strength are chosen: the program takes no others.
+// Lists the fields of PatchUpdate (fields.h). The program allows strengths in the chosen bounds.
 template <typename Visitor>
 void visit_fields(FieldsOf<PatchUpdate>, const Visitor& field) {
   using U = PatchUpdate;
@@ -106,14 +106,14 @@ void visit_fields(FieldsOf<PatchUpdate>, const Visitor& field) {
                        .most = 1});
 }
 
-// That of the lowest degree that is fitted.
+// Returns the wavelength of the lowest fitted degree.
 double longest_wavelength(const Patch& patch);
 
-// New positions of patch.vertices. Throws InvalidInput for a wavelength the patch was not analysed
-// for, or a strength that is not finite.
+// Returns new positions of patch.vertices. Throws InvalidInput for a wavelength outside of the
+// analysis, or a strength that is not finite.
 std::vector<Vec3> update(const Patch& patch, const PatchUpdate& wanted = {});
 
-// Puts the patch's vertices there; normals among the mesh's attributes (nx, ny, nz) follow.
+// Moves the patch's vertices to `positions`, and updates normals nx, ny, nz of the mesh.
 void apply(const Patch& patch, std::span<const Vec3> positions, Mesh& mesh);
 
 }  // namespace rholm

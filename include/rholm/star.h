@@ -1,4 +1,4 @@
-// Is a mesh star-shaped, and from where? Layer: chart. Source: method 6.
+// Star-shapedness of a mesh, and choice of the centre. Layer: chart. Source: method 6.
 #pragma once
 
 #include <cstddef>
@@ -13,31 +13,31 @@
 
 namespace rholm {
 
-// Where the centre is sought.
+// Choices of the centre.
 enum class CenterKind {
-  kAuto,      // as kSlope
+  kAuto,      // same as kSlope
   kKernel,    // Chebyshev centre of the kernel: maximises the smallest d_T
   kSlope,     // least slope of the radius, well within the kernel (method 6)
   kCosine,    // maximises the smallest cos gamma = n . (v - c) / |v - c| over all corners
-  kNone,      // the file's own origin
+  kNone,      // origin of the file's coordinates
   kCentroid,  // area-weighted centroid of the surface
-  kVolume,    // centroid of the solid; as kSlope where that does not see the whole surface
+  kVolume,    // centroid of the solid; as kSlope if it does not see the whole surface
   kGiven      // CenterOptions::point
 };
 
-// Which centre is wanted, and how closely directions are looked at.
+// Choice of the centre, and number of test directions.
 struct CenterOptions {
-  CenterKind kind = CenterKind::kAuto;  // how it is chosen
-  Vec3 point = {};                      // for kGiven
-  int rays = 100000;                    // directions tried by check_star; 0 leaves them out
+  CenterKind kind = CenterKind::kAuto;  // choice of the centre
+  Vec3 point = {};                      // centre for kGiven
+  int rays = 100000;                    // number of directions tested by check_star(); 0: none
 };
 
-// "auto", "kernel", "slope", "cosine", "none", "centroid", "volume" or "X,Y,Z". Throws
+// Parses "auto", "kernel", "slope", "cosine", "none", "centroid", "volume" or "X,Y,Z". Throws
 // InvalidInput.
 CenterOptions parse_center(const std::string& text);
-EnumNames names_of(CenterKind kind);  // these names; "given" for a point
+EnumNames names_of(CenterKind kind);  // the names above; "given" for a point
 
-// The list of CenterOptions (fields.h).
+// Lists the fields of CenterOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<CenterOptions>, const Visitor& field) {
   using O = CenterOptions;
@@ -62,25 +62,25 @@ void visit_fields(FieldsOf<CenterOptions>, const Visitor& field) {
                    .most = 100'000'000});
 }
 
-// How a mesh is seen from a centre.
+// Visibility of a mesh from a centre.
 struct StarReport {
-  Vec3 center;  // in the coordinates of the mesh
-  // min over triangles of d_T = n_T . (v - c): the distance of the nearest face plane, negative if
-  // some face turns its back to the centre. For kKernel this is the radius of the kernel's
-  // inscribed ball. In the shape's unit.
+  Vec3 center;  // centre in the coordinates of the mesh
+  // Smallest d_T = n_T . (v - c) over all faces: the distance to the nearest plane of a face,
+  // negative if a face points away from the centre. For kKernel it is the radius of the inscribed
+  // ball of the kernel. In the shape's unit.
   double min_d = 0;
-  double min_cos_gamma = 0;       // over all corners of all triangles
-  std::size_t bad_triangles = 0;  // with d_T <= 0 (beyond rounding)
-  bool star_shaped = false;       // bad_triangles == 0 and every direction covered once
-  int rays = 0;                   // directions tried: a Fibonacci lattice
-  double once_share = 0;          // part of them that meet the surface exactly once
-  double multiple_share = 0;      // part that meet it more than once
-  double missed_share = 0;        // part that never meet it
-  bool center_fell_back = false;  // of kinds that seek it, the kernel is empty: the centre is the
-                                  // better of the LP's point and the volume centroid, by once_share
+  double min_cos_gamma = 0;       // smallest, over all corners of all faces
+  std::size_t bad_triangles = 0;  // number of faces with d_T <= 0 (beyond rounding)
+  bool star_shaped = false;       // no bad face, and every direction meets the surface once
+  int rays = 0;                   // number of directions tested: a Fibonacci lattice
+  double once_share = 0;          // share of the directions that meet the surface exactly once
+  double multiple_share = 0;      // share that meet it more than once
+  double missed_share = 0;        // share that never meet it
+  bool center_fell_back = false;  // the kernel is empty but was needed: the centre is the LP's
+                                  // point or volume centroid, whichever has the larger once_share
 };
 
-// Its list.
+// Lists the fields of StarReport.
 template <typename Visitor>
 void visit_fields(FieldsOf<StarReport>, const Visitor& field) {
   using S = StarReport;
@@ -101,32 +101,32 @@ void visit_fields(FieldsOf<StarReport>, const Visitor& field) {
          .help = "whether no point sees all faces, and the centre is the best guess"});
 }
 
-// Finds the centre and checks. `mesh` welded, closed, outward; triangles thinner than rounding
-// are passed over. Throws InvalidInput for a mesh without a triangle of positive area.
+// Finds the centre and checks visibility. `mesh` is welded, closed, outward; faces thinner than
+// rounding are ignored. Throws InvalidInput for a mesh without a face of positive area.
 StarReport find_center(const Mesh& mesh, const CenterOptions& options, const Context& context = {});
-// The same for a mesh where it lies; nothing is copied, but for rays if it is not closed.
+// Does the same without a copy of the mesh, except for the test directions if it is not closed.
 StarReport find_center(const MeshView& mesh, const CenterOptions& options,
                        const Context& context = {});
 
-// The check alone, from a given centre.
+// Check visibility from a given centre.
 StarReport check_star(const Mesh& mesh, const Vec3& center, int rays, const Context& context = {});
 StarReport check_star(const MeshView& mesh, const Vec3& center, int rays,
                       const Context& context = {});
 
-// A mesh seen from a centre: what the transforms work on. Vertices are relative to the centre.
+// A mesh relative to its centre: the input of the transforms.
 struct StarChart {
   Mesh mesh;  // welded, closed, outward, vertices relative to report.center; no attributes
-  std::vector<Edge> edges;  // of the mesh, as pair_edges() gives them
-  StarReport report;        // the centre, and how well it sees the surface
+  std::vector<Edge> edges;  // edges of the mesh from pair_edges()
+  StarReport report;        // the centre, and the visibility from it
 };
 
-// Which centre, and which surfaces.
+// The centre, and whether surfaces that are not star-shaped are accepted.
 struct ChartOptions {
-  CenterOptions center = {};  // sought, or given
+  CenterOptions center = {};  // choice of the centre
   bool allow_signed = false;  // accept a surface that is not star-shaped: the signed sum
 };
 
-// Their list (fields.h).
+// Lists the fields of ChartOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<ChartOptions>, const Visitor& field) {
   using O = ChartOptions;
@@ -141,12 +141,12 @@ void visit_fields(FieldsOf<ChartOptions>, const Visitor& field) {
                  "of caps does"});
 }
 
-// Pairs the edges, finds the centre, checks, and moves the centre to the origin. `mesh` welded and
-// outward. Throws InvalidInput if it is not closed and consistently oriented, NotStarShaped with
-// the figures of the report if it is not star-shaped and that is not allowed.
+// Pairs the edges, finds the centre, checks, and moves the centre to the origin. `mesh` is welded
+// and outward. Throws InvalidInput if it is not closed and consistently oriented; NotStarShaped,
+// with the numbers of the report, if it is not star-shaped and not allow_signed.
 StarChart make_star_chart(const Mesh& mesh, const ChartOptions& options = {},
                           const Context& context = {});
-// The same with the edges of pair_edges(mesh) at hand.
+// Makes the chart with given edges from pair_edges(mesh).
 StarChart make_star_chart(const Mesh& mesh, std::vector<Edge> edges, const ChartOptions& options,
                           const Context& context = {});
 

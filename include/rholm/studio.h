@@ -1,5 +1,5 @@
-// Shapes that people work on in a page: what `rholm studio` serves by HTTP, and notebooks by
-// messages. Layer: studio.
+// Editing of shapes in a web page: `rholm studio` serves it by HTTP, notebooks by messages.
+// Layer: studio.
 #pragma once
 
 #include <chrono>
@@ -15,45 +15,45 @@
 
 namespace rholm {
 
-// Bytes of a body of JSON. Chosen: a million points.
+// Largest JSON body in bytes. Chosen: room for a million points.
 inline constexpr std::size_t kMaxStudioJson = std::size_t{16} << 20;
 
-// What a page asks, as of HTTP, without it. docs/studio.md has what may be asked.
+// A request of a page, as in HTTP but without a transport. docs/studio.md lists all requests.
 struct StudioRequest {
   std::string method = "GET";                     // "GET", "POST", "DELETE"
-  std::string path = {};                          // below the address of the page: "api/state"
+  std::string path = {};                          // below the page's address: "api/state"
   std::map<std::string, std::string> query = {};  // decoded
   std::string body = {};                          // bytes
   std::string session = {};                       // header X-Session, may be empty
 };
 
-// What it is answered.
+// The answer to a request.
 struct StudioResponse {
-  int status = 200;                       // of HTTP
-  std::string type = "application/json";  // of the body
+  int status = 200;                       // HTTP status
+  std::string type = "application/json";  // media type of the body
   std::string body = {};                  // bytes
-  std::string download = {};              // name of a file to be saved; empty: none
+  std::string download = {};              // name of a file to save the body in; empty: none
 };
 
-// What a session tells by itself.
+// A message that a session sends without a request.
 struct StudioEvent {
   std::string name = {};  // "state", "job"
-  std::string data = {};  // JSON in one line
+  std::string data = {};  // JSON on one line
 };
 
-// How a studio works.
+// Resources and limits of a studio.
 struct StudioOptions {
-  std::filesystem::path folder = {};  // for temporary files: one folder in it, gone at the end
-  int threads = 0;                    // of the library; 0: one per processor
-  std::size_t max_upload = (std::size_t{1} << 31) - 1;  // bytes of a file
-  std::size_t max_sessions = 16;  // chosen: more pages than that nobody looks at
-  // Asked from time to time while a request is answered, by several threads: whether to go on.
+  std::filesystem::path folder = {};  // parent folder of one temporary folder, removed at the end
+  int threads = 0;                    // threads of the library; 0: one per processor
+  std::size_t max_upload = (std::size_t{1} << 31) - 1;  // largest file in bytes
+  std::size_t max_sessions = 16;  // largest number of pages; chosen above common use
+  // Returns false to stop; called now and then by several threads while a request is answered.
   std::function<bool()> keep_going = {};
-  // How long a session waits for a page that has closed its event stream.
+  // Time a session waits for a page that has closed its event stream.
   std::chrono::milliseconds patience = std::chrono::seconds(60);
 };
 
-// Their list (fields.h), without the function and the time.
+// Lists the fields of StudioOptions, without the function and the time.
 template <typename Visitor>
 void visit_fields(FieldsOf<StudioOptions>, const Visitor& field) {
   using O = StudioOptions;
@@ -78,14 +78,14 @@ void visit_fields(FieldsOf<StudioOptions>, const Visitor& field) {
                            .in_program = false});
 }
 
-// Who listens to a session. While one does, the session is not dropped. Must not outlive the
+// A receiver of a session's events. A session with a listener is not dropped. Must not outlive the
 // studio.
 class StudioListener {
  public:
   ~StudioListener();
   StudioListener(const StudioListener&) = delete;
   StudioListener& operator=(const StudioListener&) = delete;
-  // What is new; waits so long for it. Nothing if nothing is, or the session has ended.
+  // Waits at most `time` for new events, and returns them; none if none come or at the end.
   std::vector<StudioEvent> wait(std::chrono::milliseconds time);
   bool ended() const;
 
@@ -96,32 +96,32 @@ class StudioListener {
   std::unique_ptr<State> state_;
 };
 
-// The studio without a transport: requests in, responses out, events for those who listen. All
+// The studio without a transport: takes requests, returns responses, sends events to listeners. All
 // functions may be called by several threads at once.
 class Studio {
  public:
-  // Nothing is written before somebody asks.
+  // Writes nothing before the first request.
   explicit Studio(StudioOptions options = {});
-  ~Studio();  // cancels what runs, and waits for it
+  ~Studio();  // cancels running jobs and waits for them
   Studio(const Studio&) = delete;
   Studio& operator=(const Studio&) = delete;
 
-  // Answers any request, also wrong ones, by statuses of errors, not by exceptions.
+  // Answers any request. Wrong requests get an error status, not an exception.
   StudioResponse handle(const StudioRequest& request);
 
-  // A session for the next page that asks for a new one, with shapes in it: what is opened in it
-  // before (POST api/file) is what that page, and every one after it, begins with.
+  // Makes a session for the next page that asks for a new one. Shapes opened in it before (POST
+  // api/file) appear in that page and every later one.
   std::string offered_session();
 
-  // nullptr for a session that is not there.
+  // Listens to a session; nullptr if there is none of that name.
   std::unique_ptr<StudioListener> listen(const std::string& session);
 
-  // To be called some times a second: ends sessions whose pages have gone, with their jobs, and
-  // gives the memory of those that have ended back to the system.
+  // Ends sessions whose pages have gone, with their jobs, and returns the memory of ended sessions
+  // to the system. The caller calls it some times a second.
   void tend();
-  // Whether a page has asked to end it all (POST api/quit).
+  // Returns true if a page has asked to quit (POST api/quit).
   bool quitting() const;
-  // Ends all sessions: jobs are cancelled, listeners wake.
+  // Ends all sessions: cancels jobs and wakes listeners.
   void close();
 
  private:

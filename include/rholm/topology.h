@@ -13,42 +13,42 @@
 
 namespace rholm {
 
-// A mesh whose triangles share vertices.
+// A mesh in which coinciding vertices are merged.
 struct Welded {
-  Mesh mesh;                            // with the vertices that stay
-  std::size_t merged_vertices = 0;      // vertices that became one with another
-  std::size_t collapsed_triangles = 0;  // triangles dropped because two corners became one
+  Mesh mesh;                            // mesh with the remaining vertices
+  std::size_t merged_vertices = 0;      // removed vertices
+  std::size_t collapsed_triangles = 0;  // faces dropped because two corners were merged
 };
 
-// Makes vertices that coincide one: bit-identical ones (0 and -0 are the same) for tolerance 0,
-// else all whose distance is at most `tolerance` (same unit as the vertices; the relation is closed
-// transitively, the first vertex in file order stays). Vertices keep their order; unused ones
-// are dropped. Attributes are those of the vertex that stays. Triangles with two equal corners
-// are dropped and counted.
+// Merges vertices. Tolerance 0 merges bit-identical ones (0 and -0 are equal).
+// Otherwise vertices within `tolerance` (same unit) of each other are merged, chains
+// included; the first in file order stays and keeps its attributes. Vertices keep
+// their order; unused ones are dropped. Faces with two equal corners are dropped and
+// counted.
 Welded weld(const Mesh& mesh, double tolerance = 0);
 
-// An edge between two triangles. `left` has the half-edge a -> b, `right` has b -> a.
+// An edge between two faces. `left` has the half-edge a -> b, `right` has b -> a.
 struct Edge {
   std::uint32_t a = 0, b = 0;         // vertex indices
-  std::uint32_t left = 0, right = 0;  // triangle indices
+  std::uint32_t left = 0, right = 0;  // face indices
 };
 
-// All edges of a closed, consistently oriented mesh, each once, ordered by (min, max) vertex.
-// Where 2k triangles meet in one edge, half-edges of opposite sense are paired in file order.
-// Throws InvalidInput, with the number of offending edges, if some half-edge has no partner.
+// Returns all edges of a closed, consistently oriented mesh, each once, ordered by (min, max)
+// vertex. If 2k faces share one edge, opposite half-edges are paired in file order. Throws
+// InvalidInput, with the number of wrong edges, if a half-edge has no partner.
 std::vector<Edge> pair_edges(const Mesh& mesh);
 
-// A box along the axes.
+// A box with sides along the axes.
 struct Bounds {
   Vec3 min, max;  // the corners with the smallest and the largest coordinates
-  // Its length. Right for all coordinates up to a quarter of the largest double.
+  // Returns the diagonal. Right for all coordinates up to a quarter of the largest double.
   double diagonal() const {
     const Vec3 size = max - min;
     const double plain = norm(size);
     return plain > 1e-150 && plain < 1e150 ? plain : std::hypot(std::hypot(size.x, size.y), size.z);
   }
 };
-// Its list (fields.h).
+// Lists the fields of Bounds (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<Bounds>, const Visitor& field) {
   using B = Bounds;
@@ -58,31 +58,31 @@ void visit_fields(FieldsOf<Bounds>, const Visitor& field) {
 
 Bounds bounds(const std::vector<Vec3>& points);  // {0,0,0} twice for no points
 
-// What a mesh is. Counts are those of the mesh given: weld first to close seams.
+// Properties of a mesh. Counts are of the given mesh: weld it first to close seams.
 struct Inspection {
   std::size_t vertices = 0, triangles = 0;  // used or not, with an area or not
-  std::size_t edges = 0;                    // pairs of vertices that a triangle joins
-  std::size_t boundary_edges = 0;           // in one triangle only
-  std::size_t non_manifold_edges = 0;       // in three or more
-  std::size_t misoriented_edges = 0;      // in two triangles that run through it in the same sense
-  std::size_t non_manifold_vertices = 0;  // whose triangles do not form one fan
-  std::size_t isolated_vertices = 0;      // in no triangle
-  std::size_t degenerate_triangles = 0;   // thinner than the rounding of their coordinates
-  std::size_t duplicate_triangles = 0;    // same three vertices as an earlier one
-  std::size_t components = 0;             // of triangles connected through edges
-  long long euler_characteristic = 0;     // used vertices - edges + triangles
-  std::size_t genus = 0;    // summed over the components; meaningful if closed and manifold
-  bool closed = false;      // no boundary edge, at least one triangle
+  std::size_t edges = 0;                    // pairs of vertices joined by a face
+  std::size_t boundary_edges = 0;           // edges of one face only
+  std::size_t non_manifold_edges = 0;       // edges of three or more faces
+  std::size_t misoriented_edges = 0;        // edges that two faces use in the same direction
+  std::size_t non_manifold_vertices = 0;    // vertices whose faces do not form one fan
+  std::size_t isolated_vertices = 0;        // vertices without faces
+  std::size_t degenerate_triangles = 0;     // thinner than the rounding of their coordinates
+  std::size_t duplicate_triangles = 0;      // same three vertices as an earlier face
+  std::size_t components = 0;               // parts of faces connected through edges
+  long long euler_characteristic = 0;       // used vertices - edges + faces
+  std::size_t genus = 0;    // sum over the components; meaningful if closed and manifold
+  bool closed = false;      // no boundary edge, at least one face
   bool manifold = false;    // no non-manifold edge or vertex
   bool oriented = false;    // no misoriented edge
   bool inside_out = false;  // closed and oriented, but the enclosed volume is negative
-  Bounds bounds;            // of all vertices
-  double area = 0;          // of all triangles
+  Bounds bounds;            // bounding box of all vertices
+  double area = 0;          // sum over all faces
   double volume = 0;        // signed; meaningful if closed and oriented
   Vec3 vertex_centroid;     // mean of the used vertices
-  Vec3 volume_centroid;     // of the solid; meaningful if closed and the volume is not zero
+  Vec3 volume_centroid;     // centroid of the solid; meaningful if closed with volume
 };
-// Its list.
+// Lists the fields of Inspection.
 template <typename Visitor>
 void visit_fields(FieldsOf<Inspection>, const Visitor& field) {
   using I = Inspection;
@@ -123,28 +123,28 @@ void visit_fields(FieldsOf<Inspection>, const Visitor& field) {
                               .help = "of the solid, if it is closed and its volume is not zero"});
 }
 
-// Counts and measures. Throws InvalidInput as validate() does.
+// Counts and measures. Throws InvalidInput as validate().
 Inspection inspect(const Mesh& mesh);
 
-// The tolerance, in the mesh's unit and with two digits, at which welding joins the borders of an
-// open mesh: none are left, or not a tenth of them. None if there is no such tolerance below half
-// the median length of an edge of the border, and for a mesh that is closed. `mesh` welded exactly.
+// Returns the tolerance, in the mesh's unit and with two digits, at which weld() joins the borders
+// of an open mesh: none remain, or less than a tenth. Nothing for a closed mesh, or if no tolerance
+// below half the median length of border edges suffices. `mesh` is welded exactly.
 std::optional<double> closing_tolerance(const Mesh& mesh);
 
-// The component (of triangles connected through edges, as counted above: weld first to close
-// seams) of the largest area, welded as by weld(mesh, 0). Of equal ones the first.
+// Returns the component of largest area (faces connected through edges; weld first to close seams),
+// welded as by weld(mesh, 0). Among equal areas the first.
 Mesh largest_component(const Mesh& mesh);
 
-// Reverses every triangle. Normals nx, ny, nz among the attributes change sign.
+// Reverses every face and the sign of the normals nx, ny, nz among the attributes.
 void flip(Mesh& mesh);
 
-// At each vertex the sum of its triangles' normals, each as long as twice the triangle's area: not
-// normalised, and zero where no triangle is. Indices of triangles are below the number of vertices.
+// Returns at each vertex the sum of its faces' normals, each as long as twice the face's area. The
+// sum is not normalised, and zero without faces. Indices must be below the number of vertices.
 std::vector<Vec3> area_normals(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 
-// Sum of the areas of the triangles.
+// Returns the sum of the areas of the faces.
 double surface_area(const Mesh& mesh);
-// Signed volume of a closed mesh (positive if triangles are counter-clockwise from outside).
+// Returns the signed volume of a closed mesh: positive if counter-clockwise from outside.
 double enclosed_volume(const Mesh& mesh);
 
 }  // namespace rholm

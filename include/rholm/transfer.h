@@ -1,11 +1,11 @@
-// Geometric texture: the detail of a patch of one surface laid on a patch of another. Layer: edit.
+// Geometric texture: copies the detail of a patch of one surface to another patch. Layer: edit.
 //
-// Each patch is a smooth base, what harmonics up to a degree of a cap over it can follow, and the
-// detail on it, a height along the base's normal. Heights are carried from chart to chart (angle
-// from the patch's axis and azimuth, as seen from the centre of its sphere), turned by the azimuth
-// at which they are most like the target's own detail, scaled, faded in the target's transition.
-// Heights of closed meshes are outwards, also of those that are inside out, which stay as they are.
-// As with smoothing the analysis is separate from the update of the vertices.
+// Each patch has a smooth base, which harmonics up to a degree of a cap over it can follow. The
+// detail is a height along the base's normal. Heights are carried from chart to chart (angle from
+// the patch's axis and azimuth, seen from the centre of its sphere). They are turned to the azimuth
+// at which they resemble the target's detail most, scaled, and faded in the target's transition.
+// Heights of closed meshes point outwards, even if the mesh is inside out, which is not changed. As
+// in smoothing, the analysis is separate from the update of the vertices.
 #pragma once
 
 #include <cstddef>
@@ -23,36 +23,36 @@
 
 namespace rholm {
 
-// How detail is laid on the target.
+// Ways to add detail to the target.
 enum class TransferMode : std::uint8_t {
-  kDisplacement,  // along the target's base normals
-  kCoefficients   // the coefficients above from_degree of one cap are put into the other's, raw:
-                  // frame and size come along and the rim of the cap is a step. For comparison
+  kDisplacement,  // along the normals of the target's base
+  kCoefficients   // coefficients above from_degree of one cap replace the other cap's, including
+                  // frame and size, with a step at the rim. For comparison
 };
 EnumNames names_of(TransferMode mode);  // "displacement", "coefficients"
 
-inline constexpr int kMaxTransferDegree = 64;  // from_degree of kDisplacement
-inline constexpr int kMaxSwapDegree = 24;      // degree of a cap with kCoefficients
+inline constexpr int kMaxTransferDegree = 64;  // largest from_degree of kDisplacement
+inline constexpr int kMaxSwapDegree = 24;      // largest degree of a cap with kCoefficients
 
-// What counts as detail, and how large it is laid.
+// The detail to transfer, and its size.
 struct TransferOptions {
-  // The texture is what harmonics up to this degree on a cap over the source region leave:
-  // wavelengths below 4 radii / from_degree. 2 ... kMaxTransferDegree.
+  // The texture is the part of the source that harmonics up to this degree, on a cap over the
+  // region, leave: wavelengths below 4 radii / from_degree. 2 ... kMaxTransferDegree.
   int from_degree = 8;
-  // Lengths on the target by lengths on the source, in units of the regions' radii: 1 lays one
-  // region on the other. > 0, at most 1e6.
+  // Lengths on the target divided by lengths on the source, in units of the regions' radii: 1 fills
+  // the target region. > 0, at most 1e6.
   double scale = 1;
-  // Splits the target's edges until they are as short as the source's are there. Coinciding
-  // vertices become one, and new ones come after the old.
+  // True: splits edges of the target until they are as short as edges of the source there.
+  // Coinciding vertices are merged, and new vertices come after the old ones.
   bool refine = false;
-  // Whether the angle at which the detail is most like the target's own is looked for, which is
-  // half of the analysis. Without it the report's angle and correlation are 0.
+  // True: the angle at which the detail resembles the target's own most is searched for, which is
+  // half of the analysis. False: angle and correlation of the report are 0.
   bool find_angle = true;
-  // Of the target region; by default the wavelength of its base, at most a quarter of its radius.
+  // Width at the target region; by default its base's wavelength, at most 1/4 of its radius.
   std::optional<double> transition = {};
 };
 
-// Their list (fields.h).
+// Lists the fields of TransferOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<TransferOptions>, const Visitor& field) {
   using O = TransferOptions;
@@ -88,21 +88,21 @@ void visit_fields(FieldsOf<TransferOptions>, const Visitor& field) {
          .least = 0});
 }
 
-// What a slider moves.
+// Settings that update() applies quickly, for example while a slider moves.
 struct TransferUpdate {
-  double height = 1;  // of the texture, times what `scale` makes of it
-  // Radians, counter-clockwise seen from outside; at 0 the texture lies as the shortest turn
-  // between the patches' axes lays it. By default where it is most like the target's own detail, if
-  // the analysis has looked for that, else 0.
+  double height = 1;  // factor of the heights, in addition to `scale`
+  // Radians, counter-clockwise seen from outside. At 0 the texture is turned by the shortest
+  // rotation between the patches' axes. By default the angle of the analysis, where the texture
+  // resembles the target's detail most; 0 if not searched for.
   std::optional<double> angle = {};
-  // Where the texture is smaller than the target region it is laid again, side by side, turned
-  // alike, where neighbours agree best; they meet along the lines where they differ least.
+  // True: a texture smaller than the target region is repeated side by side, all copies with the
+  // same turn, where neighbours agree best. Copies meet along the lines of least difference.
   bool repeat = false;
-  bool remove_own = false;  // the target's own detail of the same wavelengths goes first
-  TransferMode mode = TransferMode::kDisplacement;  // kCoefficients is there to compare with
+  bool remove_own = false;  // removes the target's own detail of these wavelengths first
+  TransferMode mode = TransferMode::kDisplacement;  // kCoefficients is for comparison
 };
 
-// Its list.
+// Lists the fields of TransferUpdate.
 template <typename Visitor>
 void visit_fields(FieldsOf<TransferUpdate>, const Visitor& field) {
   using U = TransferUpdate;
@@ -125,19 +125,19 @@ void visit_fields(FieldsOf<TransferUpdate>, const Visitor& field) {
                "above the degree of one cap are put into the other, raw, for comparison"});
 }
 
-// What the analysis found. Lengths are in the units of the two meshes.
+// Findings of the analysis. Lengths are in the units of the two meshes.
 struct TransferReport {
-  double source_radius = 0, target_radius = 0;  // of discs with the areas of the bases
-  double scale = 1;                             // lengths on the target per length on the source
-  double source_wavelength = 0, target_wavelength = 0;  // of the bases
-  double source_edge = 0, target_edge = 0;  // median lengths, the target's after refinement
-  double source_rms = 0;                    // height of the texture in its region
-  double angle = 0;                         // of best correlation, radians
-  double correlation = 0;                   // with the target's own detail there, -1 ... 1
-  std::size_t new_vertices = 0;             // by refinement
+  double source_radius = 0, target_radius = 0;  // radii of discs with the bases' areas
+  double scale = 1;                             // length on the target per length on the source
+  double source_wavelength = 0, target_wavelength = 0;  // wavelengths of the bases
+  double source_edge = 0, target_edge = 0;  // median lengths, of the target after refinement
+  double source_rms = 0;                    // rms height of the texture in its region
+  double angle = 0;                         // angle of best correlation, radians
+  double correlation = 0;                   // correlation with the target's detail there, -1 ... 1
+  std::size_t new_vertices = 0;             // number, by refinement
 };
 
-// Its list.
+// Lists the fields of TransferReport.
 template <typename Visitor>
 void visit_fields(FieldsOf<TransferReport>, const Visitor& field) {
   using R = TransferReport;
@@ -170,32 +170,32 @@ void visit_fields(FieldsOf<TransferReport>, const Visitor& field) {
 struct TransferSourceState;
 struct TransferState;
 
-// A texture taken from its source, to be laid on any number of targets.
+// A texture extracted from its source, for any number of targets.
 struct TransferSource {
-  int from_degree = 0;                               // of the options
-  double radius = 0;                                 // of a disc with the area of the region
+  int from_degree = 0;                               // degree in the options
+  double radius = 0;                                 // radius of a disc with the area of the region
   double wavelength = 0, edge = 0, rms = 0;          // source_... of TransferReport
   std::shared_ptr<const TransferSourceState> state;  // the texture; shared by copies
 };
 
-// What an analysis knows.
+// Result of an analysis, for update().
 struct TransferAnalysis {
-  Mesh mesh;              // the target, refined if that was wanted
+  Mesh mesh;              // the target, refined if wanted
   Patch patch;            // the vertices that may move, and the base under them
-  TransferReport report;  // in figures
-  std::shared_ptr<const TransferState> state;  // what update() needs besides; shared by copies
+  TransferReport report;  // radii, wavelengths, angle
+  std::shared_ptr<const TransferState> state;  // further data for update(); shared by copies
 };
 
-// Covers both regions, takes the detail of one and looks at that of the other: the slow part.
-// Throws InvalidInput for options out of range, for regions that one view cannot show (see the
-// message), for bases finer than the mesh, and what region_weights() throws.
+// Covers both regions, extracts their detail and compares it: the slow part. Throws InvalidInput
+// for options out of range, regions that one centre cannot see (see the message), bases finer than
+// the mesh, and errors of region_weights().
 TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> from,
                                   const Mesh& target, std::span<const Region> to,
                                   const TransferOptions& options = {}, const Context& context = {});
 
-// The same in two: what is of the source, with from_degree as in the options, and what is of a
-// target, which may be one that moves under a hand. The second also throws InvalidInput for a
-// source without a texture, and for another from_degree than the source's.
+// Splits analyze_transfer() into two steps: the source's analysis is reused for several targets,
+// for example while the user drags the target region. Options must have the source's from_degree,
+// otherwise InvalidInput is thrown, also for a source without a texture.
 TransferSource analyze_source(const Mesh& source, std::span<const Region> from,
                               int from_degree = TransferOptions{}.from_degree,
                               const Context& context = {});
@@ -203,11 +203,11 @@ TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& targ
                                   std::span<const Region> to, const TransferOptions& options = {},
                                   const Context& context = {});
 
-// New positions of analysis.patch.vertices, for apply(). Throws InvalidInput for numbers that are
-// not finite, and with kCoefficients for from_degree >= kMaxSwapDegree.
+// Returns new positions of analysis.patch.vertices, for apply(). Throws InvalidInput for numbers
+// that are not finite, and with kCoefficients for from_degree >= kMaxSwapDegree.
 std::vector<Vec3> update(const TransferAnalysis& analysis, const TransferUpdate& wanted = {});
 
-// Both, and apply(): the target with the texture on it.
+// Does analyze_transfer(), update() and apply(): returns the target with the texture.
 Mesh transfer(const Mesh& source, std::span<const Region> from, const Mesh& target,
               std::span<const Region> to, const TransferOptions& options = {},
               const TransferUpdate& wanted = {}, const Context& context = {});

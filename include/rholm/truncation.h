@@ -1,8 +1,8 @@
-// How far the surface of an expansion is from the mesh it was made of, and the degree that keeps a
-// tolerance. Layer: transform.
+// Distance of the surface of an expansion from its mesh, and the degree that keeps a tolerance.
+// Layer: transform.
 //
 // Radial errors are |r - r_L| along directions from the centre. Distances between the surfaces are
-// those of closest points, both ways (method 5).
+// to closest points, in both directions (method 5).
 #pragma once
 
 #include <cstddef>
@@ -19,16 +19,16 @@
 
 namespace rholm {
 
-// How exact the coefficients are, and what is wanted.
+// Precision of the coefficients, and the errors to compute.
 struct TruncationOptions {
-  // Relative error of the coefficients, l2 without the mean: decides whether Parseval's difference
-  // of two large numbers still means something. By default that of the expansion, or if that is not
-  // known 1e-8.
+  // Relative error of the coefficients, l2 without the mean. It decides whether Parseval's
+  // difference of two large numbers is meaningful. By default the precision of the expansion, or
+  // 1e-8 if that is unknown.
   std::optional<double> precision = {};
-  bool predict = true;  // the largest errors in closed form; about 300 ns per triangle
+  bool predict = true;  // also predict largest errors in closed form; about 300 ns per face
 };
 
-// Their list (fields.h).
+// Lists the fields of TruncationOptions (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<TruncationOptions>, const Visitor& field) {
   using O = TruncationOptions;
@@ -43,45 +43,45 @@ void visit_fields(FieldsOf<TruncationOptions>, const Visitor& field) {
                       .in_program = false});
 }
 
-// All that can be known of a star-shaped closed mesh where it lies. `expansion` is that of the mesh
-// about its centre, of the radius or the gauge. The rms is exact by Parseval where the coefficients
-// are exact enough for that (then rms_is_exact), else measured. Throws InvalidInput as validate()
-// does, and for a gauge with q_L <= 0.
+// Computes all errors for a star-shaped closed mesh without copying it. `expansion` is the radius
+// or the gauge of the mesh about its centre. The rms is exact by Parseval if the coefficients are
+// exact enough (rms_is_exact), otherwise measured. Throws InvalidInput as validate(), and for a
+// gauge with q_L <= 0.
 TruncationErrors truncation_errors(const MeshView& mesh, const Expansion& expansion,
                                    const TruncationOptions& options = {},
                                    const Context& context = {});
 
-// Which error of all those over the surface counts.
+// Ways to combine the errors over the surface.
 enum class ErrorNorm {
   kRms,  // root mean square
-  kMax   // the largest
+  kMax   // largest
 };
-// Between what it is measured.
+// Ways to measure the error at a place.
 enum class ErrorMeasure {
-  kRadius,   // rms over solid angle: exact, by Parseval
-  kDistance  // rms over area, the larger of both ways
+  kRadius,   // radial, rms over solid angle: exact, by Parseval
+  kDistance  // distance to the closest point, rms over area, the larger of both directions
 };
 EnumNames names_of(ErrorNorm norm);        // "rms", "max"
 EnumNames names_of(ErrorMeasure measure);  // "radius", "distance"
 
-// What an error is given in.
+// Unit of a tolerance.
 enum class ToleranceUnit {
-  kAbsolute,  // the mesh's own
-  kDiagonal,  // of the bounding box
-  kRadius     // mean over directions
+  kAbsolute,  // the mesh's own unit
+  kDiagonal,  // diagonal of the bounding box
+  kRadius     // mean radius over directions
 };
 EnumNames names_of(ToleranceUnit unit);  // "absolute", "diagonal", "radius"
 
-// The largest error that is allowed.
+// Largest allowed error.
 struct Tolerance {
   double error = 0;                               // above 0
-  ToleranceUnit unit = ToleranceUnit::kAbsolute;  // of `error`
-  ErrorNorm norm = ErrorNorm::kRms;               // of all errors
-  ErrorMeasure measure = ErrorMeasure::kRadius;   // of each
-  int max_degree = 1024;                          // 0 ... kMaxDegree
+  ToleranceUnit unit = ToleranceUnit::kAbsolute;  // unit of `error`
+  ErrorNorm norm = ErrorNorm::kRms;               // combination of the errors
+  ErrorMeasure measure = ErrorMeasure::kRadius;   // measure of each error
+  int max_degree = 1024;                          // largest degree tried, 0 ... kMaxDegree
 };
 
-// Their list (fields.h).
+// Lists the fields of Tolerance (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<Tolerance>, const Visitor& field) {
   using O = Tolerance;
@@ -111,21 +111,21 @@ void visit_fields(FieldsOf<Tolerance>, const Visitor& field) {
 
 // The degree for a tolerance, with its coefficients.
 struct ToleranceAnalysis {
-  // Of the smallest degree that keeps the tolerance, or of max_degree. The errors of its expansion
-  // are set where the tolerance is one of the largest error or of distances: they were measured.
+  // Analysis of the smallest degree that keeps the tolerance, or of max_degree. For a tolerance on
+  // the largest error or on distances, its expansion has measured errors.
   Analysis analysis;
-  double allowed = 0;        // in the mesh's unit
-  double reached = 0;        // the error of that degree in the norm and measure of the tolerance
+  double allowed = 0;        // error in the mesh's unit
+  double reached = 0;        // error of that degree, in the norm and measure of the tolerance
   bool met = false;          // reached <= allowed
-  std::vector<int> degrees;  // that were computed on the way, the last one in full precision
+  std::vector<int> degrees;  // computed degrees; the last one in full precision
 };
 
-// The smallest degree whose error is within the tolerance: of the radius exactly so, and the same
-// for every max_degree; of distances no degree just below keeps it, but where they do not fall with
-// every degree, one further below may. Coefficients of more degrees may be
-// cut off. options.degree is not used; the precision is as fine as the tolerance asks for, and
-// options.precision at most. Throws InvalidInput for a tolerance out of range, the method gauge,
-// and a surface that is not star-shaped.
+// Finds the smallest degree within the tolerance. For the radius it is exact, and independent of
+// max_degree. For distances no degree just below keeps the tolerance; a lower one may if distances
+// do not fall with every degree. Coefficients may be truncated from a higher degree. options.degree
+// is ignored; the precision is as fine as the tolerance needs, at most options.precision. Throws
+// InvalidInput for a tolerance out of range, the method gauge, and a surface that is not
+// star-shaped.
 ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
                           const AnalyzeOptions& options = {}, const Context& context = {});
 

@@ -7,13 +7,13 @@ namespace rholm {
 
 // Cartesian coordinates.
 struct Vec3 {
-  double x = 0, y = 0, z = 0;  // in whatever unit the shape has
+  double x = 0, y = 0, z = 0;  // in the unit of the shape
 
-  // Equal numbers: 0 and -0 are, NaN is not itself.
+  // Returns true for equal numbers: 0 equals -0, NaN does not equal itself.
   friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-// As vectors add and scale, coordinate by coordinate.
+// Coordinate by coordinate, as vectors add and scale.
 constexpr Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 constexpr Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
@@ -24,19 +24,19 @@ constexpr Vec3& operator+=(Vec3& a, const Vec3& b) { return a = a + b; }
 constexpr Vec3& operator-=(Vec3& a, const Vec3& b) { return a = a - b; }
 constexpr Vec3& operator*=(Vec3& a, double s) { return a = s * a; }
 
-// Scalar and vector product.
+// Scalar and vector products.
 constexpr double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-// Euclidean length; squares are formed, so components should be within 1e-150 ... 1e150.
+// Returns the Euclidean length. It forms squares: keep components within 1e-150 ... 1e150.
 inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
-// a / |a|; a zero vector is returned as it is.
+// Returns a / |a|; a zero vector is returned unchanged.
 inline Vec3 normalized(const Vec3& a) {
   const double length = norm(a);
   return length > 0 ? a / length : a;
 }
-// Neither NaN nor infinite in any coordinate.
+// Returns true if no coordinate is NaN or infinite.
 inline bool is_finite(const Vec3& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }

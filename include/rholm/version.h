@@ -1,9 +1,9 @@
-// The version, which stands here and nowhere else. Layer: base.
+// The version, defined only here. Layer: base.
 #pragma once
 
 namespace rholm {
 
-// Major, minor and patch: packages of one minor version fit each other.
+// Major, minor and patch: packages of the same minor version are compatible.
 inline constexpr const char* kVersion = "0.2.0";
 
 }  // namespace rholm

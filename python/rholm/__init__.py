@@ -1,7 +1,7 @@
 """rholm: spherical harmonics of 3D objects.
 
-From a file or arrays to coefficients, from coefficients to a surface, and to smoothed, textured or
-reconstructed objects, with errors that are known:
+Computes coefficients from files or arrays, and surfaces from coefficients. Smooths, textures and
+reconstructs objects. Errors are measured and reported:
 
     import rholm
     s = rholm.expand("bennu.ply", degree=64)
@@ -9,11 +9,11 @@ reconstructed objects, with errors that are known:
     s.mesh(subdivisions=6).save("bennu-64.ply")
 
 Arrays of coefficients are in pyshtools' layout and default convention (4 pi-normalised, without
-Condon-Shortley phase) unless said otherwise; lengths are in the unit of the shape; angles are
+Condon-Shortley phase) unless said otherwise. Lengths are in the unit of the shape; angles are in
 radians. Functions that compute take `threads` (0: one per processor; results are the same bits for
-any number) and `progress` (a callable f(stage, fraction) that stops by returning False, or True,
-False, None: a bar on a terminal and in notebooks). They release the interpreter's lock, and Ctrl-C
-stops them.
+any number). They take `progress`, too: a callable f(stage, fraction) that stops the computation by
+returning False. True, False or None choose a progress bar on a terminal and in notebooks. These
+functions release the interpreter's lock, and Ctrl-C stops them.
 """
 
 from __future__ import annotations
@@ -488,7 +488,7 @@ __all__ = [
 
 _arguments.check_all(__name__, __all__)
 
-if not TYPE_CHECKING:  # else every name would be one of the package
+if not TYPE_CHECKING:  # otherwise type checkers would accept every name
 
     def __getattr__(name: str) -> object:
         return _reconstruct.old_thing(name)

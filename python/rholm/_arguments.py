@@ -1,5 +1,5 @@
-"""Arguments of the public functions: checked by the types they are annotated with, so that what is
-wrong is said with the name of the argument, what it is and what it must be.
+"""Checks the arguments of public functions by their type annotations. A message names the argument,
+its value and what it must be.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ._errors import InvalidInputError
 
 Check = Callable[[Any, str], Any]
 
-_LONGEST = 60  # letters of a value that a message shows; chosen: the message stays on one line
+_LONGEST = 60  # Letters of a value that a message shows. Chosen: the message stays on one line.
 
 
 def _refusal(value: Any, name: str, wanted: str, kind: type[Exception] = TypeError) -> Exception:
@@ -34,12 +34,12 @@ def _refusal(value: Any, name: str, wanted: str, kind: type[Exception] = TypeErr
 
 
 def _plain(value: Any) -> Any:
-    """The number in an array without dimensions."""
+    """Returns the number in an array without dimensions, and any other value unchanged."""
     return value.item() if isinstance(value, np.ndarray) and value.ndim == 0 else value
 
 
 def whole(value: Any, name: str) -> int:
-    """A whole number; 8.0 is one, True is none."""
+    """Returns a whole number. It accepts 8.0 and refuses True."""
     number = _plain(value)
     if not isinstance(number, (bool, np.bool_, str, bytes)):
         try:
@@ -55,7 +55,7 @@ def whole(value: Any, name: str) -> int:
 
 
 def number(value: Any, name: str) -> float:
-    """A real number; True and texts are none."""
+    """Returns a real number. It refuses True and texts."""
     plain = _plain(value)
     if not isinstance(plain, (bool, np.bool_, str, bytes, bytearray)):
         try:
@@ -68,7 +68,7 @@ def number(value: Any, name: str) -> float:
 
 
 def flag(value: Any, name: str) -> bool:
-    """True or False; 0 and 1 stand for them."""
+    """Returns True or False. It accepts 0 and 1 as well."""
     plain = _plain(value)
     if isinstance(plain, (bool, np.bool_)) or (isinstance(plain, (int, np.integer)) and plain in (0, 1)):
         return bool(plain)
@@ -76,14 +76,14 @@ def flag(value: Any, name: str) -> bool:
 
 
 def text(value: Any, name: str) -> str:
-    """A text."""
+    """Returns a text."""
     if isinstance(value, str):
         return value
     raise _refusal(value, name, "a text")
 
 
 def path(value: Any, name: str) -> Any:
-    """A path, as it is; one of bytes becomes a text."""
+    """Returns a path as given; a path of bytes becomes a text."""
     if isinstance(value, bytes):
         return os.fsdecode(value)
     if isinstance(value, (str, os.PathLike)):
@@ -92,7 +92,7 @@ def path(value: Any, name: str) -> Any:
 
 
 def octets(value: Any, name: str) -> bytes:
-    """Bytes."""
+    """Returns bytes."""
     if isinstance(value, (bytes, bytearray, memoryview)):
         return bytes(value)
     raise _refusal(value, name, "bytes")
@@ -151,13 +151,13 @@ _SIMPLE: dict[Any, Check] = {int: whole, float: number, bool: flag, str: text, b
 
 
 def _is_ours(kind: Any) -> bool:
-    # What makes expansions and atlases of other things has messages of its own.
+    # Functions that convert things to expansions and atlases have their own messages.
     converted = ("Expansion", "Atlas", "Mesh", "PointCloud", "StarChart", "Panel")
     return inspect.isclass(kind) and kind.__module__.startswith("rholm.") and kind.__name__ not in converted
 
 
 def check_of(annotation: Any) -> Check | None:
-    """What checks an argument of this type; None for types that functions look at themselves."""
+    """Returns the check for an argument of this type; None if the function itself checks it."""
     if annotation in (str | os.PathLike, Union[str, os.PathLike], os.PathLike):
         return path
     if isinstance(annotation, type) and annotation in _SIMPLE:
@@ -192,13 +192,15 @@ def _check_of_union(parts: tuple[Any, ...]) -> Check | None:
 
 @functools.cache
 def _names() -> dict[str, Any]:
-    """What the modules of the package define: some import a type for type checkers only."""
+    """Returns everything that the modules of the package define. Some modules import a type for
+    type checkers only, so that its name must be found elsewhere.
+    """
     modules = [m for name, m in sys.modules.items() if name.startswith(f"{__package__}._")]
     return {name: value for module in modules for name, value in vars(module).items()}
 
 
 def _checks_of(function: Callable[..., Any]) -> tuple[list[tuple[str, Check | None]], dict[str, Check]]:
-    """For arguments by position and by name, what checks them."""
+    """Returns the checks of arguments by position and by name."""
     positional: list[tuple[str, Check | None]] = []
     named: dict[str, Check] = {}
     for parameter in inspect.signature(function).parameters.values():
@@ -209,7 +211,7 @@ def _checks_of(function: Callable[..., Any]) -> tuple[list[tuple[str, Check | No
             if isinstance(annotation, str):
                 annotation = eval(annotation, _names(), getattr(function, "__globals__", {}))
             check = check_of(annotation)
-        except NameError:  # a type of another package, for type checkers
+        except NameError:  # a type of another package, imported for type checkers only
             check = None
         if check is not None and parameter.default is None:
             check = _optional(check)
@@ -227,21 +229,21 @@ def _out_of_range(values: dict[str, Any]) -> Iterator[str]:
 
 
 def checked(function: Callable[..., Any], setter_of: str = "") -> Callable[..., Any]:
-    """The function, with its arguments checked by their annotations.
+    """Returns the function with its arguments checked by their annotations.
 
     Parameters
     ----------
     function : callable
-        Of the package.
+        A function of the package.
     setter_of : str
-        The name of the property that it sets, if it does.
+        Name of the property that the function sets, if it is a setter.
     """
     checks: list[Any] = []
     title = setter_of or f"{function.__qualname__.removesuffix('.__init__')}()"
 
     @functools.wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
-        if not checks:  # made at the first call: importing the package stays fast
+        if not checks:  # created at the first call, so that the package is imported fast
             checks.extend(_checks_of(function))
         positional, named = checks
         taken = list(args)
@@ -256,7 +258,7 @@ def checked(function: Callable[..., Any], setter_of: str = "") -> Callable[..., 
         except TypeError as error:
             if "incompatible function arguments" not in str(error):
                 raise
-            # The types are right by now; what the library cannot take are numbers out of its range.
+            # The types are right at this point. The library refuses numbers out of its range.
             values = dict(zip((name for name, _ in positional), taken, strict=False)) | kwargs
             wrong = ", ".join(_out_of_range(values)) or "an argument is of the wrong type"
             raise InvalidInputError(f"{title}: {wrong}, which is out of range") from None
@@ -276,17 +278,17 @@ def _checked_class(kind: type) -> None:
 
 
 def check_all(package: str, names: list[str]) -> None:
-    """Has the arguments of all public functions of a package checked, and of methods of its classes.
+    """Checks the arguments of all public functions of a package, and of methods of its classes.
 
     Parameters
     ----------
     package : str
-        Its name: functions are exchanged in all of its modules, where they are defined and used.
+        Name of the package. Functions are replaced in all modules that define or use them.
     names : list of str
-        Of what is public.
+        Public names.
     """
     exchanged: dict[int, Any] = {}
-    kept: list[Any] = []  # an id is one object's as long as that is there
+    kept: list[Any] = []  # keeps objects alive: an id is unique only during the life of its object
     for name in names:
         thing = getattr(sys.modules[package], name)
         if isinstance(thing, types.FunctionType):

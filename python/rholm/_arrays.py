@@ -1,4 +1,4 @@
-"""Arrays as users have them, and as the library takes them."""
+"""Converts arrays of users to the arrays that the library takes."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from ._errors import InvalidInputError
 FloatArray = npt.NDArray[np.float64]
 IndexArray = npt.NDArray[np.uint32]
 
-#: Types that an attribute can have; others are converted to the nearest.
+#: Types that an attribute can have; values of other types are converted to the nearest one.
 ATTRIBUTE_TYPES = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64")
 
 
 def plain_array(values: Any, what: str) -> npt.NDArray[Any]:
-    """An array of whatever stands for one; a number that is masked is not known: NaN.
+    """Returns an array of the values. A masked number becomes NaN.
 
     Parameters
     ----------
     values : array_like
-        Also a masked array, or a list of these.
+        Values, possibly a masked array or a list of masked arrays.
     what : str
-        What the values are called in messages.
+        Name of the values in messages.
     """
     if isinstance(values, (list, tuple)) and any(isinstance(v, np.ma.MaskedArray) for v in values):
         values = np.ma.array(values)
@@ -36,12 +36,12 @@ def plain_array(values: Any, what: str) -> npt.NDArray[Any]:
         return np.asarray(values.astype(np.float32 if single else np.float64).filled(np.nan))
     try:
         return np.asarray(values)
-    except ValueError as error:  # NumPy's words are about sequences
+    except ValueError as error:  # NumPy's message is about sequences
         raise InvalidInputError(f"{what}: an array is needed, with rows of one length ({error})") from None
 
 
 def numeric(values: Any, what: str) -> npt.NDArray[Any]:
-    """An array of real numbers, NaN where it is masked."""
+    """Returns an array of real numbers, with NaN for masked ones."""
     array = plain_array(values, what)
     if array.dtype.kind not in "fiub":
         raise TypeError(f"{what}: numbers are needed, not an array of {array.dtype}")
@@ -49,14 +49,14 @@ def numeric(values: Any, what: str) -> npt.NDArray[Any]:
 
 
 def read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """The array, which cannot be written to: it is a copy, and nobody else would see that."""
+    """Returns the array, made read-only: it is a copy, so that writing to it would have no effect."""
     array.flags.writeable = False
     return array
 
 
 def unwritable(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """The array where nobody can write to its memory, else a copy: another thread might do so while
-    the library reads it.
+    """Returns the array if nobody can write to its memory, and otherwise a copy. Another thread
+    could write to it while the library reads it.
     """
     owner: Any = array
     while isinstance(owner, np.ndarray):
@@ -67,20 +67,20 @@ def unwritable(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
         return array
     try:
         frozen = memoryview(owner).readonly
-    except TypeError:  # its owner does not say
+    except TypeError:  # the owner does not tell
         frozen = False
     return array if frozen else np.array(array, order="C")
 
 
 def float_rows(values: Any, what: str = "points") -> FloatArray:
-    """Three numbers a row, float64 in C order; a view where they are that already.
+    """Returns rows of three numbers, float64 in C order; a view of an array that has this form.
 
     Parameters
     ----------
     values : array_like, (N, 3)
-        Of any real type. An empty list has no rows.
+        Numbers of any real type. An empty list has no rows.
     what : str
-        What the values are called in messages.
+        Name of the values in messages.
     """
     array = numeric(values, what)
     if array.size == 0 and array.ndim <= 2 and array.shape[-1] in (0, 3):
@@ -91,7 +91,7 @@ def float_rows(values: Any, what: str = "points") -> FloatArray:
 
 
 def float_row(values: Any, what: str = "point") -> FloatArray:
-    """One row of three numbers."""
+    """Returns one row of three numbers."""
     array = numeric(values, what)
     if array.shape != (3,):
         raise InvalidInputError(f"{what}: three numbers are needed, not {array.shape}")
@@ -99,7 +99,7 @@ def float_row(values: Any, what: str = "point") -> FloatArray:
 
 
 def floats(values: Any, what: str = "values") -> FloatArray:
-    """A list of numbers, float64; a view where it is that already."""
+    """Returns a list of float64 numbers; a view of an array that has this form."""
     array = numeric(values, what)
     if array.ndim != 1:
         raise InvalidInputError(f"{what}: an array (N,) is needed, not {array.shape}")
@@ -107,9 +107,8 @@ def floats(values: Any, what: str = "values") -> FloatArray:
 
 
 def vertex_rows(values: Any) -> npt.NDArray[Any]:
-    """Vertices as they lie: float32 or float64 of native byte order, numbers of a row side by side.
-
-    Copied only if they are not that.
+    """Returns vertices as float32 or float64 of native byte order, numbers of a row side by side.
+    The array is copied only if it does not have this form.
     """
     array = numeric(values, "vertices")
     if array.size == 0:
@@ -125,9 +124,8 @@ def vertex_rows(values: Any) -> npt.NDArray[Any]:
 
 
 def triangle_rows(values: Any) -> npt.NDArray[np.uint32]:
-    """Vertex indices as they lie: 32 bits, numbers of a row side by side.
-
-    Copied only if they are not that: indices of 64 bits are made 32.
+    """Returns vertex indices of 32 bits, numbers of a row side by side. The array is copied only if
+    it does not have this form, for example for 64-bit indices.
     """
     array = plain_array(values, "triangles")
     if np.ma.is_masked(values):
@@ -155,7 +153,7 @@ def triangle_rows(values: Any) -> npt.NDArray[np.uint32]:
 
 
 def attribute_type(dtype: np.dtype[Any]) -> str:
-    """The type that an attribute of these values has in a file."""
+    """Returns the type that an attribute of this dtype has in a file."""
     name = str(dtype.name)
     if name in ATTRIBUTE_TYPES:
         return name
@@ -165,7 +163,7 @@ def attribute_type(dtype: np.dtype[Any]) -> str:
     return kinds[dtype.kind]
 
 
-#: What columns of attributes with several numbers are called.
+#: Names of the columns of attributes with several numbers per vertex.
 _COLUMNS = {
     "rgb": ("red", "green", "blue"),
     "rgba": ("red", "green", "blue", "alpha"),
@@ -178,12 +176,13 @@ _COLUMNS = {
 
 
 def attribute_tuples(attributes: Any, n: int) -> list[tuple[str, str, FloatArray]]:
-    """Attributes as (name, type, values) each; columns of wider arrays get names of their own.
+    """Returns attributes as tuples (name, type, values). Each column of a wider array gets its own
+    name.
 
     Parameters
     ----------
     attributes : mapping of str to array_like or None
-        (N,) or (N, k) each.
+        One array (N,) or (N, k) per attribute.
     n : int
         Number of vertices or points.
     """
@@ -217,12 +216,12 @@ def attribute_tuples(attributes: Any, n: int) -> list[tuple[str, str, FloatArray
 
 
 def attribute_dict(tuples: list[tuple[str, str, FloatArray]]) -> dict[str, npt.NDArray[Any]]:
-    """Attributes by name, each of the type it has in a file."""
+    """Returns attributes by name, each with the type that it has in a file."""
     return {name: read_only(values.astype(kind)) for name, kind, values in tuples}
 
 
 def directions(values: Any) -> tuple[FloatArray, tuple[int, ...]]:
-    """Unit vectors (N, 3) of vectors (..., 3), and the shape without the last axis."""
+    """Returns unit vectors (N, 3) of vectors (..., 3), and the shape without the last axis."""
     array = numeric(values, "directions")
     if array.ndim == 0 or array.shape[-1] != 3:
         raise InvalidInputError(f"directions: an array (..., 3) is needed, not {array.shape}")
@@ -240,6 +239,6 @@ def directions(values: Any) -> tuple[FloatArray, tuple[int, ...]]:
 
 
 def triple(values: Any, what: str) -> tuple[float, float, float]:
-    """Three numbers, as the module takes a point."""
+    """Returns three numbers, the form in which the library takes a point."""
     x, y, z = float_row(values, what)
     return float(x), float(y), float(z)

@@ -1,4 +1,4 @@
-"""Shapes of any genus as caps."""
+"""Surfaces of any genus as an atlas of caps."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ NO_CAP = _core.NO_CAP
 
 
 class Atlas:
-    """A surface of any genus as overlapping caps, each a function on a sphere of its own.
+    """A surface of any genus as overlapping caps, each a function on its own sphere.
 
-    Made by `compress`, `patch_atlas`, `load` and, as ``r.atlas``, by `reconstruct`.
+    `compress`, `patch_atlas`, `load` and `reconstruct` (as ``r.atlas``) make atlases.
     """
 
     __slots__ = ("_core", "_name", "_report", "_shape")
@@ -60,98 +60,99 @@ class Atlas:
 
     @property
     def report(self) -> CompressReport | None:
-        """How `compress` found it; None for others."""
+        """Report of `compress`; None if another function made the atlas."""
         return self._report
 
     @property
     def errors(self) -> AtlasErrors | None:
-        """As measured on the extracted surface; None if not known."""
+        """Errors measured on the extracted surface; None if unknown."""
         return self._core.errors
 
     @property
     def tolerance(self) -> float:
-        """That was asked for, in the unit of the shape; 0: none."""
+        """Wanted tolerance in the unit of the shape; 0: none."""
         return self._core.tolerance
 
     @property
     def size(self) -> AtlasSize:
-        """How large it is: caps, coefficients, numbers."""
+        """Numbers of caps, coefficients and values."""
         return _core.size_of(self._core.atlas)
 
     @property
     def input_numbers(self) -> int:
-        """Coordinates of the shape it is of: 3 per vertex; 0: not known."""
+        """Number of coordinates of the shape: 3 per vertex; 0: unknown."""
         return self._core.input_numbers
 
     @property
     def degree(self) -> int:
-        """The highest degree of a cap."""
+        """Highest degree of a cap."""
         return _core.highest_degree(self._core.atlas)
 
     @property
     def step(self) -> float:
-        """Of the grid its surface was measured at, in the unit of the shape."""
+        """Step of the grid on which its surface was measured, in the unit of the shape."""
         return self._core.step
 
     @property
     def diagonal(self) -> float:
-        """Of the bounding box of the points it was made of."""
+        """Diagonal of the bounding box of the original points."""
         return self._core.atlas.diagonal
 
     @property
     def unit(self) -> str:
-        """Of lengths; empty if not known."""
+        """Unit of lengths; empty if unknown."""
         return self._core.unit
 
     @property
     def method(self) -> str:
-        """How it was made; empty if not known."""
+        """Method that made the atlas; empty if unknown."""
         return self._core.method
 
     @property
     def rules(self) -> SurfaceRules | None:
-        """How `reconstruct` made the surface, and what of it the atlas does not hold; None for others."""
+        """Rules by which `reconstruct` extracted the surface; None if another function made the atlas."""
         return self._core.rules
 
     def cap(self, i: int) -> Cap:
-        """One of the caps: its sphere, support and degree.
+        """Returns one of the caps: its sphere, support and degree.
 
         Parameters
         ----------
         i : int
-            0 ... len(atlas) - 1, or from the end as in lists.
+            Index of the cap, 0 ... len(atlas) - 1; negative indices count from the end.
         """
         return self._core.atlas.cap(_index(i, len(self)))
 
     def coefficients_of(self, i: int) -> FloatArray:
-        """Coefficients of one cap: l = 0, 1, ..., in each m = 0, then C and S of m = 1 ... l, without
-        those with l + m odd in the even basis; real, orthonormal, relative to the cap's radius.
+        """Returns the coefficients of one cap, real and orthonormal, relative to the cap's radius.
+        Their order is l = 0, 1, ..., in each l the order m = 0, then C and S of m = 1 ... l. The
+        even basis leaves out coefficients with l + m odd.
 
         Parameters
         ----------
         i : int
-            The cap.
+            Index of the cap.
         """
         return self._core.atlas.coefficients_of(_index(i, len(self)))
 
     def evaluate(self, i: int, points: npt.ArrayLike) -> tuple[FloatArray, FloatArray, npt.NDArray[np.bool_]]:
-        """The surface's potential as one cap sees it.
+        """Evaluates the surface's potential according to one cap.
 
         Parameters
         ----------
         i : int
-            The cap.
+            Index of the cap.
         points : array_like, (N, 3)
-            Anywhere.
+            Points in space, also outside of the cap's support.
 
         Returns
         -------
         distance : float64, (N,)
-            Signed to first order, positive outside.
+            Signed distance to first order, positive outside.
         gradient : float64, (N, 3)
-            Of it, to first order.
+            Gradient of the distance, to first order.
         valid : bool, (N,)
-            False at the centre, behind it, and where the cap's radius is not above 0.
+            False at the centre, behind it, and where the cap's radius is not positive.
         """
         distance, gradient, valid = _core.evaluate_cap(
             self._core.atlas, _index(i, len(self)), float_rows(points)
@@ -162,10 +163,11 @@ class Atlas:
     def mesh(
         self, *, threads: int = 0, progress: Progress = None, **options: Unpack[AtlasSynthesisKeywords]
     ) -> Mesh:
-        """The surface: closed, oriented outwards, with normals.
+        """Returns the surface: closed, oriented outwards, with normals.
 
-        Of a reconstruction it is the mesh of `reconstruct`, to the bit at its own step: open where
-        that is, and as simplified. ``simplify={"share": 1}`` leaves all of its triangles.
+        For a reconstruction it is the mesh of `reconstruct`, the same to the bit at the atlas's own
+        step. It is open or simplified if that mesh is. ``simplify={"share": 1}`` keeps all
+        triangles.
 
         Parameters
         ----------
@@ -180,12 +182,12 @@ class Atlas:
     def dominant_caps(
         self, points: npt.ArrayLike, *, threads: int = 0, progress: Progress = None
     ) -> IndexArray:
-        """The cap of the largest blend weight at each point, (N,); `NO_CAP` without caps.
+        """Returns the cap of the largest blend weight at each point, (N,); `NO_CAP` without caps.
 
         Parameters
         ----------
         points : array_like, (N, 3)
-            On the surface.
+            Points on the surface.
         threads, progress
             See `rholm.caller`.
         """
@@ -193,16 +195,16 @@ class Atlas:
             return _core.dominant_caps(self._core.atlas, float_rows(points), how)
 
     def colored(self, mesh: Mesh | None = None, by: Literal["cap", "degree"] = "cap", **options: Any) -> Mesh:
-        """A mesh of the surface in the colours of its caps.
+        """Returns a mesh of the surface in the colours of its caps.
 
         Parameters
         ----------
         mesh : Mesh, optional
-            By default the surface itself.
+            Mesh to colour; by default the surface of the atlas.
         by : {"cap", "degree"}
-            A colour per cap, or per degree from dark blue to yellow.
+            One colour per cap, or one per degree from dark blue to yellow.
         **options
-            Of `mesh`.
+            Arguments of `mesh`.
         """
         if by not in ("cap", "degree"):
             raise InvalidInputError(f"by is 'cap' or 'degree', not {by!r}")
@@ -212,12 +214,12 @@ class Atlas:
         return paint(surface, self, caps)
 
     def with_unit(self, unit: str) -> Atlas:
-        """The same numbers in a unit of that name.
+        """Returns the atlas with the same numbers and another name of the unit.
 
         Parameters
         ----------
         unit : str
-            "km", "mm", ...
+            Name of the unit: "km", "mm", ...
         """
         _core.check_unit(unit)
         return Atlas._of(self._core.with_unit(unit), self._report, self._shape, self._name)
@@ -228,19 +230,19 @@ class Atlas:
         Parameters
         ----------
         path : path
-            Replaced when complete.
+            File to write; an existing file is replaced when the new one is complete.
         """
         with caller(0, False) as how:
             _core.write_atlas(self._core, named(path, (".h5", ".hdf5"), "an atlas"), how)
 
     def report_html(self, path: str | os.PathLike[str] | None = None, **options: Any) -> str:
-        """All that is known on one page of HTML; see `Expansion.report_html`."""
+        """Returns a report on one HTML page; see `Expansion.report_html`."""
         from ._pictures import report_html
 
         return report_html(self, path, **options)
 
     def render(self, **options: Any) -> Any:
-        """A picture; see `rholm.render`."""
+        """Returns a picture; see `rholm.render`."""
         from ._pictures import render
 
         return render(self, **options)
@@ -263,12 +265,12 @@ class Atlas:
 
 
 def as_atlas(thing: Any) -> Atlas:
-    """An `Atlas`, or a TypeError.
+    """Returns an `Atlas` unchanged, and raises TypeError for anything else.
 
     Parameters
     ----------
     thing : Atlas
-        Or anything else.
+        The atlas, or any other object.
     """
     if isinstance(thing, Atlas):
         return thing
@@ -276,7 +278,7 @@ def as_atlas(thing: Any) -> Atlas:
 
 
 def _index(i: int, n: int) -> int:
-    """A number from 0 to n - 1, or from the end as in lists."""
+    """Returns an index from 0 to n - 1. Negative indices count from the end."""
     if not -n <= i < n:
         raise IndexError(f"there is no cap {i}: the atlas has {n}")
     return i % n
@@ -297,22 +299,24 @@ def _colored(mesh: Mesh, channels: list[FloatArray]) -> Mesh:
 
 
 def set_cap_colors(mesh: Mesh, atlas: Atlas, caps: npt.ArrayLike) -> Mesh:
-    """The mesh with a colour per cap, caps that touch of different hues; grey without a cap.
+    """Returns the mesh with one colour per cap. Touching caps get different hues; vertices without
+    a cap are grey.
 
     Parameters
     ----------
     mesh : Mesh
-        Stays as it is.
+        Mesh to colour. It is not changed.
     atlas : Atlas
-        Of the caps.
+        Atlas that has the caps.
     caps : array_like, (N,)
-        Of `Atlas.dominant_caps`.
+        Cap of each vertex, from `Atlas.dominant_caps`.
     """
     return _colored(as_mesh(mesh), _core.set_cap_colors(as_atlas(atlas)._core.atlas, _caps_of(caps)))
 
 
 def set_degree_colors(mesh: Mesh, atlas: Atlas, caps: npt.ArrayLike) -> Mesh:
-    """The same by the degrees of the caps: dark blue for the lowest to yellow for the highest.
+    """Returns the mesh coloured by the degrees of the caps: dark blue for the lowest, yellow for
+    the highest.
 
     Parameters
     ----------
@@ -325,49 +329,49 @@ def set_degree_colors(mesh: Mesh, atlas: Atlas, caps: npt.ArrayLike) -> Mesh:
 def dominant_caps(
     atlas: Atlas, points: npt.ArrayLike, *, threads: int = 0, progress: Progress = None
 ) -> IndexArray:
-    """See `Atlas.dominant_caps`.
+    """Returns the cap of the largest blend weight at each point; see `Atlas.dominant_caps`.
 
     Parameters
     ----------
     atlas : Atlas
-        Of the caps.
+        Atlas that has the caps.
     points, threads, progress
-        As there.
+        As in `Atlas.dominant_caps`.
     """
     return as_atlas(atlas).dominant_caps(points, threads=threads, progress=progress)
 
 
 def size_of(atlas: Atlas) -> _core.AtlasSize:
-    """How large an atlas is.
+    """Returns the size of an atlas: caps, coefficients and values.
 
     Parameters
     ----------
     atlas : Atlas
-        Which.
+        The atlas.
     """
     return as_atlas(atlas).size
 
 
 def highest_degree(atlas: Atlas) -> int:
-    """Of all caps; 0 without caps.
+    """Returns the highest degree of all caps; 0 without caps.
 
     Parameters
     ----------
     atlas : Atlas
-        Which.
+        The atlas.
     """
     return as_atlas(atlas).degree
 
 
 def n_coefficients(basis: Literal["full", "even"], degree: int) -> int:
-    """The number of coefficients of a cap.
+    """Returns the number of coefficients of a cap.
 
     Parameters
     ----------
     basis : {"full", "even"}
-        All up to the degree, or those with l + m even.
+        All harmonics up to the degree, or harmonics with l + m even.
     degree : int
-        L.
+        Highest degree L.
     """
     return _core.n_coefficients(basis, degree)
 
@@ -383,19 +387,19 @@ def compress(
     progress: Progress = None,
     **options: Unpack[CompressKeywords],
 ) -> Atlas:
-    """A surface of any genus as few caps: a model smaller than its data.
+    """Computes a model of a small number of caps, smaller than its data, for any genus.
 
     Parameters
     ----------
     shape : mesh-like, or points with normals
-        May be open; of parts that run into each other the outer surface is taken. A mesh that is
-        inside out or has doubled vertices is mended, as by `expand`.
+        The shape, which may be open. If parts intersect, the outer surface is used. A mesh that is
+        inside out or has duplicate vertices is corrected, as in `expand`.
     tolerance : float
-        Root mean square distance between the surfaces, both ways.
+        Root mean square distance between the surfaces, in both directions.
     unit : {"absolute", "diagonal"}
-        Of the tolerance: the shape's own, or its bounding box's diagonal.
+        Unit of the tolerance: the shape's own, or the diagonal of its bounding box.
     length_unit : str
-        Of the vertices: "km", "mm", ...
+        Unit of the vertices: "km", "mm", ...
     {options}
     threads, progress
         See `rholm.caller`.
@@ -403,14 +407,15 @@ def compress(
     Returns
     -------
     a : Atlas
-        With ``a.errors`` and ``a.report``: whether the tolerance and the topology were kept.
+        Atlas with ``a.errors`` and ``a.report``, which tell whether tolerance and topology are
+        kept.
 
     Raises
     ------
     InvalidInputError
-        For shapes without area, triangles that are not oriented alike, options out of range.
+        For shapes without area, inconsistent orientation, or options out of range.
     UnsupportedError
-        For shapes too thin for the grid, and where caps would take more than `max_numbers`.
+        For shapes too thin for the grid, or caps that need more than `max_numbers`.
     """
     whole = finite_points(as_shape(shape))[0]
     if unit not in ("diagonal", "absolute"):
@@ -424,7 +429,7 @@ def compress(
 
 
 class PatchAtlas(NamedTuple):
-    """What `patch_atlas` made."""
+    """Result of `patch_atlas`."""
 
     atlas: Atlas
     """The caps, blended by the paper's weights."""
@@ -443,14 +448,14 @@ def patch_atlas(
     progress: Progress = None,
     **options: Unpack[PatchAtlasKeywords],
 ) -> PatchAtlas:
-    """The paper's atlas, kept to compare with; `compress` is better in every way.
+    """Computes the paper's atlas, for comparison; `compress` is better in every respect.
 
     Parameters
     ----------
     shape : mesh-like, or points with normals
         The shape.
     degree : int
-        Of every cap, 0 ... 24.
+        Degree of every cap, 0 ... 24.
     {options}
     threads, progress
         See `rholm.caller`.
@@ -470,14 +475,15 @@ def patch_picture(
     threads: int = 0,
     progress: Progress = None,
 ) -> Mesh:
-    """The paper's patches before any expansion, each in a colour of its own.
+    """Returns the paper's patches before the expansion, each in a colour of its own.
 
     Parameters
     ----------
     shape : mesh-like, or points with normals
         The shape.
     view : {"patches", "triangles", "spheres"}
-        Delaunay triangles of each patch; the same smaller; the same on each patch's sphere.
+        Delaunay triangles of each patch; smaller separate triangles; triangles on the patch's
+        sphere.
     min_cosine : float
         As in `patch_atlas`.
     threads, progress

@@ -1,4 +1,4 @@
-"""Populations: a function for many shapes, and a table of what it gave."""
+"""Populations: calls a function for many shapes, and makes a table of the results."""
 
 from __future__ import annotations
 
@@ -23,10 +23,11 @@ _LEADING = ("id", "path", "error", "message", "seconds", "cpu_seconds")
 
 
 class BatchTable:
-    """Rows as columns, what `batch` and `read_batch` give.
+    """Table of results from `batch` and `read_batch`.
 
-    ``table["area"]`` is a NumPy array with a value for each row: numbers with NaN where there is none,
-    booleans (as numbers where a row has none), texts as objects; lists of numbers are rows of two dimensions.
+    ``table["area"]`` is a NumPy array with a value for each row. Numbers are NaN where a value is
+    missing. Booleans become numbers if a value is missing; texts are objects. Lists of numbers form
+    an array of two dimensions.
     """
 
     __slots__ = ("_columns", "_core")
@@ -37,12 +38,12 @@ class BatchTable:
 
     @property
     def columns(self) -> dict[str, npt.NDArray[Any]]:
-        """The arrays by their names, in their order."""
+        """The arrays by name, in the order of the columns."""
         return dict(self._columns)
 
     @property
     def failed(self) -> npt.NDArray[np.bool_]:
-        """Which rows have an error: of a function, or an exit code of ``rholm batch`` other than 0."""
+        """True for rows with an error: an exception, or an exit code of ``rholm batch`` other than 0."""
         if "exit_code" in self._columns:
             codes: npt.NDArray[np.bool_] = self._columns["exit_code"].astype(str) != "0"
             return codes
@@ -70,34 +71,34 @@ class BatchTable:
     def to_csv(
         self, path: str | os.PathLike[str], *, coefficients: bool = True, raw_cells: bool = False
     ) -> None:
-        """Writes comma-separated values; a list of numbers is as many columns.
+        """Writes comma-separated values. A list of numbers takes several columns.
 
-        Texts that programs for tables take for formulas (they begin with =, +, -, @ and are no numbers)
-        have an apostrophe before them, which `read_batch` takes away.
+        Texts that spreadsheets take for formulas (they begin with =, +, -, @ and are no numbers)
+        get an apostrophe in front. `read_batch` removes it.
 
         Parameters
         ----------
         path : path
-            Ends in .csv; replaced when complete.
+            File name that ends in .csv. An existing file is replaced when the new one is complete.
         coefficients : bool
-            False leaves out the column ``coefficients``.
+            False: leaves out the column ``coefficients``.
         raw_cells : bool
-            Writes all texts as they are.
+            True: writes all texts without an added apostrophe.
         """
         self._write(path, ".csv", coefficients, raw_cells)
 
     def to_hdf5(self, path: str | os.PathLike[str]) -> None:
-        """Writes HDF5, a dataset for each column: docs/batch.md has the layout.
+        """Writes HDF5 with a dataset for each column; docs/batch.md describes the layout.
 
         Parameters
         ----------
         path : path
-            Ends in .h5; replaced when complete.
+            File name that ends in .h5. An existing file is replaced when the new one is complete.
         """
         self._write(path, ".h5", True, False)
 
     def to_pandas(self) -> Any:
-        """A ``pandas.DataFrame``; a list of numbers is as many columns, name.0, name.1, ..."""
+        """Returns a ``pandas.DataFrame``. A list of numbers takes columns name.0, name.1, ..."""
         pandas = _import("pandas", "to_pandas()")
         columns = {}
         for name, values in self._columns.items():
@@ -108,12 +109,12 @@ class BatchTable:
         return pandas.DataFrame(columns)
 
     def to_parquet(self, path: str | os.PathLike[str]) -> None:
-        """Writes Parquet by pyarrow; lists of numbers are lists.
+        """Writes Parquet with pyarrow. Lists of numbers stay lists.
 
         Parameters
         ----------
         path : path
-            Overwritten.
+            File to write. An existing file is overwritten.
         """
         arrow = _import("pyarrow", "to_parquet()")
         parquet = _import("pyarrow.parquet", "to_parquet()")
@@ -140,7 +141,7 @@ def read_batch(path: str | os.PathLike[str]) -> BatchTable:
     Parameters
     ----------
     path : path
-        HDF5; or CSV, whose values are texts all.
+        HDF5 or CSV file. All values of a CSV file are texts.
     """
     return BatchTable(_core.read_batch(os.fspath(path)))
 
@@ -156,40 +157,44 @@ def batch(
     in_flight: int = 1000,
     progress: Progress = None,
 ) -> BatchTable:
-    """Calls a function for every item, and makes a table of what it returns: a row for each, in their order.
+    """Calls a function for every item, and makes a table of the results with one row per item, in
+    order.
 
-    An exception is a row with its type and message, and the others go on.
+    An exception fills the item's row with its type and message; other items continue.
 
     Parameters
     ----------
     items : iterable
-        Paths or any objects, or pairs ``(id, item)`` with the id a str. Without, the id is the path, or the
-        number of the item. Taken as they are needed, unless there is a journal.
+        Paths or any objects, or pairs ``(id, item)`` with the id a str. Without ids, the path or
+        the number of the item is used. Items are taken when needed; with a journal they are all
+        taken first.
     function : callable
-        Of an item. Returns a number, text or boolean (the column ``value``); a mapping, a dataclass, a named
-        tuple or a record of the library (its fields; those within others with names joined by dots; arrays
-        of one dimension are lists); or an `Expansion`: its degree, centre, energy per degree, coefficients.
+        Function of an item. It may return a number, text or boolean (the column ``value``). It may
+        return a mapping, dataclass, named tuple or record of the library: each field is a column.
+        Names of nested fields are joined by dots, and arrays of one dimension are lists. It may
+        return an `Expansion`: its degree, centre, energy per degree and coefficients.
     executor : concurrent.futures.Executor, optional
-        Where it runs: a ProcessPoolExecutor, the executor of a dask.distributed client, mpi4py's
-        MPIPoolExecutor, any other; function and items must be what it can send. By default threads of this
-        process, one per processor: functions of the library release the interpreter's lock, and nothing
-        needs to be sent. Give them ``threads=1``, if shapes are small.
+        Executor that runs the function: a ProcessPoolExecutor, the executor of a dask.distributed
+        client, mpi4py's MPIPoolExecutor, or another one. It must be able to send function and
+        items. By default threads of this process are used, one per processor. They need to send
+        nothing, and functions of the library release the interpreter's lock. For small shapes call
+        these with ``threads=1``.
     journal : path, optional
-        Rows that are done are appended to this file, and not done again by another call with the same items,
-        function and job. It stays until you delete it.
+        File to which finished rows are appended. A later call with the same items, function and job
+        does not compute them again. The file stays until you delete it.
     job : str
-        Says what else the rows depend on: a journal of another job is refused.
+        Names everything else that the rows depend on. A journal of another job is refused.
     times : bool
-        Whether there are columns ``seconds`` and ``cpu_seconds``, which differ from run to run.
+        True: adds the columns ``seconds`` and ``cpu_seconds``, which differ from run to run.
     in_flight : int
-        Calls that wait or run at most at a time.
+        Largest number of calls that wait or run at a time.
     progress : callable, bool or None
-        As in `caller`; counts items.
+        As in `caller`; it counts items.
 
     Returns
     -------
     table : BatchTable
-        Columns ``id``, ``path`` where items are paths, ``error``, ``message``, times, those of the results.
+        Columns ``id``, ``path`` if items are paths, ``error``, ``message``, times, and the results.
     """
     if in_flight < 1:
         raise ValueError(f"in_flight is at least 1, not {in_flight}")
@@ -213,7 +218,7 @@ def batch(
 
 
 class _Journal:
-    """The items with their ids; where there is a journal, which of them are done."""
+    """The items with their ids and, with a journal, the rows that are done."""
 
     def __init__(
         self,
@@ -238,7 +243,7 @@ class _Journal:
         return self._core.read(row) if self._core is not None and self._core.has(row) else None
 
     def close(self) -> None:
-        """Now, not when the last traceback that knows of it goes."""
+        """Closes the file now, not only when the last traceback that refers to it is freed."""
         self._core = None
 
     def append(self, row: int, cells: dict[str, Any]) -> None:
@@ -267,7 +272,7 @@ def _run(
     rows: list[dict[str, Any]],
     report: Callable[[str, float], Any] | None,
 ) -> None:
-    """Fills `rows`. No more than `in_flight` calls are with the executor."""
+    """Fills `rows`. The executor never has more than `in_flight` calls."""
     ended: queue.SimpleQueue[tuple[int, Future[dict[str, Any]]]] = queue.SimpleQueue()
     waiting: dict[int, Future[dict[str, Any]]] = {}
     done = failed = 0
@@ -311,7 +316,9 @@ def _run(
 
 
 def _result_of(future: Future[dict[str, Any]]) -> dict[str, Any]:
-    """The cells of a row. What could not be sent is an error of that row, a broken executor one of all."""
+    """Returns the cells of a row. An item that cannot be sent is an error of its row; a broken
+    executor is an error of the whole call.
+    """
     try:
         return future.result()
     except (BrokenExecutor, KeyboardInterrupt):
@@ -325,7 +332,7 @@ def _error_cells(error: BaseException) -> dict[str, Any]:
 
 
 class _Clock:
-    """Seconds of the wall and of this thread."""
+    """Measures wall-clock seconds and processor seconds of this thread."""
 
     def __enter__(self) -> _Clock:
         self._begin = time.perf_counter(), time.thread_time()
@@ -339,7 +346,7 @@ class _Clock:
 
 
 def _call(function: Callable[[Any], Any], item: Any) -> dict[str, Any]:
-    """Runs where the executor does: only what it returns is sent back."""
+    """Runs in the executor: only the returned cells are sent back."""
     with _Clock() as clock:
         try:
             cells = {"error": "", "message": "", **_cells_of(function(item))}
@@ -363,7 +370,7 @@ def _cells_of(result: Any) -> dict[str, Any]:
 
 
 def _fields_of(value: Any) -> Mapping[Any, Any] | None:
-    """What a value is made of by names, None for one that is a value itself."""
+    """Returns the named parts of a value; None for a plain value."""
     if isinstance(value, Mapping):
         return value
     if isinstance(value, Expansion):
@@ -396,7 +403,7 @@ def _of_expansion(expansion: Expansion) -> dict[str, Any]:
 
 
 def _put(cells: dict[str, Any], name: str, value: Any) -> None:
-    """A value as one of the table, or those within it; what is none of these is a TypeError."""
+    """Adds a value, or its nested values, to the cells of a row. Raises TypeError for any other type."""
     if isinstance(value, np.generic):
         value = value.item()
     if value is None or isinstance(value, (bool, float)):
@@ -418,7 +425,7 @@ def _put(cells: dict[str, Any], name: str, value: Any) -> None:
 
 
 def _text(text: str) -> str:
-    """As UTF-8 can have it, without zeros."""
+    """Returns a text that UTF-8 can encode, without zeros."""
     return text.encode("utf-8", "replace").decode("utf-8").replace("\0", "\N{REPLACEMENT CHARACTER}")
 
 

@@ -1,4 +1,4 @@
-"""The steps of that way: centre, chart, transform, errors, random points."""
+"""The separate steps of `expand`: centre, chart, transform, errors, and random points."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def _chart_core(chart: Any) -> _core.StarChart:
 
 
 class StarChart:
-    """A mesh seen from a centre: what `analyze` and `monte_carlo` work on."""
+    """A mesh relative to a centre: the input of `analyze` and `monte_carlo`."""
 
     __slots__ = ("_core",)
 
@@ -39,12 +39,12 @@ class StarChart:
 
     @property
     def mesh(self) -> Mesh:
-        """Welded, closed, outward, vertices relative to the centre."""
+        """Welded, closed, outward mesh with vertices relative to the centre."""
         return Mesh._of(self._core.mesh)
 
     @property
     def report(self) -> _core.StarReport:
-        """The centre, and how well it sees the surface."""
+        """The centre, and the visibility of the surface from it."""
         return self._core.report
 
 
@@ -57,12 +57,12 @@ def make_star_chart(
     threads: int = 0,
     progress: Progress = None,
 ) -> StarChart:
-    """Finds the centre, checks, and moves it to the origin.
+    """Finds the centre, checks visibility, and moves the centre to the origin.
 
     Parameters
     ----------
     mesh : mesh-like
-        Closed; mended as by `expand`.
+        Closed mesh; corrected as in `expand`.
     center, rays, signed, threads, progress
         As in `expand`.
     """
@@ -74,12 +74,12 @@ def make_star_chart(
 def find_center(
     mesh: MeshLike, center: Any = "auto", *, rays: int = 100_000, threads: int = 0, progress: Progress = None
 ) -> _core.StarReport:
-    """Finds the centre and checks how it sees the surface.
+    """Finds the centre and checks how much of the surface is seen from it.
 
     Parameters
     ----------
     mesh : mesh-like
-        Closed; mended as by `expand`.
+        Closed mesh; corrected as in `expand`.
     center, rays, threads, progress
         As in `expand`.
     """
@@ -91,12 +91,12 @@ def find_center(
 def check_star(
     mesh: MeshLike, center: npt.ArrayLike, *, rays: int = 100_000, threads: int = 0, progress: Progress = None
 ) -> _core.StarReport:
-    """Whether a surface is star-shaped from a point.
+    """Checks whether a surface is star-shaped from a point.
 
     Parameters
     ----------
     mesh : mesh-like
-        Closed; mended as by `expand`.
+        Closed mesh; corrected as in `expand`.
     center : array_like, (3,)
         The point.
     rays, threads, progress
@@ -108,7 +108,7 @@ def check_star(
 
 
 class Analyzed(NamedTuple):
-    """What `analyze` made of a chart."""
+    """Result of `analyze`."""
 
     expansion: Expansion
     """The coefficients."""
@@ -129,12 +129,12 @@ def analyze(
     progress: Progress = None,
     **options: Unpack[TransformKeywords],
 ) -> Analyzed:
-    """Coefficients of a chart by the method that is asked for: a step of `expand`.
+    """Computes the coefficients of a chart by the chosen method: a step of `expand`.
 
     Parameters
     ----------
     chart : StarChart
-        Of `make_star_chart`.
+        Chart from `make_star_chart`.
     degree, tolerance, measure, threads, progress
         As in `expand`.
     {options}
@@ -151,62 +151,63 @@ def analyze(
 
 
 def radius_norm_squared(chart: StarChart) -> float:
-    """Integral of r^2 over directions of a star-shaped surface in closed form.
+    """Returns the integral of r^2 over directions of a star-shaped surface, in closed form.
 
     Parameters
     ----------
     chart : StarChart
-        Of `make_star_chart`.
+        Chart from `make_star_chart`.
     """
     return _core.radius_norm_squared(_chart_core(chart))
 
 
 def gauge_norm_squared(chart: StarChart) -> float:
-    """Integral of 1/r^2 over directions in closed form.
+    """Returns the integral of 1/r^2 over directions, in closed form.
 
     Parameters
     ----------
     chart : StarChart
-        Of `make_star_chart`.
+        Chart from `make_star_chart`.
     """
     return _core.gauge_norm_squared(_chart_core(chart))
 
 
 def tail_strength(chart: StarChart, function: Function = "radius") -> float:
-    """S: the energy per degree is about S / (pi l^4) beyond the mesh's own resolution.
+    """Returns S: the energy per degree is about S / (pi l^4) beyond the mesh's resolution.
 
     Parameters
     ----------
     chart : StarChart
-        Of `make_star_chart`.
+        Chart from `make_star_chart`.
     function : {"radius", "gauge"}
-        Which is expanded.
+        The function that is expanded.
     """
     return _core.tail_strength(_chart_core(chart), function)
 
 
 def vertex_error_strength(chart: StarChart, function: Function = "radius") -> float:
-    """The largest truncation error at vertices, times 2 pi (L + 1).
+    """Returns the largest truncation error at vertices, times 2 pi (L + 1).
 
     Parameters
     ----------
     chart : StarChart
-        Of `make_star_chart`.
+        Chart from `make_star_chart`.
     function : {"radius", "gauge"}
-        Which is expanded.
+        The function that is expanded.
     """
     return _core.vertex_error_strength(_chart_core(chart), function)
 
 
 def vertex_error_strengths(mesh: MeshLike, center: npt.ArrayLike) -> _core.ErrorStrengths:
-    """The same of radius, gauge and distance of a closed mesh as it is.
+    """Returns the largest truncation errors at vertices, times 2 pi (L + 1), of radius, gauge and
+    distance.
 
     Parameters
     ----------
     mesh : mesh-like
-        Closed.
+        Closed mesh.
     center : array_like, (3,)
-        Of the expansion.
+        Centre of the expansion.
     """
     return _core.vertex_error_strengths(outward_mesh(mesh)._core, triple(center, "center"))
 
@@ -220,18 +221,18 @@ def truncation_errors(
     threads: int = 0,
     progress: Progress = None,
 ) -> _core.TruncationErrors:
-    """How far the surface of an expansion is from the mesh it was made of.
+    """Computes the distance of the surface of an expansion from its mesh.
 
     Parameters
     ----------
     mesh : mesh-like
-        Closed and star-shaped about the expansion's centre; mended as by `expand`.
+        Closed mesh, star-shaped about the expansion's centre; corrected as in `expand`.
     expansion : Expansion
-        Of its radius or gauge.
+        Expansion of the mesh's radius or gauge.
     precision : float, optional
-        How exact its coefficients are; by default `Expansion.precision`, or 1e-8 if that is not known.
+        Precision of the coefficients; by default `Expansion.precision`, or 1e-8 if that is unknown.
     predict : bool
-        Whether the largest errors are predicted in closed form, too.
+        True: also predicts the largest errors in closed form.
     threads, progress
         See `rholm.caller`.
     """
@@ -242,7 +243,7 @@ def truncation_errors(
 
 
 class MonteCarlo(NamedTuple):
-    """What `monte_carlo` found."""
+    """Result of `monte_carlo`."""
 
     expansion: Expansion
     """The mean."""
@@ -262,14 +263,14 @@ def monte_carlo(
     progress: Progress = None,
     **options: Unpack[MonteCarloKeywords],
 ) -> MonteCarlo:
-    """Coefficients by random points, as the paper has it, with an honest deviation.
+    """Computes coefficients from random points, as in the paper, with a reliable deviation.
 
     Parameters
     ----------
     chart : StarChart
-        Of `make_star_chart`.
+        Chart from `make_star_chart`.
     degree : int
-        L.
+        Highest degree L.
     {options}
     threads, progress
         See `rholm.caller`.

@@ -15,11 +15,11 @@ from ._interop import _package, coefficients_of_pyshtools
 if TYPE_CHECKING:
     from ._expansion import CoefficientsLike, Expansion
 
-#: What the mean square of each harmonic over the sphere is: 1 for "4pi" (geodesy, pyshtools'
-#: default), 1/(4 pi) for "orthonormal", 1/(2l+1) for "schmidt".
+#: Mean square of each harmonic over the sphere: 1 for "4pi" (geodesy, pyshtools' default), 1/(4 pi)
+#: for "orthonormal", 1/(2l+1) for "schmidt".
 Normalization = Literal["4pi", "orthonormal", "schmidt"]
 
-#: What is expanded: r, 1/r, or no surface: a gravity field.
+#: The expanded function: r, 1/r, or no surface, for example a gravity field.
 Function = Literal["radius", "gauge", "other"]
 
 #: See `power_spectrum`.
@@ -28,7 +28,7 @@ SpectrumUnit = Literal["per_l", "per_lm", "per_dlogl"]
 
 
 def core_of(coefficients: CoefficientsLike) -> _core.Coefficients:
-    """Coefficients in the library's own convention."""
+    """Returns coefficients in the library's own convention."""
     from ._expansion import Expansion
 
     if isinstance(coefficients, _core.Coefficients):
@@ -43,24 +43,25 @@ def core_of(coefficients: CoefficientsLike) -> _core.Coefficients:
 
 
 def array_of(core: _core.Coefficients, normalization: Normalization = "4pi", csphase: int = 1) -> FloatArray:
-    """Coefficients of the library as an array (2, L+1, L+1) of a convention."""
+    """Returns coefficients of the library as an array (2, L+1, L+1) in a convention."""
     return np.array(_core.to_convention(core, normalization, csphase).values)
 
 
 def from_convention(
     values: npt.ArrayLike, normalization: Normalization = "4pi", csphase: int = 1
 ) -> _core.Coefficients:
-    """Coefficients in the library's own convention: orthonormal, without Condon-Shortley phase.
+    """Converts an array to the library's own convention: orthonormal, without Condon-Shortley
+    phase.
 
     Parameters
     ----------
     values : array_like, (2, L+1, L+1)
-        Cosine plane, sine plane. Entries that are no coefficients, with m > l and sines of order 0,
-        must be 0 but for rounding, 6e-14 of the largest entry.
+        Cosine plane, sine plane. Entries with m > l and sines of order 0 must be 0 up to rounding,
+        6e-14 of the largest entry.
     normalization : {"4pi", "orthonormal", "schmidt"}
-        Of the array.
+        Normalization of the array.
     csphase : {1, -1}
-        -1 if its harmonics have the factor (-1)^m.
+        Phase of its harmonics: -1 for the factor (-1)^m.
     """
     array = numeric(values, "coefficients")
     if array.ndim != 3 or array.shape[0] != 2:
@@ -74,27 +75,27 @@ def from_convention(
 def to_convention(
     coefficients: CoefficientsLike, normalization: Normalization = "4pi", csphase: int = 1
 ) -> FloatArray:
-    """Coefficients as an array (2, L+1, L+1) of a convention.
+    """Returns coefficients as an array (2, L+1, L+1) in a convention.
 
     Parameters
     ----------
     coefficients : coefficients-like
-        An array is taken to be in pyshtools' default convention.
+        The function. An array must be in pyshtools' default convention.
     normalization : {"4pi", "orthonormal", "schmidt"}
-        What the mean square of each harmonic is: 1, 1/(4 pi), 1/(2l+1).
+        Mean square of each harmonic over the sphere: 1, 1/(4 pi), 1/(2l+1).
     csphase : {1, -1}
-        -1: harmonics with the Condon-Shortley factor (-1)^m.
+        Phase of the harmonics: -1 for the Condon-Shortley factor (-1)^m.
     """
     return array_of(core_of(coefficients), normalization, csphase)
 
 
 def rms_beyond(expansion: Expansion) -> FloatArray:
-    """What is left out when a series ends at each of its degrees; see `Expansion.rms_beyond`.
+    """Returns the truncation error at each degree; see `Expansion.rms_beyond`.
 
     Parameters
     ----------
     expansion : Expansion
-        Of any function.
+        Expansion of any function.
     """
     return expansion.rms_beyond()
 
@@ -105,20 +106,21 @@ def power_spectrum(
     unit: SpectrumUnit = "per_l",
     base: float = 10.0,
 ) -> FloatArray:
-    """Energy, or power, by degree, l = 0 ... L, (L+1,).
+    """Returns energy or power per degree, l = 0 ... L, (L+1,).
 
     Parameters
     ----------
     coefficients : coefficients-like
         The function.
     kind : {"energy", "power"}
-        "energy": its sum is the integral of f^2 over the sphere; "power": the mean square, 4 pi less,
-        as pyshtools' ``spectrum()`` has it by default.
+        For "energy" the sum over l is the integral of f^2 over the sphere. For "power" the sum is
+        the mean square of f, smaller by 4 pi. This is the default of pyshtools' ``spectrum()``.
     unit : {"per_l", "per_lm", "per_dlogl"}
-        Of each degree; of each of its 2l+1 coefficients, on average; or of a band of degrees: l
-        ln(base) times that of the degree, so that d log_base(l) of it is the band's. As in pyshtools.
+        By degree, by coefficient (the mean over the 2l+1 coefficients of the degree), or for a band
+        of degrees. The last one is l ln(base) times the degree's value, a density in log_base(l),
+        as in pyshtools.
     base : float
-        Of the logarithm in "per_dlogl", above 1.
+        Base of the logarithm in "per_dlogl", above 1.
 
     Raises
     ------
@@ -143,7 +145,7 @@ def power_spectrum(
 
 
 def distance(a: CoefficientsLike, b: CoefficientsLike) -> float:
-    """Root mean square of a - b over the sphere; missing degrees are zero.
+    """Returns the root mean square of a - b over the sphere; missing degrees are zero.
 
     Parameters
     ----------
@@ -154,7 +156,8 @@ def distance(a: CoefficientsLike, b: CoefficientsLike) -> float:
 
 
 def descriptor_distance(a: CoefficientsLike, b: CoefficientsLike) -> float:
-    """Distance of the norms per degree: at most the distance after any rotation.
+    """Returns the distance of the norms per degree, a lower bound of the distance after any
+    rotation.
 
     Parameters
     ----------
@@ -170,35 +173,35 @@ def descriptor_distance(a: CoefficientsLike, b: CoefficientsLike) -> float:
 
 
 def principal_axes(coefficients: CoefficientsLike, function: Function = "radius") -> _core.PrincipalAxes:
-    """The axes of the quadratic form that the coefficients of degree 2 are, longest first.
+    """Returns the principal axes of the quadratic form of degree 2, longest first.
 
-    They diagonalise Q of ``f_2(u) = u^T Q u``, f_2 the part of degree 2: of a radius those of its
-    ellipsoid-like part. They depend on the centre of the expansion and on no degree but 2 (their
-    signs on degree 3), so that they are not the axes of inertia, which `inertia` has.
+    They diagonalise Q of ``f_2(u) = u^T Q u``, where f_2 is the part of degree 2. For a radius they
+    are the axes of its ellipsoid-like part. They depend on the centre of the expansion and on
+    degree 2 only (their signs on degree 3). The axes of inertia are others: see `inertia`.
 
     Parameters
     ----------
     coefficients : coefficients-like
         The function.
     function : {"radius", "gauge", "other"}
-        For a gauge, 1/r, the form's sign is turned.
+        Meaning of the function. For a gauge, 1/r, the form's sign is reversed.
 
     Returns
     -------
     axes : PrincipalAxes
         Unit vectors, values in the unit of the coefficients (their sum is 0), and the rotation that
-        turns them to x, y, z.
+        turns the axes to x, y, z.
     """
     return _core.principal_axes(core_of(coefficients), function)
 
 
 def metres_of(unit: str) -> float | None:
-    """How many metres a unit has: "m" and its decimal parts and multiples, "in", "ft", "au", ...
+    """Returns the length of a unit in metres: "m" with decimal prefixes, "in", "ft", "au", ...
 
     Parameters
     ----------
     unit : str
-        "mm" and "Mm" differ. None is returned for any other text.
+        Name of the unit; "mm" and "Mm" differ. The result is None for any other text.
     """
     return _core.metres_of(unit)
 

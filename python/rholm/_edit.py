@@ -1,4 +1,4 @@
-"""Regions of meshes, local smoothing, and what all edits have in common."""
+"""Regions of meshes, local smoothing, and functions for all editors."""
 
 from __future__ import annotations
 
@@ -20,17 +20,16 @@ if TYPE_CHECKING:
     from ._keywords import PatchKeywords
     from ._transfer import TransferEditor
 
-#: What stands for a region of a mesh: text as the program has it ("ball:X,Y,Z,R",
-#: "vertex:INDEX,RADIUS", "box:X0,Y0,Z0,X1,Y1,Z1", "property:NAME", "color:RRGGBB"), a mask (N,) of
-#: bools, weights (N,) in 0 ... 1, indices of vertices, or a list of texts: their union. None: the
-#: whole mesh.
+#: A region of a mesh. Texts are "ball:X,Y,Z,R", "vertex:INDEX,RADIUS", "box:X0,Y0,Z0,X1,Y1,Z1",
+#: "property:NAME", "color:RRGGBB", as in the program. A list of texts is their union. Arrays are a
+#: mask (N,) of bools, weights (N,) in 0 ... 1, or indices of vertices. None is the whole mesh.
 RegionLike = Union[str, list[str], tuple[str, ...], npt.ArrayLike, None]
 
 _MASK = "rholm_region"
 
 
 def _with_region(mesh: Mesh, region: RegionLike) -> tuple[Mesh, list[str]]:
-    """The mesh, with an attribute for a region that is given by numbers, and the region as texts."""
+    """Returns the mesh and the region as texts. A region of numbers becomes an attribute of the mesh."""
     if isinstance(region, str):
         return mesh, [region]
     if isinstance(region, (list, tuple)) and region and all(isinstance(r, str) for r in region):
@@ -63,25 +62,25 @@ def _without_region(mesh: Mesh) -> Mesh:
 
 
 def region_weights(mesh: MeshLike, region: RegionLike, transition: float = 0.0) -> FloatArray:
-    """The weight of every vertex in a region, 1 in it, falling to 0 around it, (N,).
+    """Returns the weight of every vertex, 1 in the region and falling to 0 around it, (N,).
 
     Parameters
     ----------
     mesh : mesh-like
         The mesh.
     region : region-like
-        Where: see `smooth`.
+        The region: see `smooth`.
     transition : float
-        Width of the fall, in the mesh's unit.
+        Width of the transition around the region, in the mesh's unit.
     """
     marked, regions = _with_region(as_mesh(mesh), region)
     return _core.region_weights(marked._core, regions, transition)
 
 
 class SmoothEditor:
-    """A region of a mesh whose detail is a slider: made by `analyze_patch`.
+    """A region of a mesh with adjustable detail, made by `analyze_patch`.
 
-    Setting `strength` or `wavelength` moves the vertices of `mesh` at once, where they lie.
+    Setting `strength` or `wavelength` moves the vertices of `mesh` at once, in place.
     """
 
     __slots__ = ("_mesh", "_patch", "_strength", "_wavelength")
@@ -94,27 +93,27 @@ class SmoothEditor:
 
     @property
     def mesh(self) -> Mesh:
-        """The mesh as it is now; its arrays follow the editor."""
+        """The mesh in its present state; its arrays follow the editor."""
         return Mesh._of(self._mesh)
 
     @property
     def vertices(self) -> IndexArray:
-        """Indices of those that may move, (n,)."""
+        """Indices of the vertices that may move, (n,)."""
         return read_only(self._patch.vertices)
 
     @property
     def weights(self) -> FloatArray:
-        """Their weights in the region, (n,)."""
+        """Weights of these vertices in the region, (n,)."""
         return read_only(self._patch.weights)
 
     @property
     def unreached(self) -> int:
-        """Vertices that no cap sees: they stay."""
+        """Number of vertices that no cap sees; they stay."""
         return self._patch.unreached
 
     @property
     def strength(self) -> float:
-        """0 leaves all as it is, 1 takes the detail away, -1 doubles it."""
+        """Strength of the smoothing: 0 changes nothing, 1 removes the detail, -1 doubles it."""
         return self._strength
 
     @strength.setter
@@ -123,7 +122,9 @@ class SmoothEditor:
 
     @property
     def wavelength(self) -> float:
-        """The finest detail that stays, in the mesh's unit: from the analysis' on to `longest_wavelength`."""
+        """Finest detail that stays, in the mesh's unit, from the analysis' wavelength to
+        `longest_wavelength`.
+        """
         return self._wavelength
 
     @wavelength.setter
@@ -132,16 +133,16 @@ class SmoothEditor:
 
     @property
     def longest_wavelength(self) -> float:
-        """That of the lowest degree that is fitted."""
+        """Wavelength of the lowest degree that is fitted."""
         return _core.longest_wavelength(self._patch)
 
     def positions(self, strength: float | None = None, wavelength: float | None = None) -> FloatArray:
-        """Where `vertices` would be, (n, 3); the mesh stays as it is.
+        """Returns the positions of `vertices` for other settings, (n, 3). The mesh does not change.
 
         Parameters
         ----------
         strength, wavelength : float, optional
-            By default as they are.
+            By default the present values.
         """
         return _core.update_patch(
             self._patch,
@@ -150,7 +151,7 @@ class SmoothEditor:
         )
 
     def __copy__(self) -> SmoothEditor:
-        twin = SmoothEditor(self._patch, _core.copy_mesh(self._mesh))  # which moves by itself
+        twin = SmoothEditor(self._patch, _core.copy_mesh(self._mesh))  # the copy moves on its own
         twin._strength, twin._wavelength = self._strength, self._wavelength
         return twin
 
@@ -191,7 +192,7 @@ def analyze_patch(
     Returns
     -------
     editor : SmoothEditor
-        Whose `SmoothEditor.strength` is 0 and moves the mesh when it is set.
+        Editor with strength 0. Setting `SmoothEditor.strength` moves the mesh.
     """
     wanted = options_of(_core.PatchOptions, {**options}, "analyze_patch", wavelength=wavelength)
     return _editor(mesh, region, wanted, threads, progress)
@@ -218,19 +219,21 @@ def smooth(
     progress: Progress = None,
     **options: Unpack[PatchKeywords],
 ) -> Mesh:
-    """Takes detail finer than a wavelength from a region; the rest stays, to the last bit.
+    """Removes detail finer than a wavelength from a region. Other vertices do not change, to the
+    last bit.
 
     Parameters
     ----------
     mesh : mesh-like
-        Of any genus, closed or open; triangles stay as they are.
+        Mesh of any genus, closed or open. Its connectivity stays.
     region : region-like
-        "ball:X,Y,Z,R", "vertex:INDEX,RADIUS", "box:X0,Y0,Z0,X1,Y1,Z1", "property:NAME",
-        "color:RRGGBB", a list of these, or per vertex: a mask, weights, or indices; None: everywhere.
+        Text "ball:X,Y,Z,R", "vertex:INDEX,RADIUS", "box:X0,Y0,Z0,X1,Y1,Z1", "property:NAME",
+        "color:RRGGBB", or a list of these texts. Arrays are a mask, weights per vertex, or vertex
+        indices. None is the whole mesh.
     wavelength : float
-        The finest detail that may stay, in the mesh's unit.
+        Finest detail to keep, in the mesh's unit.
     strength : float
-        0 leaves all as it is, 1 takes the detail away, -1 doubles it.
+        0 changes nothing, 1 removes the detail, -1 doubles it.
     {options}
     threads, progress
         See `rholm.caller`.
@@ -238,8 +241,8 @@ def smooth(
     Raises
     ------
     InvalidInputError
-        For a region without a vertex, "around" where nothing is around it (the whole mesh), a
-        wavelength shorter than the mesh's edges can show.
+        For a region without a vertex, for "around" if nothing is around it (the whole mesh), and
+        for a wavelength too short for the mesh's edges.
     """
     wanted = options_of(_core.PatchOptions, {**options}, "smooth", wavelength=wavelength)
     editor = _editor(mesh, region, wanted, threads, progress)
@@ -248,25 +251,26 @@ def smooth(
 
 
 def longest_wavelength(editor: SmoothEditor) -> float:
-    """See `SmoothEditor.longest_wavelength`.
+    """Returns the wavelength of the lowest fitted degree; see `SmoothEditor.longest_wavelength`.
 
     Parameters
     ----------
     editor : SmoothEditor
-        Of `analyze_patch`.
+        Editor from `analyze_patch`.
     """
     return editor.longest_wavelength
 
 
 def update(editor: SmoothEditor | TransferEditor, **wanted: Any) -> FloatArray:
-    """Where the vertices of an editor would be, (n, 3); its mesh stays as it is.
+    """Returns the positions of an editor's vertices for other settings, (n, 3). Its mesh does not
+    change.
 
     Parameters
     ----------
     editor : SmoothEditor or TransferEditor
-        Of `analyze_patch` or `analyze_transfer`.
+        Editor from `analyze_patch` or `analyze_transfer`.
     **wanted
-        Of its `SmoothEditor.positions` or `TransferEditor.positions`.
+        Arguments of `SmoothEditor.positions` or `TransferEditor.positions`.
     """
     return editor.positions(**wanted)
 
@@ -274,16 +278,16 @@ def update(editor: SmoothEditor | TransferEditor, **wanted: Any) -> FloatArray:
 def apply(
     editor: SmoothEditor | TransferEditor, positions: npt.ArrayLike, mesh: MeshLike | None = None
 ) -> Mesh:
-    """A mesh with an editor's vertices at other positions; normals among its attributes follow.
+    """Returns a mesh with an editor's vertices at other positions, and with updated normals.
 
     Parameters
     ----------
     editor : SmoothEditor or TransferEditor
-        Of `analyze_patch` or `analyze_transfer`.
+        Editor from `analyze_patch` or `analyze_transfer`.
     positions : array_like, (n, 3)
-        Of `update`.
+        Positions from `update`.
     mesh : mesh-like, optional
-        By default the editor's own, which stays as it is.
+        Mesh to use; by default the editor's own, which does not change.
     """
     target = editor._mesh if mesh is None else as_mesh(mesh)._core
     return Mesh._of(_core.apply(editor._patch, float_rows(positions, "positions"), target))

@@ -1,4 +1,4 @@
-"""From a mesh to an expansion, the whole way; from coefficients of others."""
+"""Makes expansions from meshes, and from coefficients of other packages."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ if TYPE_CHECKING:
     from ._keywords import AnalyzeKeywords, CenterKeywords, ChartKeywords, EncodeKeywords, ToleranceKeywords
 
     class TransformKeywords(AnalyzeKeywords, ToleranceKeywords, total=False):
-        """How a function is expanded, to what tolerance."""
+        """Method and tolerance of an expansion."""
 
     class ExpandKeywords(TransformKeywords, CenterKeywords, ChartKeywords, EncodeKeywords, total=False):
-        """What is wanted of a model, and what may be done to the mesh."""
+        """Degree or tolerance of a model, and the permitted changes to the mesh."""
 
 
 def center_options(center: Any, **rays: Any) -> _core.CenterOptions:
-    """Of the name of a kind of centre, or a point."""
+    """Returns options for the name of a kind of centre, or for a point."""
     if isinstance(center, str):
         options = _core.parse_center(center)
     else:
@@ -43,7 +43,9 @@ def center_options(center: Any, **rays: Any) -> _core.CenterOptions:
 def transform_options(
     degree: int | None, tolerance: float | None, measure: str | None, analyze: Any, allowed: Any
 ) -> tuple[_core.AnalyzeOptions, _core.Tolerance | None]:
-    """As `expand` and `analyze` take them; the last two are what is given of the classes of options."""
+    """Returns options for the arguments of `expand` and `analyze`. `analyze` and `allowed` are the
+    given fields of AnalyzeOptions and Tolerance.
+    """
     if degree is not None and tolerance is not None:
         raise InvalidInputError("degree and tolerance exclude one another: give one of them")
     wanted = _core.AnalyzeOptions(degree=degree, **analyze)
@@ -67,50 +69,51 @@ def expand(
     progress: Progress = None,
     **options: Unpack[ExpandKeywords],
 ) -> Expansion:
-    """Spherical-harmonic coefficients of a closed mesh.
+    """Computes the spherical-harmonic coefficients of a closed mesh.
 
     Parameters
     ----------
     shape : mesh-like
-        (vertices, triangles), a path, or a mesh of rholm, trimesh, PyVista or meshio. Arrays that
-        can be written to are copied first, as other threads may write to them meanwhile. Read-only
-        ones of float32 or float64 and of 32-bit integers are used where they lie, and so is a `Mesh`.
-        A mesh that is inside out or has doubled vertices is mended.
+        (vertices, triangles), a path, or a mesh of rholm, trimesh, PyVista or meshio. Writable
+        arrays are copied first, because other threads may write to them. Read-only arrays of
+        float32 or float64 and of 32-bit integers are not copied, and neither is a `Mesh`. A mesh
+        that is inside out or has duplicate vertices is corrected.
     degree : int, optional
-        L, by default 64.
+        Highest degree L; by default 64.
     tolerance : float, optional
-        The smallest degree that keeps this error, instead.
+        Largest allowed error. The smallest degree that keeps it is used.
     measure : {"radius", "distance"}, optional
-        Of each error: along rays from the centre, or between the surfaces. By default the radius,
-        with ``unit="diagonal"`` the distance.
+        How errors are measured: along rays from the centre, or between the surfaces. By default the
+        radius; with ``unit="diagonal"`` the distance.
     center : {"auto", "kernel", "slope", "cosine", "none", "centroid", "volume"} or array_like, (3,)
-        Where the centre is. "auto", "slope": where the radius has the least slope, on the line
-        through "kernel" and the centroid of the solid, well within the points that see the whole
-        surface; "kernel": in the middle of these points; "cosine": where the surface is seen least
-        aslant; "none": the origin; "centroid": of the surface; "volume": of the solid, or as
-        "slope" where not all is seen from there.
+        Choice of the centre. For "auto" and "slope" the radius has the least slope there. This
+        point is on the line through "kernel" and the centroid of the solid, well within the points
+        that see the whole surface. The choice "kernel" is in the middle of these points. From
+        "cosine" the surface is seen least obliquely. The choice "none" is the origin, "centroid" is
+        the centroid of the surface. The choice "volume" is the centroid of the solid, or "slope" if
+        the centroid does not see the whole surface.
     {options}
     length_unit : str
-        Of the vertices: "km", "mm", ...
+        Unit of the vertices: "km", "mm", ...
     threads, progress
         See `rholm.caller`.
 
     Returns
     -------
     s : Expansion
-        With ``s.errors`` and ``s.encoded``, what was found out on the way.
+        Expansion with ``s.errors`` and ``s.encoded``, the report of the computation.
 
     Raises
     ------
     InvalidInputError
-        For a mesh that is not closed or not oriented alike, and options out of range.
+        For a mesh that is not closed or not consistently oriented, and options out of range.
     NotStarShapedError
-        With figures, unless `signed`; `compress` takes any shape.
+        With the numbers of the star check, unless `signed`; `compress` accepts any shape.
 
     Notes
     -----
-    Coefficients are those of the piecewise flat surface itself, by integrals over its edges and
-    faces, not of samples: see docs/method.md.
+    The coefficients are integrals over the edges and faces of the piecewise flat surface itself.
+    They do not depend on samples: see docs/method.md.
 
     Examples
     --------
@@ -138,7 +141,7 @@ def expand(
 
 
 def _mesh_arrays(shape: Any) -> tuple[Any, Any]:
-    """Vertices and triangles where they lie, unless somebody could write to them meanwhile."""
+    """Returns vertices and triangles, copied only if other threads could write to them."""
     arrays = foreign_mesh(shape)
     if arrays is None:
         if type(shape) not in (tuple, list) or len(shape) != 2:
@@ -149,7 +152,7 @@ def _mesh_arrays(shape: Any) -> tuple[Any, Any]:
 
 
 def encode(shape: MeshLike, **options: Any) -> _core.Encoded:
-    """What `expand` finds out on the way from a mesh to an expansion.
+    """Returns the report that `expand` makes on the way from a mesh to an expansion.
 
     Parameters
     ----------
@@ -170,20 +173,20 @@ def from_array(
     function: Function = "radius",
     unit: str = "",
 ) -> Expansion:
-    """An expansion of an array of coefficients.
+    """Makes an expansion from an array of coefficients.
 
     Parameters
     ----------
     values : array_like, (2, L+1, L+1)
         Cosine plane, sine plane.
     normalization, csphase
-        Of the array; pyshtools' default if not given.
+        Convention of the array; by default pyshtools' default.
     center : array_like, (3,)
-        Of the surface.
+        Centre of the surface.
     function : {"radius", "gauge", "other"}
-        What the function is.
+        Meaning of the function.
     unit : str
-        Of lengths.
+        Unit of lengths.
     """
     return Expansion(
         from_convention(values, normalization, csphase), center=center, function=function, unit=unit
@@ -193,16 +196,17 @@ def from_array(
 def from_pyshtools(
     clm: Any, *, center: npt.ArrayLike = (0.0, 0.0, 0.0), function: Function = "radius"
 ) -> Expansion:
-    """An expansion of a `pyshtools.SHCoeffs` (SHGrid: of its ``expand()``), of any normalization.
+    """Makes an expansion from a `pyshtools.SHCoeffs`, or the ``expand()`` of an SHGrid, of any
+    normalization.
 
     Parameters
     ----------
     clm : pyshtools.SHCoeffs or pyshtools.SHGrid
-        Real, or complex of a real function.
+        Real coefficients, or complex ones of a real function.
     center : array_like, (3,)
-        Of the surface.
+        Centre of the surface.
     function : {"radius", "gauge", "other"}
-        What the function is.
+        Meaning of the function.
     """
     if hasattr(clm, "expand") and not hasattr(clm, "coeffs"):
         clm = clm.expand()
@@ -211,12 +215,12 @@ def from_pyshtools(
 
 
 def as_expansion(thing: Any) -> Expansion:
-    """An `Expansion` of one, or of pyshtools.SHCoeffs.
+    """Returns an `Expansion` unchanged, or makes one from pyshtools.SHCoeffs.
 
     Parameters
     ----------
     thing : Expansion or pyshtools.SHCoeffs
-        Anything else is a TypeError.
+        Any other object raises TypeError.
     """
     if isinstance(thing, Expansion):
         return thing

@@ -1,15 +1,15 @@
-"""Exceptions: what the library throws, by its codes."""
+"""Exceptions, one for each error code of the library."""
 
 from __future__ import annotations
 
 
 class Error(Exception):
-    """What the library refuses or fails at. The text says the value, the limit, what to do next.
+    """An error of the library. The text tells the value, the limit and what to do next.
 
     Attributes
     ----------
     code : str
-        The library's name of the kind of error, as "InvalidInput" of `InvalidInputError`.
+        Name of the kind of error in the library: "InvalidInput" for `InvalidInputError`.
     """
 
     code = "Error"
@@ -57,7 +57,7 @@ class CancelledError(Error):
     code = "Cancelled"
 
 
-#: Classes by the library's codes.
+#: Exception classes by the library's error codes.
 BY_CODE = {
     kind.code: kind
     for kind in (

@@ -1,4 +1,4 @@
-"""One surface as coefficients."""
+"""A surface as coefficients."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ if TYPE_CHECKING:
 class Expansion(Described):
     """A surface x = center + r(u) u, u a direction, as coefficients of spherical harmonics.
 
-    Made by `expand`, `load`, `from_array` and `from_pyshtools`; every operation gives a new one.
+    `expand`, `load`, `from_array` and `from_pyshtools` make expansions. Operations return new ones.
 
-    Calling it gives radii: ``s(directions)``.
+    Calling an expansion returns radii: ``s(directions)``.
     """
 
     __slots__ = ("_core", "_encoded", "_name", "_shape")
@@ -72,30 +72,30 @@ class Expansion(Described):
         self._name = name
         return self
 
-    # What it is
+    # Properties
 
     @property
     def degree(self) -> int:
-        """L: the highest degree."""
+        """Highest degree L."""
         return self._core.coefficients.degree
 
     @property
     def coeffs(self) -> FloatArray:
         """Coefficients in pyshtools' layout and default convention (4 pi-normalised, without
-        Condon-Shortley phase), (2, L+1, L+1), in the unit of lengths. Read-only: `to_array` gives an
-        array that can be changed, and `rholm.from_array` makes an expansion of it.
+        Condon-Shortley phase), (2, L+1, L+1), in the unit of lengths. The array is read-only.
+        `to_array` returns a writable array, and `rholm.from_array` makes an expansion of it.
         """
         return read_only(self.to_array())
 
     def to_array(self, normalization: Normalization = "4pi", csphase: int = 1) -> FloatArray:
-        """Coefficients as an array of a convention.
+        """Returns the coefficients as an array in a convention.
 
         Parameters
         ----------
         normalization : {"4pi", "orthonormal", "schmidt"}
-            What the mean square of each harmonic over the sphere is: 1, 1/(4 pi), 1/(2l+1).
+            Mean square of each harmonic over the sphere: 1, 1/(4 pi), 1/(2l+1).
         csphase : {1, -1}
-            -1: harmonics with the Condon-Shortley factor (-1)^m.
+            Phase of the harmonics: -1 for the Condon-Shortley factor (-1)^m.
 
         Returns
         -------
@@ -106,72 +106,72 @@ class Expansion(Described):
 
     @property
     def center(self) -> FloatArray:
-        """Of the expansion, in the coordinates of the shape, (3,); read-only."""
+        """Centre of the expansion, in the coordinates of the shape, (3,); read-only."""
         return self._core.center
 
     @property
     def function(self) -> str:
-        """What is expanded: "radius" (r), "gauge" (1/r) or "other" (no surface: a gravity field)."""
+        """Meaning of the function: "radius" (r), "gauge" (1/r) or "other" (no surface, a gravity field)."""
         return self._core.function
 
     @property
     def unit(self) -> str:
-        """Of lengths; empty if not known."""
+        """Unit of lengths; empty if unknown."""
         return self._core.unit
 
     @property
     def gravity(self) -> _core.GravityField | None:
-        """What the coefficients of a gravity field are relative to: its ``gravity_constant``, G M in
-        m^3/s^2, and its ``reference_radius`` in m; None if not known. Set by `with_gravity`.
+        """Reference values of a gravity field: ``gravity_constant``, G M in m^3/s^2, and
+        ``reference_radius`` in m. None if unknown. `with_gravity` sets them.
         """
         return self._core.gravity
 
     @property
     def method(self) -> str:
-        """How the coefficients were found; empty if not known."""
+        """Method that computed the coefficients; empty if unknown."""
         return self._core.method
 
     @property
     def errors(self) -> _core.TruncationErrors | None:
-        """How far the surface is from the shape it was made of; None if not known. After `truncate`,
-        `filter` and `recenter` what follows without the shape: see there.
+        """Distance of the surface from the original shape; None if unknown. After `truncate`,
+        `filter` and `recenter` it holds the errors that follow without the shape: see there.
         """
         return self._core.errors
 
     @property
     def precision(self) -> float | None:
-        """Relative error that the coefficients were computed with, of the mean and in l2 of all others
-        together; of random points three deviations. None if not known: `rms_beyond` then assumes 1e-8.
+        """Relative error of the coefficients: of the mean, and in l2 of all others together. For
+        Monte Carlo it is three deviations. None if unknown; `rms_beyond` then assumes 1e-8.
         """
         return self._core.precision
 
     @property
     def norm_squared(self) -> float | None:
-        """Integral of f^2 over the sphere of the expanded function itself; None if not known."""
+        """Integral of f^2 over the sphere, of the expanded function with all its degrees; None if unknown."""
         return self._core.norm_squared
 
     @property
     def tail_strength(self) -> float | None:
-        """S of the predicted tail of the spectrum, E_l = S / (pi l^4); None if not known."""
+        """S of the predicted tail of the spectrum, E_l = S / (pi l^4); None if unknown."""
         return self._core.tail_strength
 
     @property
     def encoded(self) -> _core.Encoded | None:
-        """What `expand` found out on the way: centre, star check, times; None for others."""
+        """Report of `expand`: centre, star check, times. None for other expansions."""
         return self._encoded
 
     @property
     def signed_sum(self) -> bool:
-        """Whether it is the signed sum of the radii of a surface that is not star-shaped.
+        """True for the signed sum of the radii of a surface that is not star-shaped.
 
-        Such an expansion does not give back the body: its descriptors (`volume` and so on), `centroid`
+        A signed sum does not represent the body: its descriptors (`volume` and so on), `centroid`
         and `mean_radius` are None.
         """
         return self._core.signed_sum
 
     @property
     def mean_radius(self) -> float | None:
-        """Mean of r over directions, of a gauge 1 / the mean of 1/r. None for a signed sum."""
+        """Mean of r over directions; for a gauge 1 / the mean of 1/r. None for a signed sum."""
         if self.signed_sum:
             return None
         mean = float(self._core.coefficients.values[0, 0, 0]) / float(np.sqrt(4 * np.pi))
@@ -179,28 +179,28 @@ class Expansion(Described):
 
     @property
     def centroid(self) -> FloatArray | None:
-        """Of the solid, in the coordinates of the shape, (3,). None for a signed sum."""
+        """Centroid of the solid, in the coordinates of the shape, (3,). None for a signed sum."""
         return self.measure().centroid
 
     def measure(self, *, threads: int = 0) -> _core.SurfaceMeasures:
-        """All descriptors and the centroid in one go.
+        """Returns all descriptors and the centroid at once.
 
         Parameters
         ----------
         threads : int
-            See `rholm.caller`.
+            Number of threads; see `rholm.caller`.
         """
         self._require_surface()
         with caller(threads, False) as how:
             return _core.measure(self._core, how)
 
     def inertia(self, *, threads: int = 0) -> FloatArray:
-        """Tensor of inertia of the solid about its centroid; see `rholm.inertia`.
+        """Returns the tensor of inertia of the solid about its centroid; see `rholm.inertia`.
 
         Parameters
         ----------
         threads : int
-            See `rholm.caller`.
+            Number of threads; see `rholm.caller`.
         """
         self._require_surface()
         with caller(threads, False) as how:
@@ -212,25 +212,25 @@ class Expansion(Described):
         unit: SpectrumUnit = "per_l",
         base: float = 10.0,
     ) -> FloatArray:
-        """Spectrum by degree, l = 0 ... L, (L+1,), in the squared unit of lengths.
+        """Returns the spectrum per degree, l = 0 ... L, (L+1,), in the squared unit of lengths.
 
         Parameters
         ----------
         kind, unit, base
-            As in `rholm.power_spectrum`, but that "power", as pyshtools has it, is the default.
+            As in `rholm.power_spectrum`. The default is "power", as in pyshtools.
         """
         return power_spectrum(self._core.coefficients, kind, unit, base)
 
     def rms_beyond(self) -> FloatArray:
-        """What is left out when the series ends at each degree, l = 0 ... L, (L+1,).
+        """Returns the truncation error of the series at each degree, l = 0 ... L, (L+1,).
 
         Returns
         -------
         rms : float64, (L+1,)
-            Root mean square over all directions of what lies above degree l, by Parseval's identity,
-            in the function's unit. NaN where it is not known: without `norm_squared`, and where it
-            is below what the `precision` of the coefficients tells (1e-8 if that is not known). The last
-            one is the truncation error of the expansion itself.
+            Root mean square over all directions of the degrees above l, by Parseval's identity, in
+            the function's unit. NaN where it is unknown: without `norm_squared`, and where it is
+            below the resolution of `precision` (1e-8 if unknown). The last value is the truncation
+            error of the expansion.
         """
         return _core.rms_beyond(self._core)
 
@@ -244,14 +244,14 @@ class Expansion(Described):
         threads: int = 0,
         progress: Progress = None,
     ) -> FloatArray:
-        """Radii (values of the function, if it is no surface) in directions from the centre.
+        """Returns radii (values of the function if it is no surface) in directions from the centre.
 
         Parameters
         ----------
         directions : array_like, (..., 3)
-            Vectors of any length.
+            Directions, vectors of any length.
         precision : float
-            Of the sums; see `rholm.evaluate`.
+            Precision of the sums; see `rholm.evaluate`.
         threads, progress
             See `rholm.caller`.
 
@@ -274,12 +274,12 @@ class Expansion(Described):
         threads: int = 0,
         progress: Progress = None,
     ) -> FloatArray:
-        """Surface gradients of the radius on the unit sphere, tangential at each direction.
+        """Returns surface gradients of the radius on the unit sphere, tangential at each direction.
 
         Parameters
         ----------
         directions, precision, threads, progress
-            As in calling it.
+            As when the expansion is called.
 
         Returns
         -------
@@ -296,14 +296,14 @@ class Expansion(Described):
         return result
 
     def points(self, directions: npt.ArrayLike, **options: Any) -> FloatArray:
-        """Points of the surface in directions from the centre, (..., 3).
+        """Returns points of the surface in directions from the centre, (..., 3).
 
         Parameters
         ----------
         directions : array_like, (..., 3)
-            Vectors of any length.
+            Directions, vectors of any length.
         **options
-            As in calling it.
+            Arguments as when the expansion is called.
         """
         self._require_surface()
         rows, shape = unit_rows(directions)
@@ -322,19 +322,19 @@ class Expansion(Described):
         threads: int = 0,
         progress: Progress = None,
     ) -> Mesh:
-        """The surface as a mesh, with the exact unit normals of the surface.
+        """Returns the surface as a mesh, with the exact unit normals of the surface.
 
         Parameters
         ----------
         subdivisions : int, optional
-            Of an icosphere, 20 * 4^n triangles, 0 ... 12; by default two vertices a coefficient,
-            4 ... 7.
+            Subdivisions of an icosphere with 20 * 4^n faces, 0 ... 12. By default about two
+            vertices per coefficient, 4 ... 7.
         degree : int, optional
-            The series is cut off there.
+            Degree at which the series is truncated.
         grid : (n_theta, n_phi), optional
-            A latitude-longitude sphere instead.
+            Rings and meridians of a latitude-longitude sphere, used instead.
         like : mesh-like, optional
-            The directions and triangles of a mesh instead.
+            Mesh whose directions and connectivity are used instead.
         threads, progress
             See `rholm.caller`.
         """
@@ -357,12 +357,13 @@ class Expansion(Described):
         threads: int = 0,
         progress: Progress = None,
     ) -> list[Mesh]:
-        """The surface cut off at several degrees, on the same directions: levels of detail.
+        """Returns the surface truncated at several degrees, on the same directions: levels of
+        detail.
 
         Parameters
         ----------
         degrees : array_like of int
-            Of each mesh.
+            Degree of each mesh.
         subdivisions, grid, like, threads, progress
             As in `mesh`.
         """
@@ -379,17 +380,18 @@ class Expansion(Described):
     # Operations
 
     def truncate(self, degree: int) -> Expansion:
-        """The series cut off at a degree; unchanged from its own degree on.
+        """Returns the series truncated at a degree; unchanged for its own degree or more.
 
         Parameters
         ----------
         degree : int
-            The highest that stays.
+            Highest degree to keep.
 
         Returns
         -------
         expansion : Expansion
-            Of the errors, those of a radius have ``rms``: the energy of what is cut off adds to it.
+            Truncated expansion. For a radius ``errors.rms`` is kept, increased by the energy cut
+            off.
         """
         return Expansion._of(_core.truncated(self._core, degree), shape=self._shape, name=self._name)
 
@@ -401,14 +403,14 @@ class Expansion(Described):
         threads: int = 0,
         progress: Progress = None,
     ) -> Expansion:
-        """The surface turned as a whole.
+        """Returns the surface rotated as a whole.
 
         Parameters
         ----------
         rotation : Rotation, matrix (3, 3), quaternion (4,), scipy's Rotation
-            Takes the point x to R x.
+            Rotation that takes the point x to R x.
         about : array_like, (3,)
-            The point it is turned about: the centre moves too.
+            Fixed point of the rotation; the centre moves too.
         threads, progress
             See `rholm.caller`.
         """
@@ -417,7 +419,7 @@ class Expansion(Described):
             return Expansion._of(_core.rotate(self._core, as_rotation(rotation), at, how))
 
     def mirror(self, axis: Literal["x", "y", "z"], about: npt.ArrayLike = (0.0, 0.0, 0.0)) -> Expansion:
-        """The mirror image in the plane through `about` across an axis.
+        """Returns the mirror image in the plane through `about` across an axis.
 
         Parameters
         ----------
@@ -429,26 +431,28 @@ class Expansion(Described):
         return Expansion._of(_core.mirror(self._core, axis, triple(about, "about")))
 
     def filter(self, gains: npt.ArrayLike, name: str = "filter") -> Expansion:
-        """Each degree times a factor.
+        """Returns the expansion with each degree multiplied by a factor.
 
         Parameters
         ----------
         gains : array_like, (n,)
-            Of the degrees from 0 on, as `low_pass` makes them; degrees beyond have gain 0.
+            Gains of the degrees from 0 on, for example from `low_pass`. Higher degrees have gain 0.
         name : str
-            Says what was done; added to `method`.
+            Name of the filter, which is added to `method`.
 
         Returns
         -------
         expansion : Expansion
-            Of the errors, those of a radius have ``rms``, to which sum (1 - g_l)^2 E_l adds.
+            Filtered expansion. For a radius ``errors.rms`` is kept; 4 pi times its square grows by
+            sum (1 - g_l)^2 E_l.
         """
         return Expansion._of(_core.filter(self._core, floats(gains, "gains"), name))
 
     def low_pass(
         self, cutoff: int, window: Window = "lanczos", *, order: int = 4, time: float | None = None
     ) -> Expansion:
-        """The surface without the degrees above a cutoff: `filter` by the gains of `rholm.low_pass`.
+        """Returns the surface without degrees above a cutoff: `filter` with gains of
+        `rholm.low_pass`.
 
         Parameters
         ----------
@@ -458,7 +462,8 @@ class Expansion(Described):
         Returns
         -------
         expansion : Expansion
-            Cut off at the cutoff; "heat" keeps all degrees. What was done is added to `method`.
+            Expansion truncated at the cutoff; "heat" keeps all degrees. The filter is added to
+            `method`.
         """
         given = {"order": order, "time": time}
         in_place_of_cutoff = [
@@ -473,21 +478,21 @@ class Expansion(Described):
     def recenter(
         self, center: npt.ArrayLike | None = None, *, threads: int = 0, progress: Progress = None
     ) -> Expansion:
-        """The same surface as seen from another centre, of the same degree.
+        """Returns the surface about another centre, with the same degree.
 
         Parameters
         ----------
         center : array_like, (3,), optional
-            By default the centroid of the solid, or as near to it as the whole surface is seen: see
-            `rholm.seen_center`.
+            New centre. By default the centroid of the solid, or a point near it that sees the whole
+            surface: see `rholm.seen_center`.
         threads, progress
             See `rholm.caller`.
 
         Returns
         -------
         expansion : Expansion
-            Of the errors, only the diagonal of the shape is known: `rholm.truncation_errors` of the
-            shape measures them about the new centre.
+            Expansion about the new centre. Its errors contain only the diagonal of the shape;
+            `rholm.truncation_errors` with the shape measures the others.
         """
         with caller(threads, progress) as how:
             if center is None:
@@ -497,51 +502,52 @@ class Expansion(Described):
             return Expansion._of(_core.recentered(self._core, tuple(float(x) for x in at), how))
 
     def scale(self, factor: float, unit: str | None = None) -> Expansion:
-        """All lengths times a factor.
+        """Returns the expansion with all lengths multiplied by a factor.
 
         Parameters
         ----------
         factor : float
-            Above 0.
+            Factor, above 0.
         unit : str, optional
-            The name of the new unit.
+            Name of the new unit.
         """
         scaled = Expansion._of(_core.scaled(self._core, factor))
         return scaled if unit is None else scaled.with_unit(unit)
 
     def with_unit(self, unit: str) -> Expansion:
-        """The same numbers in a unit of that name.
+        """Returns the expansion with the same numbers and another name of the unit.
 
         Parameters
         ----------
         unit : str
-            "km", "mm", ...
+            Name of the unit: "km", "mm", ...
         """
         return Expansion._of(self._core.with_unit(unit), self._encoded, self._shape, self._name)
 
     def with_gravity(self, gravity_constant: float, reference_radius: float) -> Expansion:
-        """The same numbers as those of a gravity field relative to these two.
+        """Returns the expansion as a gravity field with these reference values; the numbers stay.
 
-        `rotate`, `filter`, `truncate` and arithmetic keep them, and all formats of files but .npy.
+        `rotate`, `filter`, `truncate` and arithmetic keep the values, and so do all file formats
+        except .npy.
 
         Parameters
         ----------
         gravity_constant : float
             G M in m^3/s^2.
         reference_radius : float
-            Of the sphere about the centre, in m.
+            Radius of the sphere about the centre, in m.
 
         Raises
         ------
         InvalidInputError
-            For numbers that are not above 0, and an expansion whose function is not "other".
+            For numbers that are not above 0, or an expansion whose function is not "other".
         """
         core = self._core.with_gravity(gravity_constant, reference_radius)
         return Expansion._of(core, self._encoded, self._shape, self._name)
 
     def principal_axes(self) -> _core.PrincipalAxes:
-        """The axes of the coefficients of degree 2, longest first, about the expansion's centre; see
-        `rholm.principal_axes`. Those of inertia are of `inertia`.
+        """Returns the axes of the degree-2 coefficients, longest first, about the expansion's
+        centre; see `rholm.principal_axes`. `inertia` gives the axes of inertia.
         """
         return _core.principal_axes(self._core.coefficients, self.function)
 
@@ -573,7 +579,7 @@ class Expansion(Described):
     def __neg__(self) -> Expansion:
         return self * -1.0
 
-    __array_ufunc__ = None  # NumPy's numbers leave products to the operators above
+    __array_ufunc__ = None  # NumPy scalars leave products to the operators above
 
     def _combined(self, other: Any, sign: int) -> Any:
         what = "added" if sign > 0 else "subtracted"
@@ -598,7 +604,7 @@ class Expansion(Described):
             )
         degree = max(self.degree, other.degree)
         a, b = (one._core.coefficients.resized(degree).values for one in (self, other))
-        # Radii add up to radii; what two of them differ by is a function that may be negative.
+        # The sum of radii is a radius. The difference of two radii may be negative.
         surfaces = [self.function, other.function].count("radius")
         function = "radius" if surfaces and not (sign < 0 and other.function == "radius") else "other"
         signed = self.signed_sum or other.signed_sum
@@ -623,27 +629,28 @@ class Expansion(Described):
             core = core.with_gravity(gravity.gravity_constant, gravity.reference_radius)
         return Expansion._of(core)
 
-    # To others
+    # Conversions
 
     def to_pyshtools(self, normalization: Normalization = "4pi", csphase: int = 1) -> pyshtools.SHCoeffs:
-        """A `pyshtools.SHCoeffs` with these coefficients.
+        """Returns a `pyshtools.SHCoeffs` with these coefficients.
 
         Parameters
         ----------
         normalization : {"4pi", "orthonormal", "schmidt"}
-            Of the result.
+            Normalization of the result.
         csphase : {1, -1}
-            Of the result.
+            Phase convention of the result.
         """
         return to_pyshtools(self, normalization, csphase)
 
     def to_xarray(self, normalization: Normalization = "4pi", csphase: int = 1) -> xarray.DataArray:
-        """A `xarray.DataArray` with dimensions kind ("c", "s"), l and m, and what is known as attributes.
+        """Returns a `xarray.DataArray` with dimensions kind ("c", "s"), l and m; metadata are
+        attributes.
 
         Parameters
         ----------
         normalization, csphase
-            Of the result.
+            Convention of the result.
         """
         return to_xarray(self, normalization, csphase)
 
@@ -657,24 +664,25 @@ class Expansion(Described):
         gravity_constant: float | None = None,
         reference_radius: float | None = None,
     ) -> None:
-        """Writes a model file (.h5: all that is known), or a file of coefficients.
+        """Writes a model file (.h5, with all metadata), or a file of coefficients.
 
         Parameters
         ----------
         path : path
-            Its extension says the format: one of `rholm.coefficients_formats`.
+            File to write. The extension chooses one of `rholm.coefficients_formats`.
         format : str, optional
-            The format, whatever the extension: a name of `rholm.coefficients_formats`, or "hdf5" for "h5".
+            Name of the format, used instead of the extension: from `rholm.coefficients_formats`, or
+            "hdf5".
         normalization, csphase
-            Of the numbers, in formats other than the model file.
+            Convention of the numbers, in formats other than the model file.
         gravity_constant, reference_radius : float, optional
-            As in `with_gravity`, which the file is then written of. All formats but .npy keep both, and
-            other programs read them in .gfc.
+            Reference values, as in `with_gravity`, for the file. All formats except .npy store
+            both; other programs read them from .gfc files.
 
         Raises
         ------
         IoError
-            If it cannot be written; a file that was there is whole then.
+            If the file cannot be written. An existing file is unchanged then.
         """
         target = os.fspath(path)
         kind = format or ("h5" if _core.is_model_name(target) else None)
@@ -686,30 +694,31 @@ class Expansion(Described):
                 _core.write_coefficients(core, target, format, normalization, csphase, how)
 
     def report_html(self, path: str | os.PathLike[str] | None = None, **options: Any) -> str:
-        """All that is known on one page of HTML that needs no other file; see `rholm.report_html`."""
+        """Returns a report on one HTML page that needs no other file; see `rholm.report_html`."""
         from ._pictures import report_html
 
         return report_html(self, path, **options)
 
     def render(self, **options: Any) -> Any:
-        """A picture; see `rholm.render`."""
+        """Returns a picture; see `rholm.render`."""
         from ._pictures import render
 
         return render(self, **options)
 
     def spectrum_svg(self, title: str = "", tolerance: float | None = None) -> str:
-        """The spectrum on logarithmic scales as an SVG document; see `rholm.spectrum_svg`."""
+        """Returns the spectrum on logarithmic scales as an SVG document; see `rholm.spectrum_svg`."""
         return _core.spectrum_svg(self._core, title or self._name, tolerance)
 
     def plot_spectrum(self, ax: matplotlib.axes.Axes | None = None, **options: Any) -> matplotlib.axes.Axes:
-        """Energy per degree on logarithmic scales, with the predicted tail, in matplotlib.
+        """Plots the energy per degree on logarithmic scales, with the predicted tail, in
+        matplotlib.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Where it is drawn; by default a new figure.
+            Axes to draw in; by default a new figure.
         **options
-            Of ``Axes.loglog``.
+            Arguments of ``Axes.loglog``.
         """
         from ._pictures import plot_spectrum
 
@@ -737,7 +746,7 @@ class Expansion(Described):
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> Any:
-        # Without the shape it is of, which may be large, or of a type that cannot be pickled.
+        # The shape is left out: it may be large, or of a type that cannot be pickled.
         return (Expansion._of, (self._core, self._encoded, None, self._name))
 
     def __copy__(self) -> Expansion:
@@ -759,7 +768,9 @@ class Expansion(Described):
     def _with_gravity(
         self, target: str, format: str | None, constant: float | None, radius: float | None
     ) -> _core.Expansion:
-        """With what `save` was given, if it was and the format has room for it."""
+        """Returns the expansion with the gravity values of `save`, if given. Raises
+        UnsupportedError if the format cannot store them.
+        """
         if constant is None and radius is None:
             return self._core
         if constant is None or radius is None:
@@ -777,13 +788,13 @@ class Expansion(Described):
         _core.require_surface(self._core)
 
 
-#: What stands for coefficients: an `Expansion`, pyshtools.SHCoeffs, or an array (2, L+1, L+1) in
-#: pyshtools' default convention: 4 pi-normalised, without Condon-Shortley phase.
+#: Coefficients: an `Expansion`, pyshtools.SHCoeffs, or an array (2, L+1, L+1) in pyshtools' default
+#: convention: 4 pi-normalised, without Condon-Shortley phase.
 CoefficientsLike = Union[Expansion, npt.ArrayLike, Any]
 
 
 def _is_number(value: Any) -> bool:
-    """Whether a value is a real number that coefficients can be multiplied by."""
+    """Returns True for a real number that coefficients can be multiplied by."""
     return (
         isinstance(value, (int, float, np.number)) and bool(np.isreal(value)) and not isinstance(value, bool)
     )

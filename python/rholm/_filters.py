@@ -17,7 +17,7 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def _with_windows(function: _Function) -> _Function:
-    """The function, <windows> and <parameters> in its docstring replaced by what the library's table says."""
+    """Replaces <windows> and <parameters> in a docstring by texts from the library's table of windows."""
     rows = _core.windows()
     windows = "{" + ", ".join(f'"{row["name"]}"' for row in rows) + "}"
     owners: dict[str, list[str]] = {}
@@ -40,17 +40,17 @@ def _with_windows(function: _Function) -> _Function:
 def low_pass(
     cutoff: int, degree: int, window: Window = "lanczos", *, order: int = 4, time: float | None = None
 ) -> FloatArray:
-    """Gains of a low-pass filter for the degrees 0 ... `degree`, (degree + 1,).
+    """Returns the gains of a low-pass filter for the degrees 0 ... `degree`, (degree + 1,).
 
     Parameters
     ----------
     cutoff : int
-        L: degrees above it go.
+        L: degrees above it are removed.
     degree : int
-        The last degree of the gains.
+        Last degree of the gains.
     window : <windows>
-        How gains fall from 1 at degree 0. Sharper is closer to the shape and rings more at edges:
-        see `overshoot`.
+        How gains fall from 1 at degree 0. A sharper fall keeps more of the shape and rings more at
+        edges: see `overshoot`.
     <parameters>
     """
     return _core.low_pass(cutoff, degree, window, order, time)
@@ -59,12 +59,12 @@ def low_pass(
 def high_pass(
     cutoff: int, degree: int, window: Window = "lanczos", *, order: int = 4, time: float | None = None
 ) -> FloatArray:
-    """Gains that keep the degrees from `cutoff` on: 1 - low_pass(cutoff - 1).
+    """Returns gains that keep the degrees from `cutoff` on: 1 - low_pass(cutoff - 1).
 
     Parameters
     ----------
     cutoff : int
-        At least 1.
+        First degree to keep, at least 1.
     degree, window, order, time
         As in `low_pass`.
     """
@@ -80,12 +80,12 @@ def band_pass(
     order: int = 4,
     time: float | None = None,
 ) -> FloatArray:
-    """Gains that keep the degrees from `first` to `last`.
+    """Returns gains that keep the degrees from `first` to `last`.
 
     Parameters
     ----------
     first, last : int
-        Of the band.
+        First and last degree of the band.
     degree, window, order, time
         As in `low_pass`.
     """
@@ -93,27 +93,27 @@ def band_pass(
 
 
 def sharpened(gains: npt.ArrayLike, amount: float) -> FloatArray:
-    """Unsharp masking: 1 + amount (1 - g).
+    """Returns gains for unsharp masking: 1 + amount (1 - g).
 
     Parameters
     ----------
     gains : array_like, (n,)
-        Of a low-pass filter.
+        Gains of a low-pass filter.
     amount : float
-        0 leaves all as it is.
+        Strength; 0 changes nothing.
     """
     return _core.sharpened(floats(gains, "gains"), amount)
 
 
 def overshoot(gains_or_window: npt.ArrayLike | str, degree: int | None = None) -> _core.Overshoot:
-    """How far a filtered step leaves 0 ... 1, in parts of its height.
+    """Returns the overshoot of a filtered step beyond 0 ... 1, relative to its height.
 
     Parameters
     ----------
     gains_or_window : array_like, (n,), or str
         Gains of a filter, or the name of a window.
     degree : int, optional
-        Of that window's cutoff.
+        Cutoff of that window.
     """
     if isinstance(gains_or_window, str):
         if degree is None:
@@ -123,16 +123,16 @@ def overshoot(gains_or_window: npt.ArrayLike | str, degree: int | None = None) -
 
 
 def filter(thing: Expansion | CoefficientsLike, gains: npt.ArrayLike, name: str = "filter") -> Any:
-    """Each degree of an expansion, or of coefficients, times a factor.
+    """Multiplies each degree of an expansion, or of coefficients, by a factor.
 
     Parameters
     ----------
     thing : Expansion or coefficients-like
-        Arrays are in pyshtools' default convention, and so is the result.
+        The function. Arrays are in pyshtools' default convention, and so is the result.
     gains : array_like, (n,)
-        Of the degrees from 0 on.
+        Gains of the degrees from 0 on.
     name : str
-        Says what was done; added to the expansion's method.
+        Name of the filter, which is added to the expansion's method.
     """
     if isinstance(thing, Expansion):
         return thing.filter(gains, name)

@@ -1,4 +1,4 @@
-"""The formats of files, as the library's tables have them."""
+"""File formats, taken from the library's tables."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from . import _core
 
 
 class FileFormat(NamedTuple):
-    """A format of files."""
+    """A file format."""
 
     name: str
     """The name that arguments take: "ply"."""
@@ -31,10 +31,10 @@ class FileFormat(NamedTuple):
 
 
 def shape_formats() -> tuple[FileFormat, ...]:
-    """The formats of meshes and points."""
+    """Returns the formats of meshes and points."""
     return tuple(FileFormat(*line) for line in _core.shape_formats())
 
 
 def coefficients_formats() -> tuple[FileFormat, ...]:
-    """The formats of coefficients, beginning with the model file."""
+    """Returns the formats of coefficients, first the model file."""
     return tuple(FileFormat(*line) for line in _core.coefficients_formats())

@@ -1,5 +1,5 @@
-"""Shapes and coefficients of other packages. None of them is imported unless one of its objects is
-given, or asked for.
+"""Converts shapes and coefficients of other packages. A package is imported only if one of its
+objects is given, or asked for.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ Arrays = tuple[Any, Any, dict[str, npt.NDArray[Any]]]
 
 
 def required(name: str, extra: str | None = None) -> Any:
-    """Imports a package that is not needed otherwise, or says how to get it."""
+    """Imports an optional package. The ImportError tells how to install it."""
     try:
         return importlib.import_module(name)
     except ImportError as error:
@@ -36,7 +36,7 @@ def required(name: str, extra: str | None = None) -> Any:
 
 
 def _package(value: Any) -> str:
-    """The package whose class, or base class, an object's is."""
+    """Returns the package that defines an object's class or base class."""
     for kind in type(value).__mro__:
         root = kind.__module__.partition(".")[0]
         if root in ("trimesh", "pyvista", "meshio", "vtkmodules", "pyshtools", "open3d"):
@@ -45,12 +45,12 @@ def _package(value: Any) -> str:
 
 
 def foreign_has_faces(shape: Any) -> bool | None:
-    """Whether another package's object is a mesh; False for points, None for what is of none."""
+    """Returns True for a mesh of another package, False for points, None for any other object."""
     package = _package(shape)
     if package == "trimesh":
         return hasattr(shape, "faces") or hasattr(shape, "geometry")
     if package in ("pyvista", "vtkmodules"):
-        # Points have cells too in PyVista: one for each of them, without edges.
+        # Points in PyVista also have cells: one without edges for each point.
         return bool(getattr(shape, "n_faces_strict", 1)) or bool(getattr(shape, "n_strips", 0))
     if package == "meshio":
         return any(_is_polygons(block.type) for block in shape.cells)
@@ -60,7 +60,7 @@ def foreign_has_faces(shape: Any) -> bool | None:
 
 
 def foreign_mesh(shape: Any) -> Arrays | None:
-    """(vertices, triangles, attributes) of another package's mesh; None for what is none."""
+    """Returns (vertices, triangles, attributes) of another package's mesh; None for any other object."""
     package = _package(shape)
     if package == "trimesh":
         return _trimesh_mesh(shape)
@@ -90,7 +90,7 @@ def _trimesh_mesh(shape: Any) -> Arrays:
 
 def _pyvista_mesh(shape: Any) -> Arrays:
     if not hasattr(shape, "regular_faces"):
-        # PyVista chooses the algorithm from 0.47 on, where it wants to be asked to.
+        # PyVista from 0.47 on chooses the algorithm only if asked to.
         chosen = "algorithm" in inspect.signature(shape.extract_surface).parameters
         shape = shape.extract_surface(**({"algorithm": None} if chosen else {}))
     if not shape.is_all_triangles:
@@ -118,7 +118,7 @@ def _meshio_mesh(shape: Any) -> Arrays:
     return points, np.concatenate(blocks), {k: v for k, v in data.items() if v.dtype.kind in "fiub"}
 
 
-#: Cells of meshio that are surfaces, but with nodes within their edges, where they are curved.
+#: Surface cells of meshio with additional nodes on curved edges.
 _CURVED = ("triangle", "quad", "VTK_LAGRANGE_TRIANGLE", "VTK_LAGRANGE_QUADRILATERAL")
 
 
@@ -127,7 +127,7 @@ def _is_polygons(cell: str) -> bool:
 
 
 def _polygons(cells: list[Any]) -> list[npt.NDArray[Any]]:
-    """The cells of meshio that are polygons, each block a row of corners for every polygon."""
+    """Returns the polygons of meshio cells, one array per block with a row of corners per polygon."""
     blocks = []
     for block in cells:
         if _is_polygons(block.type):
@@ -141,7 +141,7 @@ def _polygons(cells: list[Any]) -> list[npt.NDArray[Any]]:
 
 
 def _cut(points: npt.NDArray[Any], polygons: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Polygons cut into triangles, as those of files are."""
+    """Returns polygons cut into triangles, in the same way as polygons of files."""
     if polygons.shape[1] == 3:
         return polygons
     if polygons.shape[1] < 3:
@@ -157,7 +157,9 @@ def _cut(points: npt.NDArray[Any], polygons: npt.NDArray[Any]) -> npt.NDArray[An
 
 
 def foreign_points(shape: Any) -> tuple[Any, Any, Any] | None:
-    """(points, normals or None, attributes) of another package's points; None for what is none."""
+    """Returns (points, normals or None, attributes) of another package's points; None for any other
+    object.
+    """
     package = _package(shape)
     if package == "trimesh":
         if hasattr(shape, "faces"):
@@ -179,7 +181,7 @@ def foreign_points(shape: Any) -> tuple[Any, Any, Any] | None:
 
 
 def mesh_to_trimesh(mesh: Mesh) -> trimesh.Trimesh:
-    """See `Mesh.to_trimesh`."""
+    """Converts a mesh; see `Mesh.to_trimesh`."""
     trimesh = required("trimesh")
     attributes = {name: values.copy() for name, values in mesh.attributes.items()}
     normals = mesh.normals if "nx" in attributes else None
@@ -200,7 +202,7 @@ def mesh_to_trimesh(mesh: Mesh) -> trimesh.Trimesh:
 
 
 def cloud_to_trimesh(cloud: PointCloud) -> trimesh.PointCloud:
-    """See `PointCloud.to_trimesh`."""
+    """Converts points; see `PointCloud.to_trimesh`."""
     return required("trimesh").PointCloud(np.array(cloud.points))
 
 
@@ -209,11 +211,11 @@ def _set_point_data(data: Any, attributes: dict[str, npt.NDArray[Any]]) -> None:
         if all(name in attributes for name in names):
             data[together] = np.stack([attributes.pop(name) for name in names], axis=1)
     for name, values in attributes.items():
-        data[name] = values.copy()  # the package may share its memory
+        data[name] = values.copy()  # the other package may share its memory
 
 
 def mesh_to_pyvista(mesh: Mesh) -> pyvista.PolyData:
-    """See `Mesh.to_pyvista`."""
+    """Converts a mesh; see `Mesh.to_pyvista`."""
     pyvista = required("pyvista")
     triangles = np.array(mesh.triangles, dtype=np.int64)
     result = pyvista.PolyData.from_regular_faces(np.array(mesh.vertices), triangles)
@@ -222,7 +224,7 @@ def mesh_to_pyvista(mesh: Mesh) -> pyvista.PolyData:
 
 
 def cloud_to_pyvista(cloud: PointCloud) -> pyvista.PolyData:
-    """See `PointCloud.to_pyvista`."""
+    """Converts points; see `PointCloud.to_pyvista`."""
     result = required("pyvista").PolyData(np.array(cloud.points))
     if cloud.normals is not None:
         result.point_data["Normals"] = np.array(cloud.normals)
@@ -231,7 +233,7 @@ def cloud_to_pyvista(cloud: PointCloud) -> pyvista.PolyData:
 
 
 def mesh_to_meshio(mesh: Mesh) -> meshio.Mesh:
-    """See `Mesh.to_meshio`."""
+    """Converts a mesh; see `Mesh.to_meshio`."""
     return required("meshio").Mesh(
         np.array(mesh.vertices),
         [("triangle", np.array(mesh.triangles, dtype=np.int64))],
@@ -240,7 +242,7 @@ def mesh_to_meshio(mesh: Mesh) -> meshio.Mesh:
 
 
 def to_pyshtools(expansion: Expansion, normalization: Normalization = "4pi", csphase: int = 1) -> Any:
-    """See `Expansion.to_pyshtools`."""
+    """Converts an expansion; see `Expansion.to_pyshtools`."""
     pyshtools = required("pyshtools")
     names = {"4pi": "4pi", "orthonormal": "ortho", "schmidt": "schmidt"}
     return pyshtools.SHCoeffs.from_array(
@@ -253,7 +255,7 @@ def to_pyshtools(expansion: Expansion, normalization: Normalization = "4pi", csp
 
 
 def to_xarray(expansion: Expansion, normalization: Normalization = "4pi", csphase: int = 1) -> Any:
-    """See `Expansion.to_xarray`."""
+    """Converts an expansion; see `Expansion.to_xarray`."""
     degrees = np.arange(expansion.degree + 1)
     return required("xarray").DataArray(
         expansion.to_array(normalization, csphase),
@@ -279,7 +281,7 @@ def _gravity_of(expansion: Expansion) -> dict[str, float]:
 
 
 def coefficients_of_pyshtools(clm: Any) -> tuple[npt.NDArray[np.float64], str, int]:
-    """(array, normalization, csphase) of real or complex pyshtools.SHCoeffs."""
+    """Returns (array, normalization, csphase) of real or complex pyshtools.SHCoeffs."""
     names = {"4pi": "4pi", "ortho": "orthonormal", "schmidt": "schmidt"}
     if clm.normalization not in names:
         clm = clm.convert(normalization="ortho")

@@ -1,4 +1,4 @@
-"""Files of models and coefficients."""
+"""Reads and writes files of models and coefficients."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ._shapes import name_of
 
 
 class CoefficientsFile(NamedTuple):
-    """What was read of a file of coefficients."""
+    """Coefficients read from a file, with its metadata."""
 
     expansion: Expansion
     """The function, in the library's own convention."""
@@ -40,11 +40,11 @@ def _file_of(read: tuple[Any, ...]) -> CoefficientsFile:
     return CoefficientsFile(Expansion._of(expansion), *rest)
 
 
-_BEGINNING = 4096  # bytes that tell what a file is of; as the program looks at
+_BEGINNING = 4096  # bytes that identify the contents of a file; the program uses the same number
 
 
 def _not_a_shape(path: str | os.PathLike[str]) -> str:
-    """The path, unless its name or its first bytes are those of a mesh or of points."""
+    """Returns the path. Raises InvalidInputError if its name or first bytes belong to a shape."""
     name = os.fspath(path)
     beginning = b""
     if os.path.isfile(name):
@@ -70,11 +70,11 @@ def read_coefficients(
     Parameters
     ----------
     path : path
-        The content decides the format.
+        File to read. The content decides the format.
     normalization, csphase
-        Of files that say none.
+        Convention of a file that states none.
     override_file : bool
-        Of all files, whatever they say.
+        True: uses this convention for all files, whatever they state.
     """
     source = _not_a_shape(path)
     with caller(0, False) as how:
@@ -89,7 +89,7 @@ def read_any_coefficients(
     csphase: int = 1,
     override_file: bool = False,
 ) -> CoefficientsFile:
-    """Reads a model file, or what `read_coefficients` reads.
+    """Reads a model file, or a file for `read_coefficients`.
 
     Parameters
     ----------
@@ -110,14 +110,14 @@ def parse_coefficients(
     csphase: int = 1,
     override_file: bool = False,
 ) -> CoefficientsFile:
-    """The same for the bytes of a file.
+    """Reads coefficients from the bytes of a file.
 
     Parameters
     ----------
     data : bytes
-        All of them.
+        Content of the file.
     name : str
-        Serves messages, and its extension where the content does not say what it is.
+        Name for messages. Its extension is used if the content does not identify the format.
     normalization, csphase, override_file
         As in `read_coefficients`.
     """
@@ -127,7 +127,7 @@ def parse_coefficients(
 
 
 def looks_like_coefficients(data: bytes) -> bool:
-    """Whether bytes begin like a file of coefficients (not for bare text).
+    """Returns True if bytes begin like a file of coefficients. Bare text is not recognised.
 
     Parameters
     ----------
@@ -138,12 +138,13 @@ def looks_like_coefficients(data: bytes) -> bool:
 
 
 def coefficients_format_of(path: str | os.PathLike[str]) -> str | None:
-    """The format of an extension: a name of `coefficients_formats`, or None, as for a model file.
+    """Returns the format for an extension, a name of `coefficients_formats`; None for a model file
+    and others.
 
     Parameters
     ----------
     path : path
-        Need not exist.
+        Name of a file, which need not exist.
     """
     return _core.coefficients_format_of(os.fspath(path))
 
@@ -156,9 +157,9 @@ def load(
     Parameters
     ----------
     path : path
-        The content decides the format.
+        File to read. The content decides the format.
     normalization, csphase
-        Of files that do not say it (bare text, .npy).
+        Convention of a file that states none (bare text, .npy).
     """
     source = _not_a_shape(path)
     with caller(0, False) as how:
@@ -174,7 +175,7 @@ def read_model(path: str | os.PathLike[str]) -> Expansion:
     Parameters
     ----------
     path : path
-        HDF5; layout in docs/model-file.md.
+        HDF5 file; layout in docs/model-file.md.
     """
     with caller(0, False) as how:
         return Expansion._of(_core.read_model(os.fspath(path), how), name=name_of(path))
@@ -186,9 +187,9 @@ def write_model(expansion: Expansion, path: str | os.PathLike[str]) -> None:
     Parameters
     ----------
     expansion : Expansion
-        With all that is known of it.
+        Expansion, written with all its metadata.
     path : path
-        Replaced when complete.
+        File to write; an existing file is replaced when the new one is complete.
     """
     as_expansion(expansion).save(path, format="hdf5")
 
@@ -199,11 +200,11 @@ def write_coefficients(expansion: Expansion, path: str | os.PathLike[str], **opt
     Parameters
     ----------
     expansion : Expansion
-        What is written.
+        Expansion to write.
     path : path
-        Its extension says the format.
+        File to write; its extension chooses the format.
     **options
-        format, normalization, csphase, gravity_constant, reference_radius.
+        Arguments format, normalization, csphase, gravity_constant, reference_radius.
     """
     if Path(path).suffix.lower() in (".h5", ".hdf5") and options.get("format") is None:
         raise UnsupportedError(f"{os.fspath(path)}: model files are written by write_model(), or save()")
@@ -211,7 +212,7 @@ def write_coefficients(expansion: Expansion, path: str | os.PathLike[str], **opt
 
 
 def is_model_file(path: str | os.PathLike[str]) -> bool:
-    """Whether a file is a model file, by its first bytes.
+    """Returns True for a model file, by its first bytes.
 
     Parameters
     ----------
@@ -227,7 +228,7 @@ def read_atlas(path: str | os.PathLike[str]) -> Atlas:
     Parameters
     ----------
     path : path
-        HDF5; layout in docs/model-file.md.
+        HDF5 file; layout in docs/model-file.md.
     """
     with caller(0, False) as how:
         return Atlas._of(_core.read_atlas(os.fspath(path), how), name=name_of(path))
@@ -239,15 +240,15 @@ def write_atlas(atlas: Atlas, path: str | os.PathLike[str]) -> None:
     Parameters
     ----------
     atlas : Atlas
-        What is written.
+        Atlas to write.
     path : path
-        Replaced when complete.
+        File to write; an existing file is replaced when the new one is complete.
     """
     as_atlas(atlas).save(path)
 
 
 def is_atlas_file(path: str | os.PathLike[str]) -> bool:
-    """Whether a file is a model file that holds an atlas.
+    """Returns True for a model file that holds an atlas.
 
     Parameters
     ----------

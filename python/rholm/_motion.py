@@ -1,4 +1,4 @@
-"""Expansions turned, mirrored, moved, aligned."""
+"""Rotates, mirrors, scales, recentres and aligns expansions."""
 
 from __future__ import annotations
 
@@ -32,16 +32,17 @@ def rotate(
     threads: int = 0,
     progress: Progress = None,
 ) -> Any:
-    """An expansion, coefficients or points turned.
+    """Returns a rotated expansion, rotated coefficients or rotated points.
 
     Parameters
     ----------
     thing : Expansion, array_like (2, L+1, L+1), or points (..., 3)
-        Arrays of coefficients are in pyshtools' default convention, and so is the result.
+        The object. Arrays of coefficients are in pyshtools' default convention, and so is the
+        result.
     rotation : rotation-like
-        Takes the point x to R x; a function f becomes f(R^-1 u).
+        Rotation that takes the point x to R x; a function f becomes f(R^-1 u).
     about : array_like, (3,)
-        The point that an expansion, or points, are turned about.
+        Fixed point of the rotation, for an expansion or points.
     threads, progress
         See `rholm.caller`.
     """
@@ -64,12 +65,12 @@ def rotate(
 def mirror(
     thing: Expansion | CoefficientsLike, axis: Literal["x", "y", "z"], about: npt.ArrayLike = (0.0, 0.0, 0.0)
 ) -> Any:
-    """The mirror image of an expansion, or of coefficients.
+    """Returns the mirror image of an expansion, or of coefficients.
 
     Parameters
     ----------
     thing : Expansion or coefficients-like
-        Arrays are in pyshtools' default convention, and so is the result.
+        The function. Arrays are in pyshtools' default convention, and so is the result.
     axis : {"x", "y", "z"}
         The coordinate that changes its sign.
     about : array_like, (3,)
@@ -81,14 +82,14 @@ def mirror(
 
 
 def scaled(expansion: Expansion, factor: float) -> Expansion:
-    """All lengths times a factor.
+    """Returns an expansion with all lengths multiplied by a factor.
 
     Parameters
     ----------
     expansion : Expansion
-        Stays as it is.
+        Expansion, which does not change.
     factor : float
-        Above 0.
+        Factor, above 0.
     """
     return as_expansion(expansion).scale(factor)
 
@@ -96,14 +97,14 @@ def scaled(expansion: Expansion, factor: float) -> Expansion:
 def recentered(
     expansion: Expansion, center: npt.ArrayLike, *, threads: int = 0, progress: Progress = None
 ) -> Expansion:
-    """The same surface as seen from another centre.
+    """Returns the same surface about another centre.
 
     Parameters
     ----------
     expansion : Expansion
-        Star-shaped about both centres.
+        Expansion that is star-shaped about both centres.
     center : array_like, (3,)
-        The new one.
+        New centre.
     threads, progress
         See `rholm.caller`.
     """
@@ -111,16 +112,17 @@ def recentered(
 
 
 def seen_center(expansion: Expansion, wanted: npt.ArrayLike, *, threads: int = 0) -> FloatArray:
-    """The wanted centre if `recentered` accepts it, else a point on the way there, (3,).
+    """Returns the wanted centre if `recentered` accepts it, otherwise a point between both centres,
+    (3,).
 
     Parameters
     ----------
     expansion : Expansion
-        Star-shaped about its own centre, where the way begins.
+        Expansion that is star-shaped about its own centre.
     wanted : array_like, (3,)
-        A point near which the new centre should be.
+        Point near which the new centre should be.
     threads : int
-        See `rholm.caller`.
+        Number of threads; see `rholm.caller`.
     """
     at = tuple(float(x) for x in float_row(wanted, "wanted"))
     with caller(threads, False) as how:
@@ -128,14 +130,14 @@ def seen_center(expansion: Expansion, wanted: npt.ArrayLike, *, threads: int = 0
 
 
 def volume_centroid(expansion: Expansion, *, threads: int = 0) -> FloatArray:
-    """Of the solid within a surface, (3,).
+    """Returns the centroid of the solid within a surface, (3,).
 
     Parameters
     ----------
     expansion : Expansion
-        Of a surface.
+        Expansion of a surface.
     threads : int
-        See `rholm.caller`.
+        Number of threads; see `rholm.caller`.
     """
     with caller(threads, False) as how:
         return _core.volume_centroid(as_expansion(expansion)._core, how)
@@ -151,16 +153,16 @@ def align(
     progress: Progress = None,
     **options: Unpack[AlignKeywords],
 ) -> _core.Placement | _core.Alignment:
-    """Turns a onto b: the rotation of the largest correlation.
+    """Finds the rotation of largest correlation that turns a onto b.
 
     Parameters
     ----------
     a, b : Expansion or coefficients-like
         Two surfaces, or two functions on the sphere.
     centers : {"auto", "volume", "own"}
-        Which points of surfaces are laid on each other first: centroids of the solids, or the
-        centres of the expansions. "auto": the centroids if both surfaces are seen whole from there,
-        else the expansions' own centres, with a warning.
+        Points of the surfaces that are brought together first: centroids of the solids, or the
+        centres of the expansions. The choice "auto" takes the centroids if both see their whole
+        surfaces. Otherwise it takes the expansions' centres, with a warning.
     {options}
     threads, progress
         See `rholm.caller`.
@@ -168,7 +170,8 @@ def align(
     Returns
     -------
     placement : Placement
-        Of two expansions; `placed` moves a by it. An `Alignment` of two functions.
+        Placement of two expansions; `placed` moves a by it. The result is an `Alignment` for two
+        functions.
     """
     wanted = options_of(_core.AlignOptions, {**options}, "align")
     with caller(threads, progress) as how:
@@ -183,14 +186,14 @@ def align(
 def placed(
     a: Expansion, placement: _core.Placement, *, threads: int = 0, progress: Progress = None
 ) -> Expansion:
-    """The expansion moved as `align` says.
+    """Returns the expansion moved by a placement.
 
     Parameters
     ----------
     a : Expansion
-        That was aligned.
+        Expansion that was aligned.
     placement : Placement
-        Of `align`.
+        Placement from `align`.
     threads, progress
         See `rholm.caller`.
     """

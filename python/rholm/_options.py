@@ -1,4 +1,4 @@
-"""Arguments of functions from the lists of the library's options: names, defaults and documentation."""
+"""Makes keyword arguments of functions from the library's lists of options: names, defaults, texts."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from ._arrays import triple
 from ._errors import InvalidInputError
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
-#: Where the documentation of the options goes in the docstring of a function.
+#: Placeholder for the documentation of the options in the docstring of a function.
 _PLACE = "{options}"
 
 
 def simplify_options(simplify: Any) -> _core.SimplifyOptions | None:
-    """Where to stop: None, "auto", a number of triangles (from 1 on), or a dict of options."""
+    """Returns when to stop, for None, "auto", a number of triangles (1 or more), or a dict of options."""
     if simplify is None or simplify is False:
         return None
     if simplify is True or simplify == "auto":
@@ -34,7 +34,7 @@ def simplify_options(simplify: Any) -> _core.SimplifyOptions | None:
 
 
 def _converted(field: dict[str, Any], value: Any) -> Any:
-    """A value as the library takes it; None is that of the default."""
+    """Returns a value in the form that the library takes; None stands for the default."""
     kind = field["kind"].removeprefix("optional ")
     if value is None:
         return None
@@ -50,14 +50,13 @@ def _converted(field: dict[str, Any], value: Any) -> Any:
 
 
 def keywords_of(kind: Any) -> list[dict[str, Any]]:
-    """What the list says of the fields that functions have as keyword arguments."""
+    """Returns the fields of a class of options that are keyword arguments of functions."""
     return [field for field in kind.FIELDS if field["keyword"]]
 
 
 def options_of(kind: Any, given: dict[str, Any], function: str, **own: Any) -> Any:
-    """Options of that class from the keyword arguments of a function; TypeError for one it has not.
-
-    `own` are fields that the function has in a way of its own.
+    """Returns options of a class, made from the keyword arguments of a function. `own` are fields
+    that the function sets in another way. Raises TypeError for an unknown argument.
     """
     keywords = [field["name"] for field in keywords_of(kind)]
     for name in given:
@@ -68,7 +67,7 @@ def options_of(kind: Any, given: dict[str, Any], function: str, **own: Any) -> A
 
 
 def given_of(*kinds: Any, given: dict[str, Any], function: str) -> list[dict[str, Any]]:
-    """What each class of options has of the keyword arguments of a function; TypeError for others."""
+    """Splits the keyword arguments of a function by class of options. Raises TypeError for others."""
     parts = []
     for kind in kinds:
         names = [field["name"] for field in keywords_of(kind) if field["name"] in given]
@@ -78,7 +77,7 @@ def given_of(*kinds: Any, given: dict[str, Any], function: str) -> list[dict[str
     return parts
 
 
-#: Of each kind of field: the type of the argument as it is written in Python, and in docstrings.
+#: Type of an argument for each kind of field, in annotations and in docstrings.
 _TYPES = {
     "bool": ("bool", "bool"),
     "whole number": ("int", "int"),
@@ -92,13 +91,13 @@ _TYPES = {
 
 
 def _may_be_none(field: dict[str, Any]) -> bool:
-    """Whether None stands for no value: an empty path is none."""
+    """Returns True if None stands for no value; None also stands for an empty path."""
     kind: str = field["kind"]
     return kind.startswith("optional ") or kind == "path"
 
 
 def _types(field: dict[str, Any]) -> tuple[str, str]:
-    """The type of an argument as it is written in Python, and in docstrings."""
+    """Returns the type of an argument for its annotation and for docstrings."""
     kind = field["kind"].removeprefix("optional ")
     choices = ", ".join(f'"{name}"' for name in field["choices"])
     written, shown = (f"Literal[{choices}]", f"{{{choices}}}") if choices else _TYPES[kind]
@@ -109,12 +108,12 @@ def _types(field: dict[str, Any]) -> tuple[str, str]:
 
 
 def annotation(field: dict[str, Any]) -> str:
-    """The type of an argument, as it is written in Python."""
+    """Returns the type of an argument for its annotation."""
     return _types(field)[0]
 
 
 def _bounds(field: dict[str, Any]) -> str:
-    """A sentence about the least and the largest value, if there are both."""
+    """Returns a sentence about the least and the largest value, if both exist."""
     if not field["bounds"]:
         return ""
     least, most = (str(int(bound)) if bound == int(bound) else repr(bound) for bound in field["bounds"])
@@ -122,19 +121,19 @@ def _bounds(field: dict[str, Any]) -> str:
 
 
 def _documentation(field: dict[str, Any]) -> str:
-    """The entry of an argument in a docstring."""
+    """Returns the entry of an argument in a docstring."""
     unit = {"length": " In the unit of the shape.", "bytes": " In bytes."}.get(field["unit"], "")
     said = field["help"][0].upper() + field["help"][1:] + "." + _bounds(field) + unit
     return f"{field['name']} : {_types(field)[1]}\n" + textwrap.indent(textwrap.fill(said, 90), "    ")
 
 
 def takes(*kinds: Any) -> Callable[[_Function], _Function]:
-    """Shows and documents ``**options`` of a function as the arguments that classes of options have.
+    """Replaces ``**options`` of a function by the fields of classes of options, and documents them.
 
     Parameters
     ----------
     *kinds : classes of options
-        They have their lists in ``FIELDS``.
+        Classes with a list of fields in ``FIELDS``.
     """
     fields = [field for kind in kinds for field in keywords_of(kind)]
 

@@ -1,4 +1,4 @@
-"""Pictures, pages, and how objects show themselves in notebooks."""
+"""Pictures, reports, and the display of objects in notebooks."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ _NOTEBOOK_SIZE = (480, 400)  # pixels; chosen: fits beside text
 
 
 class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
-    """Pixels, (height, width, 3) uint8, as a screen shows them (sRGB): an array that can be saved
-    and shows itself in notebooks.
+    """Pixels, (height, width, 3) uint8, as a screen shows them (sRGB). It is an array that can be
+    saved, and notebooks display it.
     """
 
     def png(self) -> bytes:
-        """The bytes of a PNG file."""
+        """Returns the bytes of a PNG file."""
         return encode_png(self)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -48,7 +48,7 @@ class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
         Parameters
         ----------
         path : path
-            Replaced when complete.
+            File to write; an existing file is replaced when the new one is complete.
         """
         write_png(path, self)
 
@@ -57,28 +57,30 @@ class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
 
 
 class Panel:
-    """One thing in a picture.
+    """One object in a picture.
 
     Parameters
     ----------
     shape : mesh-like, Expansion, Atlas, Reconstruction, PointCloud or array_like (N, 3)
-        What is shown; a file may hold points, too. Points of other packages: `rholm.as_points`.
+        Object to show. A file may also hold points. For points of other packages use
+        `rholm.as_points`.
     label : str
-        Below it.
+        Text below it.
     scalars : array_like, (N,), optional
-        Per vertex or point, coloured by the colour map.
+        One value per vertex or point, shown by the colour map.
     colors : array_like, (N, 3), optional
-        Per vertex or point, 0 ... 1; by default the shape's own, if there are no scalars.
+        Colours per vertex or point, 0 ... 1. By default the shape's own colours if there are no
+        scalars.
     smooth : bool, optional
-        Of meshes: shaded with their normals; by default if there are any.
+        True: shades a mesh with its normals; by default if it has normals.
     point_radius : float, optional
-        Of points: each is a ball of this radius, in their unit; by default their usual distance, so
-        that those of a surface close it.
+        Radius of the ball that shows each point, in the points' unit. By default the typical
+        spacing of the points, so that the balls of a surface leave no gaps.
 
     Raises
     ------
     InvalidInputError
-        For scalars and colors, for arrays of another shape.
+        For both scalars and colors, or arrays of a wrong shape.
     """
 
     __slots__ = ("_arguments", "_core", "shape")
@@ -125,7 +127,7 @@ def _panel_of(shape: Mesh | PointCloud, arguments: dict[str, Any]) -> Panel:
 
 
 def _drawable(shape: Any) -> Mesh | PointCloud:
-    """The surface of what has one, or points."""
+    """Returns the surface of an object, or points."""
     drawn: Mesh | PointCloud = surface_of(shape, points=True)
     return drawn
 
@@ -151,26 +153,27 @@ def render(
     progress: Progress = None,
     **options: Unpack[RenderKeywords],
 ) -> Picture:
-    """A picture of one or several shapes, side by side.
+    """Makes a picture of one or several shapes side by side.
 
     Parameters
     ----------
     shape : mesh-like, Expansion, Atlas, Reconstruction, PointCloud, array_like (N, 3), Panel, or a list
-        What is shown; a list has several of these.
+        Object to show, or a list of several objects.
     size : (width, height)
-        Of the whole picture, pixels, 16 ... 16384.
+        Size of the picture in pixels, 16 ... 16384.
     scalars : array_like, (N,), optional
-        Of one shape: per vertex or point, coloured by the colour map.
+        For one shape: a value per vertex or point, shown by the colour map.
     colors : array_like, (N, 3), optional
-        Of one shape: per vertex or point, 0 ... 1; by default its own, if there are no scalars.
+        For one shape: colours per vertex or point, 0 ... 1. By default its own if there are no
+        scalars.
     label : str
-        Of one shape, below it.
+        For one shape: text below it.
     point_radius : float, optional
-        Of points, which are balls: as in `Panel`.
+        Radius of the balls that show points: as in `Panel`.
     scale : (lowest, highest)
-        Of the colour map; None: that of all scalars.
+        Range of the colour map; None stands for the range of all scalars.
     path : path, optional
-        Where a PNG file is written, too.
+        PNG file to write as well.
     {options}
     threads, progress
         See `rholm.caller`.
@@ -178,16 +181,16 @@ def render(
     Returns
     -------
     picture : Picture
-        uint8, (height, width, 3).
+        Pixels, uint8, (height, width, 3).
 
     Raises
     ------
     InvalidInputError
-        For a shape without triangles or points, more than 20 million points, arrays of another
-        length, sizes out of range.
+        For a shape without faces or points, more than 20 million points, arrays of a wrong length,
+        or sizes out of range.
     """
     if path is not None:
-        named(path, (".png",), "a picture")  # before the work
+        named(path, (".png",), "a picture")  # checked before the work
     several = isinstance(shape, list)
     of_one = scalars is not None or colors is not None or point_radius is not None or label
     if of_one and (several or isinstance(shape, Panel)):
@@ -226,12 +229,12 @@ def _pixels(image: npt.ArrayLike) -> Pixels:
 
 
 def encode_png(image: npt.ArrayLike) -> bytes:
-    """The bytes of a PNG file.
+    """Returns the bytes of a PNG file.
 
     Parameters
     ----------
     image : array_like of uint8, (height, width, 3)
-        Rows from the top.
+        Pixels, rows from the top.
     """
     return _core.encode_png(_pixels(image))
 
@@ -242,9 +245,9 @@ def write_png(path: str | os.PathLike[str], image: npt.ArrayLike) -> None:
     Parameters
     ----------
     path : path
-        Where.
+        File to write.
     image : array_like of uint8, (height, width, 3)
-        Rows from the top.
+        Pixels, rows from the top.
     """
     _core.write_png(named(path, (".png",), "a picture"), _pixels(image))
 
@@ -255,30 +258,31 @@ def write_file(path: str | os.PathLike[str], data: bytes) -> None:
     Parameters
     ----------
     path : path
-        Where.
+        File to write.
     data : bytes
-        All of them.
+        Content of the file.
     """
     _core.write_file(os.fspath(path), bytes(data))
 
 
 def spectrum_svg(expansion: Expansion, title: str = "", tolerance: float | None = None) -> str:
-    """Energy per degree on logarithmic scales as an SVG document.
+    """Returns the energy per degree on logarithmic scales as an SVG document.
 
     Parameters
     ----------
     expansion : Expansion
-        Whose spectrum.
+        Expansion that has the spectrum.
     title : str
-        Above it.
+        Text above it.
     tolerance : float, optional
-        A wanted rms error, in the function's unit: its energy, and that of all degrees beyond.
+        Wanted rms error, in the function's unit. It adds its energy, and the energy of all degrees
+        beyond l.
     """
     return as_expansion(expansion).spectrum_svg(title, tolerance)
 
 
 def plot_spectrum(expansion: Expansion, ax: Any = None, **options: Any) -> Any:
-    """See `Expansion.plot_spectrum`."""
+    """Plots the spectrum; see `Expansion.plot_spectrum`."""
     if ax is None:
         _, ax = required("matplotlib.pyplot", "matplotlib").subplots()
     degrees = np.arange(1, expansion.degree + 1)
@@ -304,21 +308,21 @@ def report_html(
     progress: Progress = None,
     **options: Unpack[ReportKeywords],
 ) -> str:
-    """All that is known of a model on one page of HTML that needs no other file.
+    """Makes a report of a model on one HTML page that needs no other file.
 
     Parameters
     ----------
     model : Expansion or Atlas
-        What the page is of.
+        Model to report.
     path : path, optional
-        Where it is written, too.
+        File to write as well.
     shape : mesh-like, optional
-        The mesh that the model is of; by default that of `expand` or `compress`, if it is known.
+        Mesh of the model. By default the mesh of `expand` or `compress`, if known.
     commands : sequence of (what, command)
-        Shown as they are.
+        Titles and commands, shown unchanged.
     interactive : bool
-        Of an expansion: the surface is there to be turned, and cut off at any degree; no network is
-        needed.
+        For an expansion: adds a viewer in which the surface can be turned and truncated at any
+        degree. It needs no network.
     {options}
     threads, progress
         See `rholm.caller`.
@@ -326,9 +330,9 @@ def report_html(
     Raises
     ------
     InvalidInputError
-        For an atlas that is to be interactive, options out of range, and what has no surface.
+        For an interactive report of an atlas, options out of range, or a model without a surface.
     UnsupportedError
-        If it is to be interactive and this package was built without the viewer.
+        If `interactive` and the package was built without the viewer.
     """
     from ._atlas import Atlas
     from ._view import viewer_script
@@ -336,7 +340,7 @@ def report_html(
     if interactive and isinstance(model, Atlas):
         raise InvalidInputError("interactive pages are of expansions, not of atlases")
     if path is not None:
-        named(path, (".html", ".htm"), "a page")  # before the work
+        named(path, (".html", ".htm"), "a page")  # checked before the work
     if not isinstance(model, Atlas):
         model = as_expansion(model)
     known = model._shape if shape is None else shape
@@ -358,7 +362,7 @@ def report_html(
 
 
 def notebook_png(thing: Any) -> bytes | None:
-    """A small picture; None of what has no surface to be shown."""
+    """Returns a small picture; None for an object without a surface."""
     try:
         return render(thing, _NOTEBOOK_SIZE, scale_bar=False, progress=False).png()
     except Error:
@@ -382,7 +386,7 @@ def _table(rows: list[tuple[str, str]]) -> str:
 
 
 def expansion_html(expansion: Expansion) -> str:
-    """A picture, figures and the spectrum of an expansion."""
+    """Returns HTML with a picture, numbers and the spectrum of an expansion."""
     unit = f" {expansion.unit}" if expansion.unit else ""
     rows = [
         ("function", expansion.function),
@@ -394,7 +398,8 @@ def expansion_html(expansion: Expansion) -> str:
         figure = _figure(expansion)
         try:
             measures = expansion.measure()
-            # Figures without a unit, such as sphericity, are left out: the table is short.
+            # Numbers of higher or no dimension, such as sphericity, are left out: the table is
+            # short.
             powers = {1: "", 2: "²", 3: "³"}
             for row in _core.descriptors():
                 if row["length_power"] in powers:
@@ -403,7 +408,7 @@ def expansion_html(expansion: Expansion) -> str:
                     text = "not known" if value is None else f"{value:.6g}{unit and unit + power}"
                     rows.append((row["name"], text))
         except Error:
-            pass  # a series that crosses its centre has neither
+            pass  # a series that crosses its centre has neither picture nor measures
     errors = expansion.errors
     if errors is not None and errors.rms is not None:
         rows.append(("rms radial error", f"{errors.rms:.3g}{unit}"))
@@ -417,7 +422,7 @@ def expansion_html(expansion: Expansion) -> str:
 
 
 def atlas_html(atlas: Atlas) -> str:
-    """A picture and figures of an atlas."""
+    """Returns HTML with a picture and numbers of an atlas."""
     size = atlas.size
     unit = f" {atlas.unit}" if atlas.unit else ""
     rows = [("caps", str(size.caps)), ("numbers", str(size.numbers)), ("highest degree", str(atlas.degree))]

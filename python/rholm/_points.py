@@ -1,4 +1,4 @@
-"""Points made from meshes, put in order, given normals."""
+"""Samples, cleans, aligns and orients points."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ def sample_surface(
     progress: Progress = None,
     **options: Unpack[SampleKeywords],
 ) -> PointCloud:
-    """Points on a surface: random ones, uniform by area, or in a pattern.
+    """Samples points on a surface: random points, uniform by area, or a pattern.
 
     Parameters
     ----------
     mesh : mesh-like
-        The surface. Lengths below are parts of the diagonal of its bounding box.
+        The surface. Lengths below are fractions of the diagonal of its bounding box.
     points : int
-        How many, before holes; with a pattern about as many.
+        Number of points before holes; approximate with a pattern.
     {options}
     threads, progress
         See `rholm.caller`.
@@ -42,14 +42,14 @@ def sample_surface(
     Returns
     -------
     cloud : PointCloud
-        With the mesh's attributes, interpolated linearly in each triangle before noise; whole numbers
-        are rounded. Outliers have those of some other place of the surface. Normals are the
-        triangles'.
+        Points with the normals of their faces, and with the mesh's attributes. These are
+        interpolated linearly in each face before noise; whole numbers are rounded. Outliers get the
+        attributes of another place of the surface.
 
     Raises
     ------
     InvalidInputError
-        For a mesh without area, options out of range, holes that leave no point.
+        For a mesh without area, options out of range, or holes that leave no point.
     """
     wanted = options_of(_core.SampleOptions, {**options}, "sample_surface", points=points)
     with caller(threads, progress) as how:
@@ -57,7 +57,7 @@ def sample_surface(
 
 
 class Cleaned(NamedTuple):
-    """What `clean` made."""
+    """Result of `clean`."""
 
     cloud: PointCloud
     """The points that stay."""
@@ -66,12 +66,12 @@ class Cleaned(NamedTuple):
 
 
 def clean(points: PointsLike) -> Cleaned:
-    """Drops points that are not finite, and merges those at one place.
+    """Drops points that are not finite, and merges points at one place.
 
     Parameters
     ----------
     points : points-like
-        Stay as they are.
+        Points, which do not change.
     """
     with caller(0, False) as how:
         cloud, report = _core.clean(as_points(points)._core, how)
@@ -79,7 +79,7 @@ def clean(points: PointsLike) -> Cleaned:
 
 
 class AlignedScans(NamedTuple):
-    """What `align_scans` made."""
+    """Result of `align_scans`."""
 
     cloud: PointCloud
     """The points in their new places; normals and sensors have gone with them."""
@@ -90,17 +90,18 @@ class AlignedScans(NamedTuple):
 def align_scans(
     points: PointsLike, scan: npt.ArrayLike | None = None, *, threads: int = 0, progress: Progress = None
 ) -> AlignedScans:
-    """Brings scans of one surface together, each moved as a rigid body.
+    """Aligns scans of one surface, each moved as a rigid body.
 
-    For scans that are off by a few spacings and overlap. The mean of all points does not move.
+    The scans must overlap and be within a few spacings. The mean of all points does not move.
 
     Parameters
     ----------
     points : points-like
-        Stay as they are. Attributes ``sensor_x``, ``sensor_y``, ``sensor_z`` tell the sides of thin parts.
+        Points, which do not change. Attributes ``sensor_x``, ``sensor_y``, ``sensor_z`` tell which
+        side of a thin part a point is on.
     scan : array_like, (N,), optional
-        Which scan each point belongs to, whole numbers; by default the attribute ``scan``. Without
-        either nothing is done.
+        Number of the scan of each point, whole numbers; by default the attribute ``scan``. Without
+        both nothing is done.
     threads, progress
         See `rholm.caller`.
 
@@ -119,7 +120,7 @@ def align_scans(
 
 
 class Oriented(NamedTuple):
-    """What `orient` made."""
+    """Result of `orient`."""
 
     cloud: PointCloud
     """The points with unit normals that point out of the solid."""
@@ -137,16 +138,16 @@ def orient(
     progress: Progress = None,
     **options: Unpack[OrientKeywords],
 ) -> Oriented:
-    """Gives points unit normals that point out of the solid they bound.
+    """Computes unit normals of points that point out of the solid.
 
     Parameters
     ----------
     points : points-like
         The points.
     normals : array_like, (N, 3), optional
-        With `keep_directions`, of which only the signs are chosen.
+        Directions for `keep_directions`, of which only the signs are chosen.
     columns : str or sequence of str, optional
-        What the columns of a text table or of an array are, as in `read_shape`.
+        Meaning of the columns of a text table or array, as in `read_shape`.
     {options}
     threads, progress
         See `rholm.caller`.

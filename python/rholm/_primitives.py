@@ -1,4 +1,4 @@
-"""Shapes with a known answer."""
+"""Test shapes with known properties."""
 
 from __future__ import annotations
 
@@ -12,79 +12,79 @@ from ._shapes import Mesh, MeshLike, as_mesh
 
 
 def icosphere(subdivisions: int) -> Mesh:
-    """The unit icosahedron with each edge halved `subdivisions` times, on the unit sphere.
+    """Returns the unit icosahedron with each edge halved `subdivisions` times, on the unit sphere.
 
     Parameters
     ----------
     subdivisions : int
-        0 ... 12: 20 * 4^n triangles.
+        Number of subdivisions, 0 ... 12, for 20 * 4^n faces.
     """
     return Mesh._of(_core.icosphere(subdivisions))
 
 
 def latitude_longitude_sphere(n_theta: int, n_phi: int) -> Mesh:
-    """A unit sphere of rings, with one vertex on each pole.
+    """Returns a unit sphere of rings, with one vertex at each pole.
 
     Parameters
     ----------
     n_theta : int
-        Rings at colatitudes pi (i + 1/2) / n_theta.
+        Number of rings, at colatitudes pi (i + 1/2) / n_theta.
     n_phi : int
-        Directions on each, at least 3.
+        Number of vertices on each ring, at least 3.
     """
     return Mesh._of(_core.latitude_longitude_sphere(n_theta, n_phi))
 
 
 def ellipsoid(semi_axes: npt.ArrayLike, subdivisions: int) -> Mesh:
-    """An ellipsoid: an icosphere with its axes stretched.
+    """Returns an ellipsoid: an icosphere with stretched axes.
 
     Parameters
     ----------
     semi_axes : array_like, (3,)
-        Along x, y and z.
+        Semi-axes along x, y and z.
     subdivisions : int
-        Of the icosphere.
+        Subdivisions of the icosphere.
     """
     return Mesh._of(_core.ellipsoid(triple(semi_axes, "semi_axes"), subdivisions))
 
 
 def box(size: npt.ArrayLike, n: int = 1) -> Mesh:
-    """A box centred at the origin.
+    """Returns a box centred at the origin.
 
     Parameters
     ----------
     size : array_like, (3,)
         Lengths of its edges.
     n : int
-        Each face is a grid of n x n squares of two triangles.
+        Divisions of an edge: each side is a grid of n x n squares of two triangles.
     """
     return Mesh._of(_core.box(triple(size, "size"), n))
 
 
 def torus(ring_radius: float, tube_radius: float, n_ring: int, n_tube: int) -> Mesh:
-    """A torus about the z axis.
+    """Returns a torus about the z axis.
 
     Parameters
     ----------
     ring_radius, tube_radius : float
-        Of the centre line, and of the tube around it.
+        Radius of the centre line, and of the tube around it.
     n_ring, n_tube : int
-        Vertices along each.
+        Numbers of vertices along each.
     """
     return Mesh._of(_core.torus(ring_radius, tube_radius, n_ring, n_tube))
 
 
 def bumpy_sphere(subdivisions: int, amplitude: float = 0.2, seed: int = 1) -> Mesh:
-    """A star-shaped test body: 1 + amplitude times a smooth sum of waves, on an icosphere.
+    """Returns a star-shaped test body: 1 + amplitude times a smooth sum of waves, on an icosphere.
 
     Parameters
     ----------
     subdivisions : int
-        Of the icosphere.
+        Subdivisions of the icosphere.
     amplitude : float
-        0 ... 1.
+        Amplitude of the waves, 0 ... 1.
     seed : int
-        Chooses the waves.
+        Seed that chooses the waves.
     """
     return Mesh._of(_core.bumpy_sphere(subdivisions, amplitude, seed))
 
@@ -96,7 +96,7 @@ def directions_for(
     like: MeshLike | None,
     center: npt.NDArray[np.float64],
 ) -> _core.Mesh:
-    """The directions in which a surface of a degree is made, by at most one of three wishes."""
+    """Returns the directions for a surface of a degree, from at most one of the three arguments."""
     if (subdivisions is not None) + (grid is not None) + (like is not None) > 1:
         raise InvalidInputError("subdivisions, grid and like exclude one another: give one of them")
     if grid is not None:
@@ -107,7 +107,9 @@ def directions_for(
 
 
 def subdivisions_for(degree: int) -> int:
-    """Of an icosphere with two vertices a coefficient, 4 ... 7: as the program has it."""
+    """Returns the subdivisions of an icosphere with two vertices per coefficient, 4 ... 7, as in
+    the program.
+    """
     n = 4
     while n < 7 and 10 * 4**n + 2 < 2 * (degree + 1) ** 2:
         n += 1

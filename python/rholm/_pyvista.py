@@ -1,4 +1,4 @@
-"""The accessor ``dataset.rholm`` of PyVista's meshes; found by PyVista's entry point."""
+"""The accessor ``dataset.rholm`` of PyVista's meshes, which PyVista finds by its entry point."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from . import Atlas, Comparison, Expansion, compare, compress, expand, reconstru
 
 @pyvista.register_dataset_accessor("rholm", pyvista.PolyData)
 class RholmAccessor:
-    """What rholm makes of a `pyvista.PolyData`.
+    """Functions of rholm for a `pyvista.PolyData`.
 
     Examples
     --------
@@ -24,25 +24,25 @@ class RholmAccessor:
         self._dataset = dataset
 
     def expand(self, degree: int | None = None, **options: Any) -> Expansion:
-        """See `rholm.expand`."""
+        """Computes an expansion; see `rholm.expand`."""
         return expand(self._dataset, degree, **options)
 
     def compress(self, tolerance: float, **options: Any) -> Atlas:
-        """See `rholm.compress`."""
+        """Computes an atlas; see `rholm.compress`."""
         return compress(self._dataset, tolerance, **options)
 
     def smooth(self, region: Any, wavelength: float, **options: Any) -> pyvista.PolyData:
-        """See `rholm.smooth`."""
+        """Smooths a region; see `rholm.smooth`."""
         return smooth(self._dataset, region, wavelength, **options).to_pyvista()
 
     def reconstruct(self, **options: Any) -> pyvista.PolyData:
-        """See `rholm.reconstruct`."""
+        """Reconstructs a surface; see `rholm.reconstruct`."""
         return reconstruct(self._dataset, **options).mesh.to_pyvista()
 
     def repair(self, **options: Any) -> pyvista.PolyData:
-        """See `rholm.repair`."""
+        """Repairs the mesh; see `rholm.repair`."""
         return repair(self._dataset, **options).mesh.to_pyvista()
 
     def compare(self, other: Any, **options: Any) -> Comparison:
-        """See `rholm.compare`."""
+        """Compares two surfaces; see `rholm.compare`."""
         return compare(self._dataset, other, **options)

@@ -1,4 +1,4 @@
-"""Surfaces from points."""
+"""Reconstructs surfaces from points."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ class _Parts(NamedTuple):
 
 
 class Reconstruction(_Parts):
-    """What `reconstruct` made of points: ``mesh, atlas, report = r``.
+    """Result of `reconstruct`: ``mesh, atlas, report = r``.
 
-    With an ``output`` the first two of these are None; ``r.mesh`` and ``r.atlas`` read the files when they
-    are first asked for.
+    With an ``output`` the first two items are None. ``r.mesh`` and ``r.atlas`` then read the files
+    each time they are asked for.
     """
 
     report: _core.ReconstructReport
@@ -42,7 +42,9 @@ class Reconstruction(_Parts):
 
     @property
     def mesh(self) -> Mesh:
-        """Closed and oriented outwards (open with holes="keep"), with normals and the points' attributes."""
+        """Mesh with normals and the points' attributes, closed (open with holes="keep"), oriented
+        outwards.
+        """
         if self[0] is None and self._files is not None:
             return as_mesh(self._files[0])
         mesh: Mesh = self[0]
@@ -50,7 +52,7 @@ class Reconstruction(_Parts):
 
     @property
     def atlas(self) -> Atlas:
-        """The caps; ``atlas.mesh()`` is the same mesh again, without the points' attributes."""
+        """The caps; ``atlas.mesh()`` makes the same mesh again, without the points' attributes."""
         if self[1] is None and self._files is not None:
             if self._files[1] is None:
                 raise InvalidInputError("the caps are not kept beside an output: give a model=")
@@ -71,7 +73,9 @@ class Reconstruction(_Parts):
 
 
 def _warn_of_normals(report: _core.ReconstructReport) -> None:
-    """As the program ends with exit code 4: see kMostCrossing and the limits beside it in reconstruct.h."""
+    """Warns of an unreliable surface. The limits are kMostCrossing and others in reconstruct.h, for
+    which the program ends with exit code 4.
+    """
     if report.points_off_surface > 0.5:
         warnings.warn(
             f"{100 * report.points_off_surface:.3g} % of the points lie off the surface, first at "
@@ -111,30 +115,32 @@ def reconstruct(
     progress: Progress = None,
     **options: Unpack[ReconstructKeywords],
 ) -> Reconstruction:
-    """A surface from points: the one that ``rholm reconstruct`` makes of the same points and options.
+    """Reconstructs a surface from points. It is the same as from ``rholm reconstruct`` with these
+    options.
 
-    Up to `tile_points` points are worked on in one piece. More are cut into tiles of space, each is worked
-    on with the points around it, and the parts are one surface, without seams. Its bytes are the same
-    for any memory, any number of threads and any folder, and, in several tiles, any order of the points
-    (of points at one place the first one's attributes count).
+    Up to `tile_points` points are reconstructed in one tile. More are cut into tiles of space. Each
+    tile uses the points around it too, and the parts join to one surface without seams. The bytes
+    of the surface are the same for any memory, number of threads and folder. With several tiles the
+    order of points does not matter either, except at points with the same place: the attributes of
+    the first one are used.
 
     Parameters
     ----------
     points : array_like (N, 3), PointCloud, (points, normals), path, points of trimesh, PyVista, meshio
-        At least 16 different ones. If they are more than a tile, a binary or text PLY of points and
-        lines of numbers are read in portions; other files, and meshes, of which the vertices are
-        taken, as a whole. Rows that are masked or not finite are dropped, and counted in
+        At least 16 different points. A PLY of points and lines of numbers are read in portions if
+        they have more points than a tile. Other files and meshes are read as a whole; of meshes the
+        vertices are used. Rows that are masked or not finite are dropped, and counted in
         ``r.report.dropped_points``.
     normals : array_like, (N, 3), optional
-        They point outwards; of any length. Computed if there are none. Those that contradict their
-        neighbours are turned, as ``r.report.mended_normals`` says.
+        Outward normals of any length; missing normals are computed. Normals that contradict their
+        neighbours are turned: see ``r.report.mended_normals``.
     attributes : mapping of str to array_like, optional
-        Of points, (N,) or (N, k) each: carried over to the mesh.
+        Attributes of points, (N,) or (N, k) each, for the mesh.
     columns : str or sequence of str, optional
-        What the columns of a text table or of an array are, as in `read_shape`.
+        Meaning of the columns of a text table or array, as in `read_shape`.
     foreseen : callable, optional
-        Called as ``f(forecast)`` with a `TileForecast` before the work on several tiles, once the points
-        have been counted; what it raises ends the run.
+        Called as ``f(forecast)`` with a `TileForecast` if there are several tiles, after the points
+        are counted. An exception in it ends the run.
     {options}
     threads, progress
         See `rholm.caller`.
@@ -142,27 +148,27 @@ def reconstruct(
     Returns
     -------
     r : Reconstruction
-        ``r.mesh``, ``r.atlas``, ``r.report``. With an `output` the first two are read from the files of
-        `output` and `model` when they are asked for.
+        Result with ``r.mesh``, ``r.atlas``, ``r.report``. With an `output` the first two are read
+        from the files of `output` and `model` when needed.
 
     Raises
     ------
     InvalidInputError
-        For fewer than 16 different points, points that no closed surface goes with, and points that
-        lie on a curve or fill a volume; for a malformed file; for `resume` without an `output`, and with a
-        folder that has other files, or what a run with another input or other options has left.
+        For fewer than 16 different points, and points that fit no closed surface, lie on a curve or
+        fill a volume. For a malformed file. For `resume` without an `output`, or with a folder that
+        has other files or work of other input or options.
     IoError
-        If a file cannot be read or written, a disk has not the room that is foreseen, or another
-        process works in the folder.
+        If a file cannot be read or written, the disk is too small, or another process works in the
+        folder.
     OutOfMemoryError
-        If more than allowed would be needed, with the `tile_points` or the step that would do.
+        If the need is above `max_memory`; it names sufficient `tile_points` or `step`.
     UnsupportedError
-        For an `output` that is named as another format than PLY.
+        For an `output` with the name of a format other than PLY.
 
     Warns
     -----
     UserWarning
-        Where normals contradict each other, and it cannot be decided which of them are right.
+        If the surface is unreliable, for example where normals contradict each other.
     """
     if foreseen is not None and not callable(foreseen):
         raise TypeError(f"foreseen is a callable or None, not {foreseen!r}")
@@ -185,7 +191,7 @@ def reconstruct(
 def _source(
     points: PointsLike, normals: Any, attributes: Any, columns: Any
 ) -> tuple[_core.PointCloud | Path, int]:
-    """A file, or points in memory, and how many of them their reader dropped."""
+    """Returns a file or points in memory, and the number of points that their reader dropped."""
     if normals is None and attributes is None and isinstance(points, (str, os.PathLike)):
         return Path(points), 0
     shape, dropped = shape_of_path(points, columns)
@@ -193,31 +199,31 @@ def _source(
 
 
 def foresee_tiles(points: int, tile_points: int = 1 << 20) -> _core.TileForecast:
-    """What `reconstruct` of many points will take, about; attributes of the points are not counted.
+    """Estimates the resources of `reconstruct` for a number of points, without attributes.
 
     Parameters
     ----------
     points : int
-        How many there are.
+        Number of points.
     tile_points : int
         As in `reconstruct`.
 
     Returns
     -------
     forecast : TileForecast
-        Numbers of ``points`` and ``tiles``; bytes of ``memory``, ``stored`` beside it or in a folder,
-        and ``written`` to the surface's file.
+        Numbers of ``points`` and ``tiles``, and sizes in bytes. ``memory`` is needed besides
+        ``stored``, which is in memory or a folder. ``written`` is the surface's file.
 
     Raises
     ------
     InvalidInputError
-        For tiles of another size.
+        For `tile_points` out of range.
     """
     return _core.foresee_tiles(points, tile_points)
 
 
 class BrickForecast(NamedTuple):
-    """What `foresee_bricks` returned in the version before."""
+    """Result of `foresee_bricks`, a name of the previous version."""
 
     points: int
     bricks: int
@@ -227,7 +233,7 @@ class BrickForecast(NamedTuple):
 
 
 class BrickReconstruction(NamedTuple):
-    """What `reconstruct_bricks` returned in the version before."""
+    """Result of `reconstruct_bricks`, a name of the previous version."""
 
     report: _core.ReconstructReport
     bounds: _core.Bounds
@@ -264,7 +270,7 @@ def _reconstruct_bricks(
     )
 
 
-#: Names of the version before, and what stands for them.
+#: Names of the previous version, with their replacements.
 _OLD_NAMES = {
     "reconstruct_bricks": ("reconstruct(output=..., tile_points=...)", _reconstruct_bricks),
     "foresee_bricks": ("foresee_tiles()", _foresee_bricks),
@@ -274,12 +280,12 @@ _OLD_NAMES = {
 
 
 def old_thing(name: str) -> object:
-    """What the package had under a name in the version before.
+    """Returns the object that had a name in the previous version, and warns.
 
     Parameters
     ----------
     name : str
-        AttributeError for one that it had not.
+        Name. Any other name raises AttributeError.
     """
     if name not in _OLD_NAMES:
         raise AttributeError(f"module 'rholm' has no attribute {name!r}")

@@ -1,4 +1,4 @@
-"""Rotations, and what stands for one."""
+"""Rotations and conversions between their forms."""
 
 from __future__ import annotations
 
@@ -14,18 +14,17 @@ from ._errors import InvalidInputError
 Rotation = _core.Rotation
 
 
-#: What stands for a rotation: a `Rotation`, a matrix (3, 3), scipy's Rotation, or a quaternion
-#: (w, x, y, z).
+#: A rotation: a `Rotation`, a matrix (3, 3), scipy's Rotation, or a quaternion (w, x, y, z).
 RotationLike = Union[_core.Rotation, npt.ArrayLike, Any]
 
 
 def as_rotation(rotation: RotationLike) -> _core.Rotation:
-    """A `Rotation` of whatever stands for one.
+    """Converts any form of a rotation to a `Rotation`.
 
     Parameters
     ----------
     rotation : Rotation, array_like (3, 3) or (4,), scipy.spatial.transform.Rotation
-        Four numbers are a quaternion (w, x, y, z).
+        The rotation. Four numbers are a quaternion (w, x, y, z).
     """
     if isinstance(rotation, _core.Rotation):
         return rotation
@@ -40,27 +39,27 @@ def as_rotation(rotation: RotationLike) -> _core.Rotation:
 
 
 def rotation_about(axis: npt.ArrayLike, angle: float) -> _core.Rotation:
-    """A turn about an axis.
+    """Returns the rotation about an axis.
 
     Parameters
     ----------
     axis : array_like, (3,)
-        Of any length but 0.
+        Axis of any length but 0.
     angle : float
-        Radians, counter-clockwise seen from the tip of the axis.
+        Angle in radians, counter-clockwise seen from the tip of the axis.
     """
     return _core.rotation_about(triple(axis, "axis"), angle)
 
 
 def rotation_of(alpha: Any, beta: float | None = None, gamma: float | None = None) -> _core.Rotation:
-    """The rotation of Euler angles Rz(alpha) Ry(beta) Rz(gamma), or of a matrix.
+    """Returns the rotation for Euler angles Rz(alpha) Ry(beta) Rz(gamma), or for a matrix.
 
     Parameters
     ----------
     alpha : float, or array_like (3, 3)
-        Radians, about z, last; or a matrix whose R R^T is 1 within 1e-4.
+        Angle about z, applied last, in radians. Alternatively a matrix with R R^T within 1e-4 of 1.
     beta, gamma : float, optional
-        About y; about z, first. All about the fixed axes.
+        Angle about y, and angle about z, applied first. All axes are fixed.
     """
     if beta is None and gamma is None:
         return as_rotation(alpha)
@@ -70,29 +69,30 @@ def rotation_of(alpha: Any, beta: float | None = None, gamma: float | None = Non
 
 
 def axis_angle_of(rotation: RotationLike) -> tuple[FloatArray, float]:
-    """Unit axis, (3,), and angle, 0 ... pi.
+    """Returns the unit axis, (3,), and the angle, 0 ... pi.
 
     Parameters
     ----------
     rotation : rotation-like
-        For an angle of 0 the axis is z.
+        The rotation. For an angle of 0 the axis is z.
     """
     return _core.axis_angle_of(as_rotation(rotation))
 
 
 def euler_angles_of(rotation: RotationLike) -> tuple[float, float, float]:
-    """(alpha, beta, gamma) of Rz(alpha) Ry(beta) Rz(gamma), radians.
+    """Returns (alpha, beta, gamma) of Rz(alpha) Ry(beta) Rz(gamma), in radians.
 
     Parameters
     ----------
     rotation : rotation-like
-        For beta = 0 or pi alpha and gamma are given half of their sum or difference each.
+        The rotation. For beta = 0 or pi only the sum or difference of alpha and gamma matters: each
+        is given half of it.
     """
     return _core.euler_angles_of(as_rotation(rotation))
 
 
 def matrix_of(rotation: RotationLike) -> FloatArray:
-    """The orthogonal matrix R, (3, 3): the point x becomes R x.
+    """Returns the orthogonal matrix R, (3, 3), that takes the point x to R x.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def matrix_of(rotation: RotationLike) -> FloatArray:
 
 
 def compose(second: RotationLike, first: RotationLike) -> _core.Rotation:
-    """`second` after `first`.
+    """Returns the rotation that applies `first`, then `second`.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ def compose(second: RotationLike, first: RotationLike) -> _core.Rotation:
 
 
 def inverse(rotation: RotationLike) -> _core.Rotation:
-    """Back again.
+    """Returns the inverse rotation.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def inverse(rotation: RotationLike) -> _core.Rotation:
 
 
 def angle_between(a: RotationLike, b: RotationLike) -> float:
-    """The angle of the rotation that takes one to the other, 0 ... pi.
+    """Returns the angle of the rotation that takes one to the other, 0 ... pi.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How computations run: threads and progress."""
+"""Threads and progress of computations."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 from . import _core
 from ._errors import UnsupportedError
 
-#: A callable f(stage, fraction), True for a bar, False for none, None for a bar where one is seen.
+#: A callable f(stage, fraction), True for a bar, False for none, None for a bar on terminals.
 Progress = Callable[[str, float], Any] | bool | None
 
 os.register_at_fork(after_in_child=_core.after_fork_in_child)
@@ -31,7 +31,7 @@ def _bar_is_seen() -> bool:
 
 
 class _Bar:
-    """A tqdm bar for the stages of one computation, one after the other."""
+    """A tqdm bar that shows the stages of one computation one after the other."""
 
     def __init__(self) -> None:
         from tqdm.auto import tqdm
@@ -53,13 +53,13 @@ class _Bar:
     def close(self, done: bool) -> None:
         if self._bar is None:
             return
-        if done:  # the last step is not told; a bar that is not full is shown as one that failed
+        if done:  # the last step is not reported; a bar that is not full would look like a failure
             self._bar.n = self._bar.total
         self._bar.close()
 
 
 def named(path: str | os.PathLike[str], endings: tuple[str, ...], what: str) -> str:
-    """The path of a file, unless its name says that it is something else."""
+    """Returns the path of a file. Raises UnsupportedError if its extension names another format."""
     name = os.fspath(path)
     ending = os.path.splitext(name)[1].lower()
     if ending[1:2].isalpha() and ending not in endings:
@@ -71,7 +71,7 @@ def named(path: str | os.PathLike[str], endings: tuple[str, ...], what: str) -> 
 
 @contextmanager
 def reporter(progress: Progress) -> Iterator[Any]:
-    """What is called for a Progress: a callable f(stage, fraction), or None."""
+    """Yields the function to call for a Progress: a callable f(stage, fraction), or None."""
     bar: _Bar | None = None
     if progress is True or (progress is None and _bar_is_seen()):
         bar = _Bar()
@@ -88,16 +88,16 @@ def reporter(progress: Progress) -> Iterator[Any]:
 
 @contextmanager
 def caller(threads: int = 0, progress: Progress = None) -> Iterator[_core.Caller]:
-    """Threads and progress for one call of the library.
+    """Yields threads and progress for one call of the library.
 
     Parameters
     ----------
     threads : int
-        Worker threads; 0 means one per processor. Results are the same bits for any number.
+        Number of worker threads; 0 means one per processor. Results are the same for any number.
     progress : callable, bool or None
-        Called as ``f(stage, fraction)`` on the thread that called, about 50 times a second at most;
-        returning False stops the computation (`CancelledError`). True: a tqdm bar. None: a bar if
-        standard error is a terminal or in a notebook.
+        Called as ``f(stage, fraction)`` on the calling thread, at most about 50 times a second. If
+        it returns False the computation stops (`CancelledError`). True shows a tqdm bar. None shows
+        a bar if standard error is a terminal, and in notebooks.
     """
     if not isinstance(threads, int) or threads < 0:
         raise ValueError(f"threads is a whole number from 0 on, not {threads!r}")

@@ -1,4 +1,4 @@
-"""Files of meshes and points."""
+"""Reads and writes files of meshes and points."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ._shapes import Mesh, MeshLike, PointCloud, as_shape, columns_text, warn
 
 
 class ShapeFile(NamedTuple):
-    """What `read_shape` read."""
+    """Result of `read_shape`."""
 
     shape: Mesh | PointCloud
     """A `Mesh` if the file has faces, else a `PointCloud`."""
@@ -55,14 +55,14 @@ def read_shape(
     Parameters
     ----------
     path : path
-        The content decides what the file is, the name only where the content does not. Polygons
-        are cut into triangles.
+        File to read. The content decides the format; the name decides only if the content does not.
+        Polygons are cut into triangles.
     attributes : bool
-        Whether attributes of vertices or points are read.
+        True: reads attributes of vertices or points.
     columns : str or sequence of str, optional
-        What the columns of a text table are, as in ``"x,y,z,r,g,b,nx,ny,nz,-"``: also a (alpha), or
-        lat,lon,radius (degrees north and east) for x,y,z; - passes over a column, any other word is
-        the name of an attribute. By default the header and the values tell.
+        Meaning of the columns of a text table, as in ``"x,y,z,r,g,b,nx,ny,nz,-"``. Also possible
+        are a (alpha), and lat,lon,radius (degrees north and east) for x,y,z. A - skips a column;
+        any other word names an attribute. By default the header and the values decide.
     progress
         See `rholm.caller`.
 
@@ -71,9 +71,9 @@ def read_shape(
     IoError
         If the file cannot be read.
     InvalidInputError
-        If it is malformed (with the line or the byte), truncated or empty.
+        If the file is malformed (with the line or the byte), truncated or empty.
     UnsupportedError
-        If its format is not known.
+        If the format is unknown.
     """
     with caller(0, progress) as how:
         read = _core.read_shape(os.fspath(path), attributes, columns_text(columns), how)
@@ -83,16 +83,16 @@ def read_shape(
 def parse_shape(
     data: bytes, name: str = "", *, attributes: bool = True, columns: str | Sequence[str] | None = None
 ) -> ShapeFile:
-    """The same for the bytes of a file.
+    """Reads a mesh or points from the bytes of a file.
 
     Parameters
     ----------
     data : bytes
-        All of them.
+        Content of the file.
     name : str
-        Serves messages, and its extension where the content does not say what it is.
+        Name for messages. Its extension is used if the content does not identify the format.
     attributes : bool
-        Whether attributes are read.
+        True: reads attributes.
     columns : str or sequence of str, optional
         As in `read_shape`.
     """
@@ -110,25 +110,25 @@ def write_shape(
 ) -> None:
     """Writes a mesh or points to a temporary file that replaces `path` when complete.
 
-    Warns (`UserWarning`) where the format's single precision does more to a shape than to round it.
+    Warns (`UserWarning`) if the format's single precision changes a shape by more than rounding.
 
     Parameters
     ----------
     shape : mesh-like or PointCloud
-        What is written; attributes as far as the format has room for them.
+        Shape to write. Attributes are written if the format has room for them.
     path : path
-        Its extension says the format, if `format` does not.
+        File to write. Its extension chooses the format, unless `format` is given.
     format : str, optional
-        The format: a name of `rholm.shape_formats`.
+        Name of the format, from `rholm.shape_formats`.
     ascii : bool
-        Text instead of binary where the format has both.
+        True: writes text if the format has text and binary files.
 
     Raises
     ------
     IoError
-        If it cannot be written.
+        If the file cannot be written.
     UnsupportedError
-        For a format that cannot hold it.
+        For a format that cannot hold the shape.
     """
     core = as_shape(shape)._core
     with caller(0, False) as how:
@@ -138,28 +138,28 @@ def write_shape(
 
 
 def attributes_left_out(shape: MeshLike | PointCloud, format: str) -> list[str]:
-    """Names of the attributes that a format has no room for.
+    """Returns the names of the attributes that a format has no room for.
 
     Parameters
     ----------
     shape : mesh-like or PointCloud
-        What would be written.
+        Shape that would be written.
     format : str
-        A name of `rholm.shape_formats`.
+        Name of the format, from `rholm.shape_formats`.
     """
     return _core.attributes_left_out(list(as_shape(shape).attributes), format)
 
 
 def map_mesh(path: str | os.PathLike[str]) -> tuple[npt.NDArray[Any], IndexArray] | None:
-    """Vertices and triangles of a binary PLY file where they lie in it; None for other files.
+    """Maps vertices and faces of a binary PLY file as arrays without a copy; None for other files.
 
-    Nothing is read before it is used, so the file may be larger than the memory. `expand` of a path
-    does this by itself.
+    Data are read only when they are used, so the file may be larger than the memory. `expand` of a
+    path maps files in the same way.
 
     Parameters
     ----------
     path : path
-        A PLY file of native byte order with vertices and then triangles.
+        PLY file of native byte order with vertices, then triangles.
 
     Returns
     -------

@@ -34,28 +34,28 @@ if TYPE_CHECKING:
 
 
 class Mesh:
-    """Triangles that share vertices.
+    """A mesh of triangles that share vertices.
 
     Parameters
     ----------
     vertices : array_like, (N, 3)
-        In any unit. Copied to float64.
+        Coordinates in any unit, copied to float64.
     triangles : array_like of integers, (M, 3)
-        Vertex indices, counter-clockwise seen from outside. Copied to uint32.
+        Vertex indices, counter-clockwise seen from outside, copied to uint32.
     attributes : mapping of str to array_like, optional
-        Of vertices, (N,) or (N, k) each: ``{"quality": q, "rgb": colors}``. Columns of "rgb" become
-        red, green, blue as in PLY files; those of "normals" nx, ny, nz.
+        Attributes of vertices, (N,) or (N, k) each: ``{"quality": q, "rgb": colors}``. Columns of
+        "rgb" become red, green, blue as in PLY files; columns of "normals" become nx, ny, nz.
 
     Raises
     ------
     InvalidInputError
-        For coordinates that are masked or not finite, indices out of range, attributes of other
-        lengths.
+        For coordinates that are masked or not finite, indices out of range, or attributes of a
+        wrong length.
 
     Notes
     -----
-    `vertices` and `triangles` are arrays over the library's own memory: nothing is copied when the
-    mesh is given to a function.
+    `vertices` and `triangles` are arrays over the library's own memory: a mesh that is given to a
+    function is not copied.
     """
 
     __slots__ = ("_core",)
@@ -91,8 +91,8 @@ class Mesh:
 
     @property
     def normals(self) -> FloatArray:
-        """Unit normals of vertices, (N, 3): the attributes nx, ny, nz, or those of the triangles
-        around each, weighted by area. Zero where a vertex has no triangle. Read-only.
+        """Unit normals of vertices, (N, 3), read-only. They are the attributes nx, ny, nz, or the
+        mean normals of the surrounding faces, weighted by area. A vertex without faces has zeros.
         """
         attributes = self.attributes
         if all(name in attributes for name in ("nx", "ny", "nz")):
@@ -110,35 +110,35 @@ class Mesh:
 
     @property
     def bounds(self) -> _core.Bounds:
-        """The box around the vertices."""
+        """Bounding box of the vertices."""
         return _core.bounds(self._core.vertices)
 
     @property
     def area(self) -> float:
-        """Of all triangles, in the squared unit of the vertices."""
+        """Total area of the faces, in the squared unit of the vertices."""
         return _core.surface_area(self._core)
 
     @property
     def volume(self) -> float:
-        """Signed, in the cubed unit: of a closed mesh that is oriented alike."""
+        """Signed volume in the cubed unit, for a closed, consistently oriented mesh."""
         return _core.enclosed_volume(self._core)
 
     def copy(self) -> Mesh:
-        """The same mesh in memory of its own: a snapshot of one that an editor moves."""
+        """Returns a copy in its own memory, for example a snapshot of a mesh that an editor moves."""
         return Mesh._of(_core.copy_mesh(self._core))
 
     def with_attributes(self, **attributes: npt.ArrayLike) -> Mesh:
-        """The same mesh with these attributes beside its own, or in their place.
+        """Returns the mesh with further attributes, which replace attributes of the same name.
 
         Parameters
         ----------
         **attributes : array_like, (N,) or (N, k)
-            As in the constructor.
+            Attributes as in the constructor.
         """
         return Mesh(self.vertices, self.triangles, {**self.attributes, **attributes})
 
     def inspect(self) -> _core.Inspection:
-        """Counts and measures: closed, manifold, oriented, genus, area, volume."""
+        """Returns counts and measures: closed, manifold, oriented, genus, area, volume."""
         return _core.inspect(self._core)
 
     def save(self, path: str | os.PathLike[str], format: str | None = None, ascii: bool = False) -> None:
@@ -148,25 +148,25 @@ class Mesh:
         write_shape(self, path, format=format, ascii=ascii)
 
     def render(self, **options: Any) -> Any:
-        """A picture; see `rholm.render`."""
+        """Returns a picture; see `rholm.render`."""
         from ._pictures import render
 
         return render(self, **options)
 
     def to_trimesh(self) -> trimesh.Trimesh:
-        """A `trimesh.Trimesh` with the vertices, triangles, normals and colours, as they are."""
+        """Returns a `trimesh.Trimesh` with the same vertices, triangles, normals and colours."""
         from ._interop import mesh_to_trimesh
 
         return mesh_to_trimesh(self)
 
     def to_pyvista(self) -> pyvista.PolyData:
-        """A `pyvista.PolyData` with the attributes as point data."""
+        """Returns a `pyvista.PolyData` with the attributes as point data."""
         from ._interop import mesh_to_pyvista
 
         return mesh_to_pyvista(self)
 
     def to_meshio(self) -> meshio.Mesh:
-        """A `meshio.Mesh` with the attributes as point data."""
+        """Returns a `meshio.Mesh` with the attributes as point data."""
         from ._interop import mesh_to_meshio
 
         return mesh_to_meshio(self)
@@ -193,15 +193,15 @@ class PointCloud:
     Parameters
     ----------
     points : array_like, (N, 3) or (N, k)
-        In any unit. Copied to float64. Columns behind the third are normals, colours or attributes,
-        which their values tell as those of a text table; `columns` of the result says what they were
-        taken for.
+        Coordinates in any unit, copied to float64. Further columns are normals, colours or
+        attributes; their values decide which, as in a text table. `columns` of the result tells
+        their meaning.
     normals : array_like, (N, 3), optional
-        Of any length; they point out of the solid.
+        Normals of any length that point out of the solid.
     attributes : mapping of str to array_like, optional
-        Of points, as in `Mesh`.
+        Attributes of points, as in `Mesh`.
     columns : str or sequence of str, optional
-        What the columns of `points` are, as in `read_shape`.
+        Meaning of the columns of `points`, as in `read_shape`.
     """
 
     __slots__ = ("_columns", "_core")
@@ -248,12 +248,12 @@ class PointCloud:
 
     @property
     def normals(self) -> FloatArray | None:
-        """Normals as they were given, (N, 3) float64, or None; read-only, not copied."""
+        """The given normals, (N, 3) float64, or None; read-only, not copied."""
         return self._core.normals
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """What the columns of the text table or of the array were taken for; () of other points."""
+        """Meaning of the columns of the text table or array; () for other points."""
         return self._columns
 
     @property
@@ -268,7 +268,7 @@ class PointCloud:
 
     @property
     def bounds(self) -> _core.Bounds:
-        """The box around the points."""
+        """Bounding box of the points."""
         return _core.bounds(self._core.points)
 
     def save(self, path: str | os.PathLike[str], format: str | None = None, ascii: bool = False) -> None:
@@ -278,19 +278,19 @@ class PointCloud:
         write_shape(self, path, format=format, ascii=ascii)
 
     def render(self, **options: Any) -> Any:
-        """A picture; see `rholm.render`."""
+        """Returns a picture; see `rholm.render`."""
         from ._pictures import render
 
         return render(self, **options)
 
     def to_trimesh(self) -> trimesh.PointCloud:
-        """A `trimesh.PointCloud`."""
+        """Returns a `trimesh.PointCloud`."""
         from ._interop import cloud_to_trimesh
 
         return cloud_to_trimesh(self)
 
     def to_pyvista(self) -> pyvista.PolyData:
-        """A `pyvista.PolyData` of vertices, with normals and attributes as point data."""
+        """Returns a `pyvista.PolyData` of vertices, with normals and attributes as point data."""
         from ._interop import cloud_to_pyvista
 
         return cloud_to_pyvista(self)
@@ -313,32 +313,33 @@ class PointCloud:
         return notebook_png(self)
 
 
-#: What stands for a mesh: a `Mesh` (or a result that has one, as that of `repair`), (vertices,
-#: triangles), a path, or a mesh of trimesh, PyVista or meshio.
+#: A mesh is a `Mesh`, (vertices, triangles), a path, or a mesh of trimesh, PyVista or meshio. A
+#: result that contains a mesh is accepted too, for example from `repair`.
 MeshLike = Union[Mesh, tuple[Any, Any], str, os.PathLike[str], Any]
 
-#: What stands for points: a `PointCloud` (or a result that has one, as that of `orient`), an array
-#: (N, 3) or (N, k), (points, normals), a path, or points of trimesh, PyVista or meshio. Of what stands for a
-#: mesh, the vertices with their normals: a second array of whole numbers are triangles.
+#: Points are a `PointCloud`, an array (N, 3) or (N, k), (points, normals), a path, or points of
+#: trimesh, PyVista or meshio. A result that contains points is accepted too, for example from
+#: `orient`. A mesh stands for its vertices with their normals. A second array of whole numbers
+#: holds triangles.
 PointsLike = Union[PointCloud, npt.ArrayLike, tuple[Any, Any], str, os.PathLike[str], Any]
 
 
 def as_mesh(shape: MeshLike, attributes: bool = True) -> Mesh:
-    """A `Mesh` of whatever stands for one.
+    """Converts any form of a mesh to a `Mesh`.
 
     Parameters
     ----------
     shape : Mesh, (vertices, triangles), path, trimesh.Trimesh, pyvista.PolyData, meshio.Mesh
-        Packages are recognised by their types; none is imported.
+        The mesh. Packages are recognised by their types; none is imported.
     attributes : bool
-        Whether those of vertices are taken along.
+        True: keeps attributes of vertices.
 
     Raises
     ------
     InvalidInputError
-        For a mesh that is not valid, a file of points.
+        For an invalid mesh, or a file of points.
     TypeError
-        For what is none of these.
+        For any other object.
     """
     shape = _within(shape)
     if isinstance(shape, Mesh):
@@ -368,12 +369,12 @@ def as_mesh(shape: MeshLike, attributes: bool = True) -> Mesh:
 
 
 def outward_mesh(shape: MeshLike) -> Mesh:
-    """A mesh without attributes as `expand` takes it: welded, and outwards if it was inside out."""
+    """Returns a mesh without attributes, prepared as in `expand`: welded, and turned if it is inside out."""
     return Mesh._of(_core.outward(as_mesh(shape, attributes=False)._core))
 
 
 def as_shape(shape: Any) -> Mesh | PointCloud:
-    """A `Mesh` of whatever stands for one, a `PointCloud` of what stands for points."""
+    """Converts any form of a mesh to a `Mesh`, and any form of points to a `PointCloud`."""
     shape = _within(shape)
     if isinstance(shape, (str, os.PathLike)):
         from ._shape_files import read_shape
@@ -387,7 +388,7 @@ def as_shape(shape: Any) -> Mesh | PointCloud:
 
 
 def _within(shape: Any) -> Any:
-    """The shape in a result that has one, as those of `repair`, `orient` and `read_shape`."""
+    """Returns the shape in a result that contains one, for example in a result of `repair` or `orient`."""
     if isinstance(shape, tuple):
         for name in ("mesh", "cloud", "shape"):
             inner = getattr(shape, name, None)
@@ -397,14 +398,14 @@ def _within(shape: Any) -> Any:
 
 
 def _is_pair(shape: Any) -> bool:
-    """Whether it is a pair of arrays, and no list of two points."""
+    """Returns True for a pair of arrays, False for a list of two points."""
     if not isinstance(shape, (tuple, list)) or len(shape) != 2:
         return False
     return isinstance(shape, tuple) or np.ndim(shape[1]) == 2
 
 
 def _are_triangles(values: Any) -> bool:
-    """Whether the second of two arrays is of indices, and not of normals."""
+    """Returns True if the second of two arrays holds indices, False for normals."""
     return plain_array(values, "triangles").dtype.kind in "iu"
 
 
@@ -422,20 +423,20 @@ def as_points(
     attributes: Any = None,
     columns: str | Sequence[str] | None = None,
 ) -> PointCloud:
-    """A `PointCloud` of whatever stands for one.
+    """Converts any form of points to a `PointCloud`.
 
     Parameters
     ----------
     shape : PointCloud, array_like (N, 3), (points, normals), path, points of trimesh, PyVista, meshio
-        An array may have more columns, as in `PointCloud`.
-        A mesh is its vertices, with their normals. A number that is masked (`numpy.ma`) is not known:
-        NaN. `clean` and `reconstruct` drop such points, and count them; others drop them with a warning.
+        The points. An array may have more columns, as in `PointCloud`. A mesh stands for its
+        vertices, with their normals. A masked number (`numpy.ma`) is unknown: NaN. `clean` and
+        `reconstruct` drop such points and count them; other functions drop them with a warning.
     normals : array_like, (N, 3), optional
-        In the place of the shape's own.
+        Normals that replace the shape's own.
     attributes : mapping of str to array_like, optional
-        In the place of the shape's own.
+        Attributes that replace the shape's own.
     columns : str or sequence of str, optional
-        What the columns of a text table or of an array are, as in `read_shape`.
+        Meaning of the columns of a text table or array, as in `read_shape`.
     """
     cloud = _points_of(shape, columns)
     if normals is None and attributes is None:
@@ -448,12 +449,12 @@ def as_points(
 
 
 def columns_text(columns: str | Sequence[str] | None) -> str:
-    """What columns are, as the library takes it.
+    """Returns the meaning of columns in the form that the library takes.
 
     Parameters
     ----------
     columns : str or sequence of str, optional
-        With commas between them, or one each.
+        Names separated by commas, or a sequence of names.
     """
     if columns is None or isinstance(columns, str):
         return columns or ""
@@ -461,7 +462,7 @@ def columns_text(columns: str | Sequence[str] | None) -> str:
 
 
 def warn(text: str) -> None:
-    """Says something to whoever called the package.
+    """Warns the caller of the package: the warning points to the first frame outside of it.
 
     Parameters
     ----------
@@ -475,19 +476,20 @@ def warn(text: str) -> None:
 
 
 def shape_of_path(shape: Any, columns: str | Sequence[str] | None = None) -> tuple[Any, int]:
-    """What a path names is read; anything else stays as it is.
+    """Reads the shape of a path; returns any other object unchanged.
 
     Parameters
     ----------
     shape : path, or anything else
-        What its reader is not sure of, and what it dropped, is said by a warning.
+        Path or other object. A warning tells which meanings are unsure, and how many points are
+        dropped.
     columns : str or sequence of str, optional
-        What the columns of a text table are, as in `read_shape`.
+        Meaning of the columns of a text table, as in `read_shape`.
 
     Returns
     -------
     shape, dropped
-        How many points of the file were dropped, as they are not finite.
+        The shape, and the number of points dropped because they are not finite.
     """
     if not isinstance(shape, (str, os.PathLike)):
         return shape, 0
@@ -525,14 +527,14 @@ AnyShape = TypeVar("AnyShape", bound=Mesh | PointCloud)
 def finite_points(
     shape: AnyShape, *values: npt.NDArray[Any] | None
 ) -> tuple[AnyShape, list[npt.NDArray[Any] | None]]:
-    """A shape without points that have a coordinate that is not finite: a warning counts them.
+    """Returns a shape without points that are not finite. A warning tells their number.
 
     Parameters
     ----------
     shape : Mesh or PointCloud
-        A mesh stays as it is.
+        The shape. A mesh is returned unchanged.
     *values : ndarray, (N, ...), or None
-        Of the points: those of the points that stay are the second result.
+        Values of the points. The second result holds the values of the remaining points.
     """
     if isinstance(shape, Mesh):
         return shape, list(values)
@@ -553,28 +555,29 @@ def finite_points(
 
 
 def vertex_colors(mesh: MeshLike | PointCloud) -> npt.NDArray[np.float32] | None:
-    """The attributes red, green and blue, (N, 3) float32 in 0 ... 1, or None.
+    """Returns the attributes red, green and blue, (N, 3) float32 in 0 ... 1, or None.
 
     Parameters
     ----------
     mesh : mesh-like or PointCloud
-        Whole numbers are bytes, others parts of 1.
+        The shape. Whole numbers count as bytes, others as fractions of 1.
     """
     colors = _core.vertex_colors(as_shape(mesh)._core)
     return read_only(colors) if len(colors) else None
 
 
 def validate(shape: MeshLike | PointCloud) -> None:
-    """Raises InvalidInputError unless coordinates are finite, indices in range, attributes as many.
+    """Raises InvalidInputError unless coordinates are finite, indices in range, attributes of equal
+    length.
 
     Parameters
     ----------
     shape : mesh-like or PointCloud
-        An empty one is valid.
+        The shape. An empty shape is valid.
     """
     _core.validate(as_shape(shape)._core)
 
 
 def name_of(shape: Any) -> str:
-    """What a shape is called: the name of its file."""
+    """Returns the name of a shape: the name of its file."""
     return Path(shape).name if isinstance(shape, (str, os.PathLike)) else ""

@@ -1,4 +1,4 @@
-"""The studio in notebooks: shapes under the hand, and back in Python."""
+"""The studio in notebooks: edits shapes in a page, and returns them to Python."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ if TYPE_CHECKING:
 
 _SCRIPT = Path(__file__).with_name("studio.js")
 _HEIGHT = 720  # pixels; chosen: the page's panels fit
-_BEAT = 10.0  # seconds: how often the page hears that Python is there (web/src/messages.ts)
+_BEAT = 10.0  # Seconds between signs of life that the page gets from Python (web/src/messages.ts).
 
 
 def studio_script() -> str:
-    """The JavaScript that shows the page of the studio."""
+    """Returns the JavaScript that shows the page of the studio."""
     try:
         return _SCRIPT.read_text(encoding="utf-8")
     except FileNotFoundError:
@@ -46,7 +46,7 @@ def studio_script() -> str:
 
 @functools.cache
 def _widget_class() -> Any:
-    """The class of widgets, once anywidget is wanted."""
+    """Returns the class of widgets; anywidget is imported at the first call."""
     base = required("anywidget", "notebook").AnyWidget
     traitlets = required("traitlets", "notebook")
     members = {
@@ -67,7 +67,7 @@ def _is_points(thing: Any) -> bool:
 
 
 def _file_of(thing: Any) -> tuple[str, bytes]:
-    """A name and the bytes of a file that the studio opens."""
+    """Returns a name and the bytes of a file that the studio can open."""
     if isinstance(thing, (str, os.PathLike)):
         return name_of(thing), Path(thing).read_bytes()
     with tempfile.TemporaryDirectory(prefix="rholm-") as folder:
@@ -82,7 +82,7 @@ def _file_of(thing: Any) -> tuple[str, bytes]:
 
 
 def _told(core: _core.Studio, session: str, widget: weakref.ref[Any]) -> None:
-    """Tells the widget what happens in the session, until that ends."""
+    """Sends events of the session to the widget until the session ends."""
     listener = core.listen(session)
     while listener is not None and not listener.ended:
         events = listener.wait(_BEAT) or [("beat", "")]
@@ -94,15 +94,16 @@ def _told(core: _core.Studio, session: str, widget: weakref.ref[Any]) -> None:
 
 
 class Studio:
-    """Shapes that are worked on in a page of the notebook, and the way to them from Python.
+    """Shapes that are edited in a page of the notebook, and their access from Python.
 
-    Made by `studio`. The page and Python see the same: what `add` brings appears on the page, what is
-    done on the page is there for ``studio["name"]``. Ends with `close`, with the widget, or with Python.
+    `studio` makes it. The page and Python share the same shapes: `add` shows a shape on the page,
+    and ``studio["name"]`` returns the result of edits. It ends with `close`, with the widget, or
+    with Python.
 
     Attributes
     ----------
     widget : anywidget.AnyWidget
-        The page, to be put into other widgets. A notebook shows the studio itself by it.
+        The page, which can be put into other widgets. A notebook shows it for the studio itself.
     """
 
     def __init__(self, threads: int = 0, height: int = _HEIGHT) -> None:
@@ -131,7 +132,7 @@ class Studio:
         named = error["code"].title().replace("_", "")
         raise BY_CODE.get(named, InvalidInputError)(error["message"])
 
-    # The body of what is asked and the bytes that answer go beside the messages.
+    # The request's body and the response's bytes are sent as buffers beside the messages.
     def _answer(self, widget: Any, asked: dict[str, Any], buffers: list[Any]) -> None:
         if self._core is None:
             return
@@ -160,12 +161,12 @@ class Studio:
 
     @property
     def names(self) -> list[str]:
-        """What the shapes on the page are called, oldest first."""
+        """Names of the shapes on the page, oldest first."""
         return [item["name"] for item in self._state()["items"]]
 
     @property
     def recipe(self) -> str:
-        """Lines of Python that do all that has been done on the page."""
+        """Lines of Python that repeat all edits of the page."""
         return str(self._state()["recipe"]["python"])
 
     def add(
@@ -180,16 +181,16 @@ class Studio:
         Parameters
         ----------
         shape : mesh-like, PointCloud, array (N, 3) of points, Expansion, Atlas, path
-            Of a path the file itself: anything that ``rholm studio`` opens, sessions among them.
+            Shape to open. A path names any file that ``rholm studio`` opens, also a session.
         name : str
-            What it is called; by default as its file.
+            Name of the shape; by default the name of its file.
         columns : str or sequence of str, optional
-            Of the path of a text table: what its columns are, as for `read_shape`.
+            Meaning of the columns of a text table, as in `read_shape`.
 
         Raises
         ------
         InvalidInputError, UnsupportedError, IoError
-            For what cannot be read.
+            For a shape or file that cannot be read.
         """
         called, data = _file_of(shape)
         before = len(self)
@@ -199,14 +200,16 @@ class Studio:
             self._ask("POST", "step", json.dumps({"op": "rename", "item": item, "name": name}).encode())
 
     def __getitem__(self, key: str | int) -> Mesh | PointCloud | Expansion | Atlas:
-        """A shape of the page as it is now, exactly: the expansion or the atlas that is known of it.
+        """Returns the present state of a shape of the page, exactly: its expansion or atlas if it
+        has one.
 
-        A mesh that has not been analyzed is a mesh, points are points; `mesh` has the surface of all.
+        A mesh that is not analyzed is returned as a mesh, points as points. `mesh` returns the
+        surface of any shape.
 
         Parameters
         ----------
         key : str or int
-            Its name (of several of a name the newest) or its number, from 0 or from the end: ``studio[-1]``.
+            Name (the newest shape of that name), or index, also negative: ``studio[-1]``.
         """
         item = self._find(key)
         modelled = item["kind"] == "atlas" or item["expansion"] is not None
@@ -219,17 +222,17 @@ class Studio:
             return load(path)
 
     def mesh(self, key: str | int = -1) -> Mesh:
-        """The surface that the page shows of a shape.
+        """Returns the surface that the page shows of a shape.
 
         Parameters
         ----------
         key : str or int
-            As of ``studio[key]``.
+            Name or index, as in ``studio[key]``.
 
         Raises
         ------
         InvalidInputError
-            For points, which have none.
+            For points, which have no surface.
         """
         item = self._find(key)
         if item["kind"] == "points":
@@ -238,17 +241,20 @@ class Studio:
         return as_mesh(shape)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file of the session: shapes, expansions, caps and recipe, to be opened again.
+        """Writes a file of the session that can be opened again: shapes, expansions, caps and
+        recipe.
 
         Parameters
         ----------
         path : path
-            Replaced when complete.
+            File to write; an existing file is replaced when the new one is complete.
         """
         _core.write_file(os.fspath(path), self._ask("GET", "session-file"))
 
     def close(self) -> None:
-        """Ends it: what runs is cancelled, memory is given back. The page says that nobody answers."""
+        """Ends the studio: cancels running work and frees memory. The page tells that Python does
+        not answer.
+        """
         if self._core is None:
             return
         self._core.close()
@@ -278,32 +284,32 @@ class Studio:
 def studio(
     *shapes: MeshLike | PointsLike | Expansion | Atlas, height: int = _HEIGHT, threads: int = 0
 ) -> Studio:
-    """The studio in a notebook: the page of ``rholm studio``, with these shapes on it.
+    """Shows the studio in a notebook: the page of ``rholm studio``, with these shapes on it.
 
-    Shapes are looked at, analyzed, cut off at any degree, smoothed, given texture, made from points,
-    aligned, blended and compressed by hand; ``studio["name"]`` has what became of them. The computing
-    is done by this Python: while a cell runs the page waits.
+    In the page you can view, analyze, truncate, smooth, texture, align, blend and compress shapes,
+    and reconstruct points. ``studio["name"]`` returns the result. Python does the computing: while
+    a cell runs the page waits.
 
     Parameters
     ----------
     *shapes : mesh-like, PointCloud, array (N, 3) of points, Expansion, Atlas, path
-        As of `Studio.add`. Without any, the page makes one to play with.
+        Shapes as for `Studio.add`. Without shapes the page makes an example.
     height : int
-        Of the page, in pixels.
+        Height of the page in pixels.
     threads : int
-        See `rholm.caller`.
+        Number of threads; see `rholm.caller`.
 
     Returns
     -------
     Studio
-        Shown by the notebook if it is what a cell ends with.
+        The studio. The notebook shows it if it is the last value of a cell.
 
     Raises
     ------
     ImportError
         Without the package anywidget: ``pip install rholm[notebook]``.
     UnsupportedError
-        If this package was built without the studio's page.
+        If the package was built without the studio's page.
     """
     opened = Studio(threads, height)
     try:

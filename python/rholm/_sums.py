@@ -1,4 +1,4 @@
-"""Sums of harmonics at scattered directions, on rings and grids, and back."""
+"""Sums of harmonics at scattered directions, on rings and on grids, and their transposes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ._errors import InvalidInputError
 from ._expansion import CoefficientsLike
 from ._run import Progress, caller
 
-#: Where the rings of a grid are; see `synthesize_grid`.
+#: Places of the rings of a grid; see `synthesize_grid`.
 GridKind = Literal["gauss-legendre", "equiangular", "equiangular-with-poles"]
 
 
@@ -28,18 +28,19 @@ def evaluate(
     threads: int = 0,
     progress: Progress = None,
 ) -> FloatArray:
-    """Values f(u) of a function on the sphere.
+    """Returns values f(u) of a function on the sphere.
 
     Parameters
     ----------
     coefficients : coefficients-like
         The function.
     directions : array_like, (..., 3)
-        Vectors of any length.
+        Directions, vectors of any length.
     engine : {"fast", "direct"}
-        On a grid, O(N + L^3), to a precision; or term by term, O(N L^2), exact to rounding.
+        Kind of sums. The choice "fast" uses a grid, O(N + L^3), to a precision. The choice "direct"
+        sums term by term, O(N L^2), exact to rounding.
     precision : float
-        1e-14 ... 1e-1: the l2 norm of all errors relative to that of sums with random signs.
+        1e-14 ... 1e-1: l2 norm of all errors, relative to the l2 norm of sums with random signs.
     threads, progress
         See `rholm.caller`.
 
@@ -61,7 +62,7 @@ def evaluate_with_gradient(
     threads: int = 0,
     progress: Progress = None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Values and surface gradients on the unit sphere.
+    """Returns values and surface gradients on the unit sphere.
 
     Parameters
     ----------
@@ -94,22 +95,24 @@ def adjoint(
     threads: int = 0,
     progress: Progress = None,
 ) -> FloatArray:
-    """C_lm = sum_j (w_j + g_j . grad + h_j : Hess) Y^c_lm(u_j), S_lm likewise: the transpose of `evaluate`.
+    """Returns C_lm = sum_j (w_j + g_j . grad + h_j : Hess) Y^c_lm(u_j), and S_lm with Y^s_lm: the
+    transpose of `evaluate`.
 
     Parameters
     ----------
     directions : array_like, (N, 3)
-        u_j, of any length.
+        Directions u_j, of any length.
     weights : array_like, (N,), optional
-        w_j.
+        Weights w_j.
     degree : int
-        L of the sums.
+        Highest degree L of the sums.
     gradients : array_like, (N, 3), optional
-        g_j, contracted with the gradient of ``Y(x/|x|)`` in space.
+        Vectors g_j, contracted with the gradient of ``Y(x/|x|)`` in space.
     hessians : array_like, (N, 6), optional
-        h_j, symmetric matrices xx, xy, xz, yy, yz, zz.
+        Symmetric matrices h_j as xx, xy, xz, yy, yz, zz.
     normalization, csphase
-        Of the harmonics that are summed. With "orthonormal" this is the transpose of the sums.
+        Convention of the harmonics in the sums. With "orthonormal" the result is the transpose of
+        `evaluate`.
     engine, precision, threads, progress
         As in `evaluate`.
 
@@ -134,7 +137,7 @@ def adjoint(
             precision,
             how,
         )
-    # A sum with harmonics k times as large is k times as large; coefficients go the other way.
+    # Harmonics k times as large give sums k times as large. Coefficients scale inversely.
     unit = _core.Coefficients(degree)
     unit.values[:] = 1.0
     scale = array_of(unit, normalization, csphase)
@@ -142,51 +145,52 @@ def adjoint(
 
 
 def gauss_legendre(n: int) -> tuple[FloatArray, FloatArray]:
-    """Nodes, descending, and weights of the Gauss-Legendre rule on [-1, 1], (n,) each.
+    """Returns nodes, descending, and weights of the Gauss-Legendre rule on [-1, 1], (n,) each.
 
     Parameters
     ----------
     n : int
-        At least 1: exact for polynomials of degree 2 n - 1.
+        Number of nodes, at least 1. The rule is exact for polynomials of degree 2 n - 1.
     """
     return _core.gauss_legendre(n)
 
 
 def exact_degree(kind: GridKind, n_theta: int, n_phi: int) -> int:
-    """The highest degree to which functions on a grid are analysed exactly.
+    """Returns the highest degree to which functions on a grid are analysed exactly.
 
     Parameters
     ----------
     kind : {"gauss-legendre", "equiangular", "equiangular-with-poles"}
-        Where the rings are.
+        Places of the rings.
     n_theta, n_phi : int
-        Rings, and directions on each.
+        Numbers of rings, and of directions on each.
     """
     return _core.exact_degree(kind, n_theta, n_phi)
 
 
 def smallest_grid(kind: GridKind, degree: int) -> tuple[int, int]:
-    """(n_theta, n_phi) of the smallest grid with that exact degree.
+    """Returns (n_theta, n_phi) of the smallest grid with that exact degree.
 
     Parameters
     ----------
     kind : {"gauss-legendre", "equiangular", "equiangular-with-poles"}
-        Where the rings are.
+        Places of the rings.
     degree : int
-        Wanted.
+        Wanted exact degree.
     """
     return _core.smallest_grid(kind, degree)
 
 
 def grid_colatitudes(kind: GridKind, n_theta: int) -> FloatArray:
-    """Colatitudes of the rings, radians, (n_theta,).
+    """Returns the colatitudes of the rings, in radians, (n_theta,).
 
     Parameters
     ----------
     kind : {"gauss-legendre", "equiangular", "equiangular-with-poles"}
-        arccos of the Gauss-Legendre nodes; (i + 1/2) pi / n_theta; i pi / (n_theta - 1).
+        The colatitudes are, in this order: arccos of the Gauss-Legendre nodes; (i + 1/2) pi /
+        n_theta; i pi / (n_theta - 1).
     n_theta : int
-        How many.
+        Number of rings.
     """
     return _core.grid_colatitudes(kind, n_theta)
 
@@ -200,16 +204,18 @@ def synthesize_grid(
     threads: int = 0,
     progress: Progress = None,
 ) -> FloatArray:
-    """Values on a grid, rings from north to south, longitudes 2 pi k / n_phi: (n_theta, n_phi).
+    """Returns values on a grid, rings from north to south, longitudes 2 pi k / n_phi: (n_theta,
+    n_phi).
 
     Parameters
     ----------
     coefficients : coefficients-like
         The function.
     kind : {"gauss-legendre", "equiangular", "equiangular-with-poles"}
-        Where the rings are.
+        Places of the rings.
     n_theta, n_phi : int, optional
-        By default the smallest grid that `analyze_grid` takes back exactly.
+        Numbers of rings and longitudes. By default the smallest grid that `analyze_grid` inverts
+        exactly.
     threads, progress
         See `rholm.caller`.
     """
@@ -230,19 +236,19 @@ def analyze_grid(
     threads: int = 0,
     progress: Progress = None,
 ) -> FloatArray:
-    """Coefficients of a function given on a grid, (2, L+1, L+1).
+    """Returns the coefficients of a function given on a grid, (2, L+1, L+1).
 
     Parameters
     ----------
     values : array_like, (n_theta, n_phi)
-        Rings from north to south, longitudes 2 pi k / n_phi.
+        Values on rings from north to south, longitudes 2 pi k / n_phi.
     kind : {"gauss-legendre", "equiangular", "equiangular-with-poles"}
-        Where the rings are. pyshtools' "DH" grids are rings from the pole on without the last:
-        `Expansion.to_pyshtools` and its own ``expand()`` know them.
+        Places of the rings. pyshtools' "DH" grids have rings from the pole on, without the last
+        one. Use pyshtools for them: `Expansion.to_pyshtools` and ``expand()``.
     degree : int, optional
-        By default the exact degree of the grid.
+        Highest degree; by default the exact degree of the grid.
     normalization, csphase
-        Of the result.
+        Convention of the result.
     threads, progress
         See `rholm.caller`.
     """
@@ -268,16 +274,16 @@ def evaluate_rings(
     threads: int = 0,
     progress: Progress = None,
 ) -> FloatArray:
-    """Values on rings of any colatitudes, longitudes 2 pi k / n_phi: (n_theta, n_phi).
+    """Returns values on rings of any colatitudes, longitudes 2 pi k / n_phi: (n_theta, n_phi).
 
     Parameters
     ----------
     coefficients : coefficients-like
         The function.
     colatitudes : array_like, (n_theta,)
-        Radians.
+        Colatitudes in radians.
     n_phi : int
-        Directions on each.
+        Number of directions on each ring.
     threads, progress
         See `rholm.caller`.
     """

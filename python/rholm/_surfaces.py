@@ -1,4 +1,4 @@
-"""Surfaces of models, their measures, distances between surfaces."""
+"""Surfaces of models, their measures, and distances between surfaces."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 def distances_to_surface(
     points: npt.ArrayLike, mesh: MeshLike, *, threads: int = 0, progress: Progress = None
 ) -> FloatArray:
-    """Distance from each point to its exact closest point on a surface, (N,).
+    """Returns the distance from each point to its exact closest point on a surface, (N,).
 
     Parameters
     ----------
@@ -42,39 +42,39 @@ def distances_to_surface(
 
 
 def measure(expansion: Expansion, *, threads: int = 0) -> _core.SurfaceMeasures:
-    """Volume, area and centroid of the solid bounded by a surface.
+    """Returns volume, area and centroid of the solid bounded by a surface.
 
     Parameters
     ----------
     expansion : Expansion
-        Of a surface.
+        Expansion of a surface.
     threads : int
-        See `rholm.caller`.
+        Number of threads; see `rholm.caller`.
     """
     return as_expansion(expansion).measure(threads=threads)
 
 
 def inertia(expansion: Expansion, *, threads: int = 0) -> FloatArray:
-    """Tensor of inertia of the solid bounded by a surface, about its centroid, of density 1.
+    """Returns the tensor of inertia of the solid of density 1 about its centroid.
 
     Parameters
     ----------
     expansion : Expansion
-        Of a surface.
+        Expansion of a surface.
     threads : int
-        See `rholm.caller`.
+        Number of threads; see `rholm.caller`.
 
     Returns
     -------
     tensor : float64, (3, 3)
-        Integral of ``|x|^2 1 - x x^T`` over the solid, x from the centroid, in the fifth power of the
-        unit; exact for a radius. ``numpy.linalg.eigh`` of it gives the moments, ascending, and in its
-        columns the axes: the longest first.
+        Integral of ``|x|^2 1 - x x^T`` over the solid, with x from the centroid, in the fifth power
+        of the unit; exact for a radius. ``numpy.linalg.eigh`` returns the moments, ascending, and
+        the axes as columns, the longest first.
 
     Raises
     ------
     UnsupportedError
-        For coefficients that are not of a surface.
+        For coefficients that do not represent a surface.
     InvalidInputError
         For a series without volume.
     """
@@ -82,12 +82,12 @@ def inertia(expansion: Expansion, *, threads: int = 0) -> FloatArray:
 
 
 def directions_of(mesh: MeshLike, center: npt.ArrayLike) -> Mesh:
-    """The directions of a mesh's vertices from a centre, with its triangles.
+    """Returns the directions of a mesh's vertices from a centre, with its connectivity.
 
     Parameters
     ----------
     mesh : mesh-like
-        No vertex lies on the centre.
+        The mesh. No vertex may lie on the centre.
     center : array_like, (3,)
         The centre.
     """
@@ -95,7 +95,7 @@ def directions_of(mesh: MeshLike, center: npt.ArrayLike) -> Mesh:
 
 
 def surface_of(shape: Any, threads: int = 0, progress: Progress = None, points: bool = False) -> Any:
-    """The surface of whatever has one: a mesh-like, an expansion, an atlas; points if they may be."""
+    """Returns the surface of a mesh, an expansion or an atlas, and also points if `points` is True."""
     if isinstance(shape, (str, os.PathLike)) and _core.is_model_file(os.fspath(shape)):
         shape = load(shape)
     if isinstance(shape, (Expansion, Atlas)):
@@ -112,7 +112,7 @@ def compare(
     progress: Progress = None,
     **options: Unpack[CompareKeywords],
 ) -> _core.Comparison:
-    """Two-sided distance between surfaces, by exact closest points of random samples.
+    """Computes the two-sided distance between surfaces, by exact closest points of random samples.
 
     Parameters
     ----------
@@ -129,14 +129,14 @@ def compare(
 
 
 def synthesize(model: Any, **options: Any) -> Mesh:
-    """The surface of an expansion or an atlas.
+    """Returns the surface of an expansion or an atlas.
 
     Parameters
     ----------
     model : Expansion or Atlas
-        Which.
+        The model.
     **options
-        Of `Expansion.mesh` or `Atlas.mesh`.
+        Arguments of `Expansion.mesh` or `Atlas.mesh`.
     """
     if isinstance(model, Atlas):
         return model.mesh(**options)
@@ -149,9 +149,9 @@ def require_star_shaped(expansion: Expansion, what: str) -> None:
     Parameters
     ----------
     expansion : Expansion
-        What is asked about.
+        The expansion to check.
     what : str
-        What is asked for, as the message calls it: "the volume".
+        Name of the requested quantity in the message: "the volume".
 
     Raises
     ------
@@ -162,15 +162,16 @@ def require_star_shaped(expansion: Expansion, what: str) -> None:
 
 
 def require_surface(expansion: Expansion) -> None:
-    """Raises UnsupportedError if the coefficients are said to be of something else than a surface.
+    """Raises UnsupportedError if the coefficients are declared to be something other than a
+    surface.
 
-    It looks at `Expansion.function`, which is "other" for a gravity field, and not at the numbers:
-    neither that the radius is above 0 everywhere nor that there is a volume.
+    The function checks `Expansion.function`, which is "other" for a gravity field. It does not
+    check numbers: the radius may be negative somewhere, and the volume may be missing.
 
     Parameters
     ----------
     expansion : Expansion
-        What is asked about.
+        The expansion to check.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What the package makes of the library's tables; `_tables.pyi` has it for type checkers."""
+"""Types and properties from the library's tables; `_tables.pyi` has them for type checkers."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from typing import Any, Literal
 
 from . import _core
 
-#: The name of a filter window; see `low_pass`.
+#: Name of a filter window; see `low_pass`.
 Window = Literal[tuple(row["name"] for row in _core.windows())]
 
 
 class Described:
-    """What has each descriptor as a property: the figure that its `measure()` gives."""
+    """Base of classes with a property for each descriptor: the number of that name in `measure()`."""
 
     __slots__ = ()
 

@@ -1,4 +1,4 @@
-"""What a mesh is, and what makes it better: edges, welding, repair, fewer triangles."""
+"""Inspection and improvement of meshes: edges, welding, repair, simplification."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class Welded(NamedTuple):
-    """What `weld` made."""
+    """Result of `weld`."""
 
     mesh: Mesh
     """With the vertices that stay."""
@@ -30,37 +30,37 @@ class Welded(NamedTuple):
 
 
 def weld(mesh: MeshLike, tolerance: float = 0.0) -> Welded:
-    """Makes vertices that coincide one.
+    """Merges vertices that coincide.
 
     Parameters
     ----------
     mesh : mesh-like
         The mesh.
     tolerance : float
-        0 joins identical vertices; else all whose distance is at most this, in the mesh's unit.
+        Largest distance of merged vertices, in the mesh's unit; 0 merges identical vertices.
     """
     core, merged, collapsed = _core.weld(as_mesh(mesh)._core, tolerance)
     return Welded(Mesh._of(core), merged, collapsed)
 
 
 def pair_edges(mesh: MeshLike) -> IndexArray:
-    """All edges of a closed, consistently oriented mesh, each once.
+    """Returns all edges of a closed, consistently oriented mesh, each once.
 
     Parameters
     ----------
     mesh : mesh-like
-        The mesh, welded.
+        The welded mesh.
 
     Returns
     -------
     edges : uint32, (E, 4)
-        Vertices a and b, the triangle with a -> b, that with b -> a.
+        Vertices a and b, the face with a -> b, and the face with b -> a.
     """
     return _core.pair_edges(as_mesh(mesh)._core)
 
 
 def bounds(points: npt.ArrayLike) -> _core.Bounds:
-    """The box around points.
+    """Returns the bounding box of points.
 
     Parameters
     ----------
@@ -71,51 +71,52 @@ def bounds(points: npt.ArrayLike) -> _core.Bounds:
 
 
 def inspect(mesh: MeshLike) -> _core.Inspection:
-    """What a mesh is: closed, manifold, oriented, genus, area, volume, and what is wrong with it.
+    """Returns properties of a mesh: closed, manifold, oriented, genus, area, volume, and defects.
 
     Parameters
     ----------
     mesh : mesh-like
-        Counts are those of the mesh given: `weld` first to close seams.
+        The mesh. Counts are of the given mesh: use `weld` first to close seams.
     """
     return as_mesh(mesh).inspect()
 
 
 def closing_tolerance(mesh: MeshLike) -> float | None:
-    """The tolerance at which welding joins the borders of an open mesh, or None.
+    """Returns the tolerance at which welding joins the borders of an open mesh, or None.
 
     Parameters
     ----------
     mesh : mesh-like
-        Welded exactly.
+        The exactly welded mesh.
     """
     return _core.closing_tolerance(as_mesh(mesh)._core)
 
 
 def largest_component(mesh: MeshLike) -> Mesh:
-    """The part of the largest area.
+    """Returns the part of the largest area.
 
     Parameters
     ----------
     mesh : mesh-like
-        Parts are connected through edges: `weld` first to close seams.
+        The mesh. Parts are connected through edges: use `weld` first to close seams.
     """
     return Mesh._of(_core.largest_component(as_mesh(mesh)._core))
 
 
 def flip(mesh: MeshLike) -> Mesh:
-    """The mesh with every triangle reversed; normals among the attributes change sign.
+    """Returns the mesh with every face reversed; normals among the attributes change sign.
 
     Parameters
     ----------
     mesh : mesh-like
-        Stays as it is.
+        The mesh, which does not change.
     """
     return Mesh._of(_core.flip(as_mesh(mesh)._core))
 
 
 def area_normals(mesh: MeshLike) -> FloatArray:
-    """At each vertex the sum of its triangles' normals, each twice its area long, (N, 3).
+    """Returns at each vertex the sum of its faces' normals, each as long as twice the face's area,
+    (N, 3).
 
     Parameters
     ----------
@@ -126,7 +127,7 @@ def area_normals(mesh: MeshLike) -> FloatArray:
 
 
 def surface_area(mesh: MeshLike) -> float:
-    """Sum of the areas of the triangles.
+    """Returns the sum of the areas of the faces.
 
     Parameters
     ----------
@@ -137,18 +138,19 @@ def surface_area(mesh: MeshLike) -> float:
 
 
 def enclosed_volume(mesh: MeshLike) -> float:
-    """Signed volume of a closed mesh: positive if triangles are counter-clockwise from outside.
+    """Returns the signed volume of a closed mesh: positive if faces are counter-clockwise from
+    outside.
 
     Parameters
     ----------
     mesh : mesh-like
-        Closed and oriented alike.
+        Closed, consistently oriented mesh.
     """
     return as_mesh(mesh).volume
 
 
 class Repaired(NamedTuple):
-    """What `repair` made."""
+    """Result of `repair`."""
 
     mesh: Mesh
     """Closed parts face outwards, cavities inwards."""
@@ -160,12 +162,13 @@ class Repaired(NamedTuple):
 def repair(
     mesh: MeshLike, *, threads: int = 0, progress: Progress = None, **options: Unpack[RepairKeywords]
 ) -> Repaired:
-    """Welds, drops duplicate and degenerate faces, separates sheets, orients, closes small holes.
+    """Welds, drops duplicate and degenerate faces, separates sheets, orients, and closes small
+    holes.
 
     Parameters
     ----------
     mesh : mesh-like
-        The mesh; its vertices keep their order and attributes, new ones come last.
+        The mesh. Its vertices keep their order and attributes; new ones come last.
     {options}
     threads, progress
         See `rholm.caller`.
@@ -177,7 +180,7 @@ def repair(
 
 
 class Simplification(NamedTuple):
-    """What `simplify` made."""
+    """Result of `simplify`."""
 
     mesh: Mesh
     """Its vertices are some of the given ones, with their attributes, in their order."""
@@ -194,18 +197,19 @@ def simplify(
     threads: int = 0,
     progress: Progress = None,
 ) -> Simplification:
-    """Fewer triangles for the same surface, by edges that shrink to one of their ends.
+    """Reduces the number of faces of a surface, by edges that collapse to one of their ends.
 
     Parameters
     ----------
     mesh : mesh-like
-        The mesh. A surface stays what it is: closed, manifold, of the same genus.
+        The mesh. Its topology is kept: closed, manifold, genus.
     triangles : int, optional
-        No more than these are left.
+        Largest number of faces in the result.
     share : float, optional
-        No more than this share of the given triangles is left, 0 ... 1.
+        Largest share of the given faces in the result, 0 ... 1.
     max_error : float, optional
-        No vertex would be farther than this from the planes it stands for, in the mesh's unit.
+        Largest distance of a removed vertex's place in the result from the planes of its faces, in
+        the mesh's unit.
     threads, progress
         See `rholm.caller`.
 

@@ -21,9 +21,10 @@ if TYPE_CHECKING:
 
 
 class TransferEditor:
-    """Detail of one surface on another, whose height and turn are sliders: made by `analyze_transfer`.
+    """Detail of one surface on another, with adjustable height and angle, made by
+    `analyze_transfer`.
 
-    Setting a property moves the vertices of `mesh` at once, where they lie.
+    Setting a property moves the vertices of `mesh` at once, in place.
     """
 
     __slots__ = ("_analysis", "_mesh", "_patch", "_wanted")
@@ -38,22 +39,22 @@ class TransferEditor:
 
     @property
     def mesh(self) -> Mesh:
-        """The target as it is now; its arrays follow the editor."""
+        """The target in its present state; its arrays follow the editor."""
         return Mesh._of(self._mesh)
 
     @property
     def report(self) -> _core.TransferReport:
-        """What the analysis found."""
+        """Findings of the analysis."""
         return self._analysis.report
 
     @property
     def vertices(self) -> IndexArray:
-        """Indices of those that may move, (n,)."""
+        """Indices of the vertices that may move, (n,)."""
         return read_only(self._patch.vertices)
 
     @property
     def height(self) -> float:
-        """Of the texture, times what the scale makes of it; 0 until it is set."""
+        """Factor of the texture's heights, in addition to the scale; 0 until it is set."""
         height: float = self._wanted["height"]
         return height
 
@@ -63,7 +64,7 @@ class TransferEditor:
 
     @property
     def angle(self) -> float | None:
-        """Turn of the texture, radians; None: where it is most like the target's own detail."""
+        """Rotation of the texture in radians; None: the angle of the analysis."""
         angle: float | None = self._wanted["angle"]
         return angle
 
@@ -72,13 +73,13 @@ class TransferEditor:
         self.set(angle=None if value is None else float(value))
 
     def set(self, **wanted: Any) -> None:
-        """Several sliders at once.
+        """Sets several properties at once.
 
         Parameters
         ----------
         **wanted
-            height, angle; repeat: the texture is laid side by side over a larger region;
-            remove_own: the target's own detail goes first; mode: "displacement" or "coefficients".
+            height and angle. repeat: the texture is repeated over a larger region. remove_own: the
+            target's own detail is removed first. mode: "displacement" or "coefficients".
         """
         new = self._merged(wanted)
         if new["height"] == 0 and not new["remove_own"]:
@@ -89,12 +90,12 @@ class TransferEditor:
         self._wanted = new
 
     def positions(self, **wanted: Any) -> FloatArray:
-        """Where `vertices` would be, (n, 3); the mesh stays as it is.
+        """Returns the positions of `vertices` for other settings, (n, 3). The mesh does not change.
 
         Parameters
         ----------
         **wanted
-            As in `set`; by default as they are.
+            Settings as in `set`; by default the present values.
         """
         update = _core.TransferUpdate(**self._merged(wanted))
         with caller(0, False) as how:
@@ -125,7 +126,7 @@ class TransferEditor:
 
 
 class TransferSource:
-    """A texture taken from its source, to be laid on any number of targets: made by `analyze_source`."""
+    """A texture extracted from its source, for any number of targets, made by `analyze_source`."""
 
     __slots__ = ("_source",)
 
@@ -143,27 +144,27 @@ class TransferSource:
 
     @property
     def from_degree(self) -> int:
-        """What harmonics up to this degree leave of the source is the texture."""
+        """The texture is the part of the source that harmonics up to this degree leave."""
         return self._source.from_degree
 
     @property
     def radius(self) -> float:
-        """Of a disc with the area of the region."""
+        """Radius of a disc with the area of the region."""
         return self._source.radius
 
     @property
     def wavelength(self) -> float:
-        """Of the source's base."""
+        """Wavelength of the source's base."""
         return self._source.wavelength
 
     @property
     def edge(self) -> float:
-        """Median length of an edge there."""
+        """Median length of an edge of the source region."""
         return self._source.edge
 
     @property
     def rms(self) -> float:
-        """Height of the texture in its region."""
+        """Root mean square height of the texture in its region."""
         return self._source.rms
 
     def onto(
@@ -178,7 +179,7 @@ class TransferSource:
         threads: int = 0,
         progress: Progress = None,
     ) -> TransferEditor:
-        """Looks at where it is to be laid: the target's half of `analyze_transfer`.
+        """Analyzes the target region: the target's half of `analyze_transfer`.
 
         Parameters
         ----------
@@ -190,7 +191,7 @@ class TransferSource:
         Returns
         -------
         editor : TransferEditor
-            Whose `TransferEditor.height` is 0 and moves the target when it is set.
+            Editor with height 0. Setting `TransferEditor.height` moves the target.
         """
         wanted = _core.TransferOptions(
             from_degree=self.from_degree,
@@ -222,7 +223,8 @@ def analyze_source(
     threads: int = 0,
     progress: Progress = None,
 ) -> TransferSource:
-    """Takes the detail of a region, once for any number of targets: the source's half of `analyze_transfer`.
+    """Extracts the detail of a region for any number of targets: the source's half of
+    `analyze_transfer`.
 
     Parameters
     ----------
@@ -234,7 +236,7 @@ def analyze_source(
     Returns
     -------
     texture : TransferSource
-        To be laid by `TransferSource.onto`.
+        Texture for `TransferSource.onto`.
     """
     taken, from_ = _with_region(as_mesh(source), source_region)
     with caller(threads, progress) as how:
@@ -268,15 +270,15 @@ def analyze_transfer(
     progress: Progress = None,
     **options: Unpack[TransferKeywords],
 ) -> TransferEditor:
-    """Takes the detail of one region and looks at another: the slow part of `transfer`.
+    """Extracts the detail of one region and analyzes another: the slow part of `transfer`.
 
     Parameters
     ----------
     source, source_region, target, target_region
         As in `transfer`.
     find_angle : bool
-        Whether the angle at which the detail is most like the target's own is looked for, which is
-        half of the work; without it that angle is 0.
+        True: the angle at which the detail resembles the target's own most is searched for, which
+        is half of the work. False: this angle is 0.
     {options}
     threads, progress
         See `rholm.caller`.
@@ -284,7 +286,7 @@ def analyze_transfer(
     Returns
     -------
     editor : TransferEditor
-        Whose `TransferEditor.height` is 0 and moves the target when it is set.
+        Editor with height 0. Setting `TransferEditor.height` moves the target.
     """
     wanted = options_of(_core.TransferOptions, {**options}, "analyze_transfer", find_angle=find_angle)
     return _analyzed(source, source_region, target, target_region, wanted, threads, progress)
@@ -301,14 +303,14 @@ def transfer(
     progress: Progress = None,
     **options: Unpack[_Keywords],
 ) -> Mesh:
-    """The detail of a region of one surface laid on a region of another.
+    """Copies the detail of a region of one surface to a region of another.
 
     Parameters
     ----------
     source, target : mesh-like
-        Where the detail is taken, and where it is laid.
+        Mesh that the detail is copied from, and mesh that it is copied to.
     source_region, target_region : region-like
-        As in `smooth`.
+        Regions as in `smooth`.
     {options}
     threads, progress
         See `rholm.caller`.

@@ -1,4 +1,4 @@
-"""Expansions under the hand, in notebooks and pages."""
+"""Interactive views of expansions in notebooks and pages."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from ._interop import required
 from ._run import Progress, caller
 from ._shapes import outward_mesh
 
-_DEGREE = 64  # chosen: fine enough to be known by sight, and there at once
+_DEGREE = 64  # chosen: fine enough to recognise the shape, and fast
 _VIEWER = Path(__file__).with_name("viewer.js")
 
 
 def viewer_script() -> str:
-    """The JavaScript that draws what `view_data` has."""
+    """Returns the JavaScript that draws the data of `view_data`."""
     try:
         return _VIEWER.read_text(encoding="utf-8")
     except FileNotFoundError:
@@ -30,7 +30,7 @@ def viewer_script() -> str:
 
 @functools.cache
 def _widget() -> Any:
-    """The class of widgets, once anywidget is wanted."""
+    """Returns the class of widgets; anywidget is imported at the first call."""
     base = required("anywidget", "notebook").AnyWidget
     traitlets = required("traitlets", "notebook")
     members = {
@@ -51,17 +51,17 @@ def _expanded(model: Any) -> Expansion:
 def view_data(
     model: Any, *, shape: Any = None, title: str = "", threads: int = 0, progress: Progress = None
 ) -> bytes:
-    """What a viewer shows of an expansion, as docs/studio.md has it.
+    """Returns the data of the viewer for an expansion; docs/studio.md describes them.
 
     Parameters
     ----------
     model : Expansion or mesh-like
-        What is shown; a mesh is expanded first, to degree 64.
+        Model to show. A mesh is first expanded to degree 64.
     shape : mesh-like, optional
-        The mesh that the expansion is of; by default that of `expand`, if it is known. Of more than
-        200 000 faces a simpler one goes along.
+        Mesh of the expansion. By default the mesh of `expand`, if known. A mesh of more than 200
+        000 faces is simplified.
     title : str
-        Above it; by default the name of the file.
+        Text above the surface; by default the name of the file.
     threads, progress
         See `rholm.caller`.
 
@@ -81,32 +81,32 @@ def view_data(
 def view(
     model: Any, *others: Any, shape: Any = None, title: str = "", threads: int = 0, progress: Progress = None
 ) -> Any:
-    """The surface of an expansion in a notebook, to be turned and cut off at any degree; of several
-    side by side.
+    """Shows the surface of an expansion in a notebook; several surfaces stand side by side. Users
+    can turn it and truncate it at any degree.
 
-    A slider goes through the degrees; colours show the radius or what is left out; the spectrum
-    stands beside it, and the shape that the expansion is of, if it is known. The browser sums the
-    series by itself: a notebook that was saved with its widgets goes on working without Python.
+    A slider sets the degree. Colours show the radius or the truncation error. The spectrum stands
+    beside the surface, and also the shape of the expansion if known. The browser itself sums the
+    series: a notebook saved with its widgets works without Python.
 
     Parameters
     ----------
     model, shape, title, threads, progress
         See `view_data`.
     *others : Expansion or mesh-like
-        Shown beside it; `shape` and `title` are for one alone.
+        Further models. `shape` and `title` are for a single model only.
 
     Returns
     -------
     anywidget.AnyWidget
-        ``data`` is what it shows: assign that of another model to show it instead. Of several an
-        ``ipywidgets.HBox`` of these, in ``children``.
+        ``data`` holds the shown data. Assign the data of another model to show it instead. For
+        several models an ``ipywidgets.HBox`` has the widgets in ``children``.
 
     Raises
     ------
     ImportError
         Without the package anywidget: ``pip install rholm[notebook]``.
     UnsupportedError
-        If this package was built without the viewer.
+        If the package was built without the viewer.
     """
     widget = _widget()
     if not others:

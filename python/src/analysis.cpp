@@ -1,4 +1,4 @@
-// From a mesh to an expansion: encoding, the steps of it, errors, random points.
+// From a mesh to an expansion: encoding, its steps, errors, random points.
 #include "rholm/analyze.h"
 
 #include <nanobind/stl/optional.h>
@@ -28,12 +28,12 @@
 namespace rholm::python {
 namespace {
 
-// float32 or float64 rows of any distance; triangles of 32 bits likewise.
+// Rows of float32 or float64 at any stride, and rows of 32-bit indices at any stride.
 using AnyVertices = nb::ndarray<nb::ro, nb::shape<-1, 3>, nb::device::cpu>;
 using AnyTriangles = nb::ndarray<nb::ro, std::uint32_t, nb::shape<-1, 3>, nb::device::cpu>;
 
-// The view of arrays whose rows have their numbers side by side and that nobody can write to; the
-// face in Python sees to both.
+// Returns a view of arrays. The Python code ensures that numbers of a row are side by side and that
+// nobody can write to the arrays.
 MeshView view_of_arrays(const AnyVertices& vertices, const AnyTriangles& triangles) {
   const bool single = vertices.dtype() == nb::dtype<float>();
   if (!single && vertices.dtype() != nb::dtype<double>()) {

@@ -1,4 +1,4 @@
-// Atlases of caps: compression, surfaces of them, the paper's atlas, their files.
+// Atlases of caps: compression, surfaces, the paper's atlas, files.
 #include "rholm/atlas.h"
 
 #include <nanobind/stl/optional.h>
@@ -30,7 +30,7 @@ namespace {
 
 using Shape = std::variant<const Mesh*, const PointCloud*>;
 
-// The numbers of a cap in a row: what is pickled of atlases of many thousands of caps.
+// Numbers per cap in the pickled array of an atlas, which may have thousands of caps.
 constexpr std::size_t kCapNumbers = 27;
 
 std::array<double, kCapNumbers> numbers_of(const Cap& c) {

@@ -1,4 +1,4 @@
-// Populations: the journal of what is done, tables and their files.
+// Populations: the journal of finished rows, tables and their files.
 #include "rholm/batch.h"
 
 #include <nanobind/stl/pair.h>
@@ -37,7 +37,8 @@ nb::dict dict_of(const BatchRow& cells) {
   return row;
 }
 
-// Values that the face has made bool, int, float, str or a list of float; None is no value.
+// Converts cells that the Python code has made bool, int, float, str or a list of float; None is a
+// missing value.
 BatchRow row_of(const nb::dict& cells) {
   BatchRow row;
   for (const auto [key, value] : cells) {
@@ -57,7 +58,7 @@ BatchRow row_of(const nb::dict& cells) {
   return row;
 }
 
-// The values of a column: NumPy's arrays, but a list of texts. Booleans are int8: 1, 0, -1.
+// Returns the values of a column as NumPy array, or a list of texts. Booleans are int8: 1, 0, -1.
 nb::object values_of(const BatchColumn& column, std::size_t rows) {
   return std::visit(
       [&](const auto& values) -> nb::object {
@@ -73,7 +74,7 @@ nb::object values_of(const BatchColumn& column, std::size_t rows) {
       column.values);
 }
 
-// What is pickled of a column: its values with the number of their type.
+// Returns the pickled form of a column: its values with the number of their type.
 nb::tuple state_of_column(const BatchColumn& column) {
   nb::object values = std::visit(
       [](const auto& all) -> nb::object {

@@ -10,7 +10,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Chosen: Ctrl-C has 0.2 s, most of which is for the library to get from one question to the next.
+// Interval between checks. Chosen: Ctrl-C may take 0.2 s, mostly time between checks in the
+// library.
 constexpr auto kLookInterval = 20ms;
 
 std::atomic<bool> threads_were_used = false;
@@ -34,7 +35,7 @@ Context Caller::Watch::context() {
 }
 
 bool Caller::Watch::look(std::string_view stage, double fraction) {
-  // Other threads' calls would find no signals, and callables need not be safe for threads.
+  // Other threads would find no signals, and callables need not be thread-safe.
   if (stopped_ || std::this_thread::get_id() != thread_) return !stopped_;
   const auto now = std::chrono::steady_clock::now();
   const bool tells = !stage.empty() && !caller_.progress_.is_none() && now >= tell_due_;

@@ -1,4 +1,4 @@
-// NumPy arrays and the library's vectors, one as the other. Layer: python.
+// Converts between NumPy arrays and the library's vectors. Layer: python.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -21,17 +21,17 @@ namespace rholm::python {
 
 namespace nb = nanobind;
 
-// Arrays as the functions of this module take them: C order, converted by the face in Python.
+// Arrays that functions of this module take: C order, converted by the Python code.
 using Doubles = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Rows = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using Indices = nb::ndarray<const std::uint32_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-// As they are handed out.
+// Arrays that functions return.
 using NumpyDoubles = nb::ndarray<nb::numpy, double>;
 using NumpyIndices = nb::ndarray<nb::numpy, std::uint32_t>;
 using ReadOnlyDoubles = nb::ndarray<nb::numpy, const double>;
 
-// The numbers of an array, good as long as the array, and for code that keeps the interpreter's
-// lock: without it another thread might write to them. What runs unlocked takes a copy,
+// Returns the numbers of an array; valid as long as the array. Only for code that holds the
+// interpreter's lock, because another thread could write to the array. Code without the lock uses
 // vector_of().
 inline std::span<const double> span_of(const Doubles& values) {
   return {values.data(), values.size()};
@@ -48,14 +48,14 @@ inline std::vector<Vec3> vector_of(const Rows& rows) {
   return {points.begin(), points.end()};
 }
 
-// An array that owns what was in the vector; not copied.
+// Returns an array that takes over the vector's memory without a copy.
 template <class Scalar, class T>
 nb::ndarray<nb::numpy, Scalar> array_of(std::vector<T>&& values,
                                         std::initializer_list<std::size_t> shape) {
   auto owned = std::make_unique<std::vector<T>>(std::move(values));
   auto* data = reinterpret_cast<std::remove_const_t<Scalar>*>(owned->data());
   nb::capsule owner(owned.get(), [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
-  (void)owned.release();  // it is the capsule's now
+  (void)owned.release();  // the capsule owns it now
   return {data, shape, owner};
 }
 inline NumpyDoubles array_of(std::vector<double>&& values) {
@@ -73,7 +73,7 @@ inline NumpyIndices array_of(std::vector<std::uint32_t>&& values) {
 inline NumpyDoubles array_of(const std::vector<double>& values) {
   return array_of(std::vector<double>(values));
 }
-// The same of what users may not write to, as it would change nothing.
+// Returns a read-only array: writing to it would change no object.
 inline ReadOnlyDoubles read_only(std::vector<double>&& values) {
   const std::size_t n = values.size();
   return array_of<const double>(std::move(values), {n});
@@ -87,11 +87,11 @@ inline ReadOnlyDoubles read_only(const Vec3& row) {
   return read_only(std::vector<double>{row.x, row.y, row.z});
 }
 
-// An array over memory of `owner`, which lives as long.
+// Returns an array over memory of `owner`, which is kept alive by the array.
 template <class Scalar>
 nb::ndarray<nb::numpy, Scalar> array_within(nb::handle owner, const void* data,
                                             std::initializer_list<std::size_t> shape) {
-  // Nothing of the library is written through it unless its owner says that it may be.
+  // The array is read-only if Scalar is const, although its constructor takes a plain pointer.
   return {const_cast<void*>(data), shape, owner};
 }
 
@@ -99,7 +99,7 @@ nb::ndarray<nb::numpy, Scalar> array_within(nb::handle owner, const void* data,
 
 namespace nanobind::detail {
 
-// A point: any three numbers in a row, and an array of three for Python.
+// A point: taken from any sequence of three numbers, returned as an array of three.
 template <>
 struct type_caster<rholm::Vec3> {
   NB_TYPE_CASTER(rholm::Vec3,

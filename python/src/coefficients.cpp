@@ -40,9 +40,9 @@ NumpyDoubles values_of(nb::handle self) {
   return array_within<double>(self, c.values().data(), {2, side, side});
 }
 
-// Numbers where no coefficient has its place become 0. Throws InvalidInput where they are more than
-// sums of coefficients, such as those of principal components, leave of rounding: some hundred
-// units of it, chosen.
+// Sets array entries that hold no coefficient to 0. Throws InvalidInput if they are larger than
+// rounding in sums of coefficients, for example from principal components. The limit is some
+// hundred rounding units, chosen.
 void clear_other_places(Coefficients& c) {
   double largest = 0;
   for (const double value : c.values()) largest = std::max(largest, std::abs(value));
@@ -212,7 +212,7 @@ WindowOptions window_of(const std::string& window, int order, std::optional<doub
   return {.window = parse_window(window), .order = order, .time = time};
 }
 
-// The rows of the table of windows, as Python's own values.
+// Returns the rows of the table of windows as Python values.
 nb::list window_rows() {
   nb::list rows;
   for (const WindowInfo& info : windows()) {

@@ -1,4 +1,4 @@
-// Local smoothing and the transfer of detail: analyses, and what sliders move.
+// Local smoothing and transfer of detail: analyses and updates.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -94,7 +94,7 @@ void bind_smooth(nb::module_& m) {
     apply(patch, span_of(positions), mesh);
     return mesh;
   });
-  // The mesh of an editor, changed where it lies: arrays over its vertices see it.
+  // Changes the mesh of an editor in place: arrays over its vertices show the change.
   m.def("apply_in_place", [](const Patch& patch, double wavelength, double strength, Mesh& mesh) {
     apply(patch, update(patch, PatchUpdate{wavelength, strength}), mesh);
   });

@@ -1,4 +1,4 @@
-// Errors of the library as exceptions of Python, which rholm/_errors.py defines.
+// Converts errors of the library to Python exceptions, which rholm/_errors.py defines.
 #include <nanobind/nanobind.h>
 
 #include <exception>
@@ -12,7 +12,7 @@ namespace {
 
 namespace nb = nanobind;
 
-// Called with the interpreter's lock.
+// Raises the Python exception for an error. The caller holds the interpreter's lock.
 void translate(const std::exception_ptr& thrown, void*) {
   try {
     std::rethrow_exception(thrown);

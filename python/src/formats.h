@@ -1,4 +1,4 @@
-// A line of a table of formats, as rholm/_formats.py has it.
+// Returns a row of the table of formats for rholm/_formats.py.
 #pragma once
 
 #include <nanobind/nanobind.h>

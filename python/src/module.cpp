@@ -1,4 +1,4 @@
-// The module rholm._core: the library for Python, as thin as it can be. What users call is in
+// The module rholm._core, a thin layer over the library. The functions that users call are in
 // python/rholm.
 #include <nanobind/nanobind.h>
 

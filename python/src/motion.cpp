@@ -1,4 +1,4 @@
-// Rotations, mirror images, alignment, other centres.
+// Rotations, mirror images, alignment, and changes of the centre.
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -25,7 +25,7 @@ Axis parse_axis(const std::string& name) {
   throw Error(ErrorCode::kInvalidInput, "no axis is called '" + name + "'; there are x, y and z");
 }
 
-// An argument as a number: in the words of the functions that are written in Python.
+// Converts an argument to a number, with the error messages of rholm._arguments.
 double number_of(const char* name, nb::handle value) {
   return nb::cast<double>(nb::module_::import_("rholm._arguments")
                               .attr("number")(value, std::string("Rotation(): ") + name));

@@ -1,4 +1,4 @@
-// Pictures and pages.
+// Pictures and reports.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>

@@ -1,4 +1,4 @@
-// Points made from meshes, put in order, given normals.
+// Samples of surfaces; cleaning, alignment and normals of points.
 #include "rholm/points.h"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// Surfaces from points.
+// Reconstruction of surfaces from points.
 #include "rholm/reconstruct.h"
 
 #include <nanobind/stl/filesystem.h>
@@ -20,7 +20,7 @@ namespace {
 
 using Points = std::variant<const PointCloud*, std::filesystem::path>;
 
-// `dropped` points were by the reader of points in memory.
+// Reconstructs. `dropped` is the number of points that the reader of points in memory dropped.
 nb::tuple reconstruct_any(const Points& points, std::size_t dropped, const std::string& columns,
                           ReconstructOptions options, const nb::object& foreseen,
                           const Caller& caller) {

@@ -10,7 +10,7 @@
 namespace rholm::python {
 namespace {
 
-// Names of the properties of a class, in the order of their definition.
+// Returns the names of the properties of a class, in the order of their definition.
 std::vector<std::string> fields_of(nb::handle type) {
   std::vector<std::string> names;
   for (const nb::handle item : type.attr("__dict__").attr("items")()) {
@@ -20,10 +20,10 @@ std::vector<std::string> fields_of(nb::handle type) {
   return names;
 }
 
-// Chosen: what a terminal shows in two lines of 80.
+// Largest numbers of characters. Chosen: two lines of 80 on a terminal.
 constexpr std::size_t kLongestText = 160, kLongestValue = 48;
 
-// A value in few letters: six digits of numbers, of records their names, of long values their kind.
+// Returns a short text of a value: numbers with six digits, records by name, long values by type.
 std::string short_text(const nb::object& value) {
   if (nb::hasattr(value, "to_dict")) {
     return nb::cast<std::string>(value.type().attr("__name__")) + "(...)";
@@ -115,7 +115,7 @@ void set_fields(nb::handle record, const nb::kwargs& fields) {
     try {
       nb::setattr(record, name, value);
     } catch (const nb::python_error& error) {
-      if (!error.matches(PyExc_TypeError)) throw;  // the library's own words
+      if (!error.matches(PyExc_TypeError)) throw;  // the library's own message
       const std::string text =
           nb::cast<std::string>(name) + " is " + nb::cast<std::string>(nb::repr(value));
       if (nb::isinstance<nb::int_>(value)) {

@@ -1,5 +1,5 @@
-// Structs of the library as classes of Python: results that are read, copied, pickled and compared,
-// options that are set. Layer: python.
+// Structs of the library as Python classes: results can be read, copied, pickled and compared;
+// options can be set. Layer: python.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -24,21 +24,21 @@
 
 namespace rholm::python {
 
-// Times as {"stage": (wall, cpu)}.
+// Convert times from and to {"stage": (wall, cpu)}.
 nb::dict dict_of(const StageTimes& times);
 StageTimes times_of(const nb::dict& times);
-// "Name(field=value, ...)" of the properties of an object, cut off after a line: records within it
-// and long values are abbreviated.
+// Returns "Name(field=value, ...)" with the properties of an object, cut off after some characters.
+// Nested records and long values are abbreviated.
 nb::str record_text(nb::handle record);
-// {"field": value, ...}, records in records too.
+// Returns {"field": value, ...}; nested records are dicts, too.
 nb::dict record_dict(nb::handle record);
-// Sets what the keywords say; None leaves the default. TypeError for a name that is no field.
+// Sets fields from keywords; None keeps the default. Throws TypeError for an unknown name.
 void set_fields(nb::handle record, const nb::kwargs& fields);
 
-// What a list says of a field, as a sentence of a docstring.
+// Returns the help of a field as a sentence for a docstring.
 std::string sentence_of(const FieldInfo& info);
 
-// A member as a plain value of Python, which can be compared and pickled: no arrays.
+// Converts a member to a plain Python value without arrays, which can be compared and pickled.
 template <class V>
 nb::object state_of(const V& value) {
   if constexpr (std::is_same_v<V, StageTimes>) {
@@ -69,11 +69,11 @@ V value_of(nb::handle state) {
   }
 }
 
-// The members of a struct by name, as they are pickled.
+// The members of a struct by name, for pickling.
 template <class T>
 class Members {
  public:
-  // `at` gives a reference to the member of a T&.
+  // `at` returns a reference to the member of a T&.
   template <class F>
   void add(const char* name, F at) {
     using V = std::remove_reference_t<decltype(at(std::declval<T&>()))>;
@@ -98,14 +98,14 @@ class Members {
   std::vector<Member> members_;
 };
 
-// Copies, pickles and equality of a class from get(T&), a value of Python, and make(state), a T.
+// Adds copies, pickles and equality from get(T&), a Python value, and make(state), a T.
 template <class T, class Get, class Make>
 void bind_state(nb::class_<T>& type, const Get& get, const Make& make) {
   type.def("__getstate__", [get](T& t) { return get(t); });
   type.def("__setstate__", [make](T& t, const nb::object& state) { new (&t) T(make(state)); });
 }
 
-// A result: its fields can be read.
+// A result struct whose fields can be read.
 template <class T>
 class Record {
  public:
@@ -145,7 +145,7 @@ class Record {
                          std::is_same_v<V, std::vector<Vec3>>) {
       class_.def_prop_ro(
           name, [member](const T& t) { return read_only(V(t.*member)); }, doc,
-          nb::rv_policy::automatic);  // it owns its memory
+          nb::rv_policy::automatic);  // the array owns its memory
     } else if constexpr (std::is_enum_v<V>) {
       class_.def_prop_ro(
           name, [member](const T& t) { return to_string(t.*member); }, doc);
@@ -158,14 +158,14 @@ class Record {
     }
     return *this;
   }
-  // All fields of the struct's list.
+  // Adds all fields of the struct's list.
   Record& fields() {
     for_each_field<T>([&](auto member, const FieldInfo& info) {
       field(info.name, member, sentence_of(info).c_str());
     });
     return *this;
   }
-  // A member without a field of its own, which copies and pickles have all the same.
+  // Adds a member that Python cannot read, for copies and pickles only.
   template <class F>
   Record& hidden(const char* name, F at) {
     members_->add(name, at);
@@ -184,8 +184,8 @@ class Record {
   nb::class_<T> class_;
 };
 
-// What a field takes, for the documents: "bool", "number", "whole number", "point", "text", "path",
-// "texts", "choice", "options"; "optional " before it if it may be missing.
+// Returns the kind of a field for documents: "bool", "number", "whole number", "point", "text",
+// "path", "texts", "choice", "options"; with "optional " before it if the value may be missing.
 template <class V>
 std::string kind_of() {
   if constexpr (kIsOptional<V>) {
@@ -220,11 +220,11 @@ std::vector<std::string> choices_of() {
     return {};
   }
 }
-// What a list says of a field.
+// Returns the description of a field as a dict.
 nb::dict field_dict(const FieldInfo& info, const nb::object& by_default, const std::string& kind,
                     const std::vector<std::string>& choices);
 
-// Options: made of keywords, Options(degree=3).
+// A struct of options, made from keywords: Options(degree=3).
 template <class T>
 class Options {
  public:
@@ -247,7 +247,7 @@ class Options {
         [member](T& t, const V& value) { t.*member = value; }, nb::for_setter(nb::arg().none()));
     return *this;
   }
-  // All fields of the struct's list. The class has what the list says of them in FIELDS.
+  // Adds all fields of the struct's list. The class attribute FIELDS describes them.
   Options& fields() {
     nb::list described;
     for_each_field<T>([&](auto member, const FieldInfo& info) {
@@ -264,7 +264,7 @@ class Options {
     class_.attr("FIELDS") = nb::tuple(described);
     return *this;
   }
-  // One of a closed list of names. `print` gives them back.
+  // Adds a field with a closed list of names. `print` returns the name of a value.
   template <class V>
   Options& choice(const char* name, V T::*member, V (*parse)(const std::string&),
                   const char* (*print)(V)) {

@@ -1,4 +1,4 @@
-// Meshes and points, where they lie and in files.
+// Meshes and points, in memory and in files.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -22,7 +22,7 @@
 namespace rholm::python {
 namespace {
 
-// As NumPy names them.
+// Returns NumPy's name of a type.
 const char* dtype_of(ScalarType type) {
   switch (type) {
     case ScalarType::kInt8:
@@ -64,7 +64,7 @@ std::vector<Attribute> attributes_of(const std::vector<AttributeTuple>& tuples) 
   return attributes;
 }
 
-// (name, dtype, values) of each, values copied.
+// Returns (name, dtype, values) of each attribute, with copied values.
 nb::list tuples_of(const std::vector<Attribute>& attributes) {
   nb::list tuples;
   for (const Attribute& a : attributes) {
@@ -178,7 +178,7 @@ void bind_mesh(nb::module_& m) {
   m.def("validate", [](const PointCloud& cloud) { unlocked([&] { validate(cloud); }); });
 }
 
-// What each column was taken for.
+// Returns the meaning of each column.
 std::vector<std::string> columns_of(const TableColumns& table) {
   std::vector<std::string> columns;
   columns.reserve(table.columns.size());
@@ -246,7 +246,8 @@ void bind_files(nb::module_& m) {
         });
 }
 
-// Bytes from the first number of n rows to the last, as rows lie in files of any alignment.
+// Returns the bytes from the first number of n rows to the last, for rows of any alignment in
+// files.
 nb::ndarray<nb::numpy, const std::uint8_t> bytes_of(nb::handle owner, const std::byte* data,
                                                     std::size_t n, std::size_t stride,
                                                     std::size_t row) {

@@ -1,4 +1,4 @@
-// Shapes that people work on in a page: requests and events, which notebooks carry as messages.
+// The studio: requests and events, which notebooks send as messages.
 #include "rholm/studio.h"
 
 #include <nanobind/stl/map.h>
@@ -17,7 +17,7 @@
 namespace rholm::python {
 namespace {
 
-// (status, type, body, download).
+// Returns (status, type, body, download).
 nb::tuple handle(Studio& studio, const std::string& method, const std::string& path,
                  const std::map<std::string, std::string>& query, const nb::bytes& body,
                  const std::string& session) {
@@ -31,7 +31,7 @@ nb::tuple handle(Studio& studio, const std::string& method, const std::string& p
                         nb::bytes(answer.body.data(), answer.body.size()), answer.download);
 }
 
-// [(name, JSON), ...].
+// Returns [(name, JSON), ...].
 nb::list wait(StudioListener& listener, double seconds) {
   const auto time = std::chrono::milliseconds(static_cast<int>(1000 * seconds));
   std::vector<StudioEvent> events;

@@ -1,4 +1,4 @@
-// From an expansion to a mesh, its measures, distances between surfaces.
+// From an expansion to a mesh, its measures, and distances between surfaces.
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -16,13 +16,13 @@
 
 namespace rholm::python {
 
-// A point that may be missing, as it is pickled and compared.
+// Converts an optional point for pickling and comparison.
 template <>
 nb::object state_of(const std::optional<Vec3>& value) {
   return value ? state_of(*value) : nb::none();
 }
 
-// The definition of a descriptor, its unit and its source, as Python documents it.
+// Returns the docstring of a descriptor: its definition, unit and source.
 std::string doc_of(const Descriptor& one) {
   std::string text = one.definition;
   text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));

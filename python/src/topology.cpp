@@ -1,4 +1,4 @@
-// Edges, welding, inspection, repair, fewer triangles, shapes with a known answer.
+// Edges, welding, inspection, repair, simplification, and test shapes.
 #include <optional>
 #include <span>
 #include <string>

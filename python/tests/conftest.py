@@ -1,4 +1,4 @@
-"""Shapes that the tests share."""
+"""Shapes that several tests use."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ import times  # noqa: E402
 
 @pytest.hookimpl(hookwrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
-    """Notes the times of each test, with its fixtures."""
+    """Records the times of each test, with its fixtures."""
     before = times.spent()
     yield
     seconds = times.minus(times.spent(), before)
@@ -29,7 +29,7 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    """Notes what the process took besides: to start Python and to read the tests."""
+    """Records the remaining time of the process: starting Python and reading the tests."""
     if session.items:
         seconds = times.minus(times.spent(), getattr(session, "noted", (0.0, 0.0)))
         times.note(seconds, f"python/{session.items[0].path.stem}", "(start)")
@@ -37,7 +37,7 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 @pytest.fixture(scope="session")
 def bumpy() -> rholm.Mesh:
-    """A star-shaped body without symmetry, 1280 triangles."""
+    """A star-shaped body without symmetry, 1280 faces."""
     return rholm.bumpy_sphere(3, 0.3, seed=7)
 
 

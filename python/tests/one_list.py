@@ -1,6 +1,5 @@
-"""A row that is added to a table of the library is found in the package; so is an option.
-
-The module of these tests is that of users, with what tests/one_list adds to tables and to options.
+"""Checks that a row added to a table of the library, or an option added to a list, appears in the
+package. These tests use the users' module with the additions of tests/one_list.
 """
 
 import inspect

@@ -1,4 +1,4 @@
-"""Arguments of wrong types and values: the message names the argument, what it is and what it must be."""
+"""Arguments of wrong types and values: the message names the argument, its value and what it must be."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def public_functions():
                     yield f"{name}.{method}", function
 
 
-#: A value of the wrong type, and what is said of it, by what an argument must be.
+#: A value of the wrong type, and the expected message, for each kind of argument.
 WRONG = [
     (_arguments.whole, "eight", "a whole number"),
     (_arguments.number, "1e-3", "a number"),
@@ -42,7 +42,7 @@ def test_every_function_names_an_argument_of_the_wrong_type():
             for argument, check in named.items():
                 if check is not kind and not _is_optional(check, kind):
                     continue
-                # Arguments before it are not looked at: only the wrong one is given.
+                # Arguments before it are not checked: only the wrong one is given.
                 places = [one for one, _ in positional]
                 args = [None] * places.index(argument) if argument in places else []
                 kwargs = {} if argument in places else {argument: wrong}

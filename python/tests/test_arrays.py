@@ -1,4 +1,4 @@
-"""Arrays as users have them: layouts, types, what is copied and what is refused."""
+"""Arrays of users: layouts, types, copies and refusals."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ FLOATS, INTS = ("f4", "f8"), ("i4", "u4", "i8", "u8", "i2")
 def test_every_layout_gives_the_same_bits(bumpy, floats, ints):
     vertices = bumpy.vertices.astype(floats)
     triangles = bumpy.triangles.astype(ints)
-    how = {"degree": 12, "errors": False, "rays": 0}  # the quickest way to coefficients
+    how = {"degree": 12, "errors": False, "rays": 0}  # the fastest way to coefficients
     expected = rholm.expand((vertices, triangles), **how).coeffs
     assert expected.any()
-    # Each layout meets each type here, and over all types each layout of the other array.
+    # Each layout meets each type here. Over all types it also meets each layout of the other array.
     shift = len(INTS) * FLOATS.index(floats) + INTS.index(ints)
     of_triangles = list(layouts(triangles).items())
     assert len(FLOATS) * len(INTS) >= len(of_triangles)
@@ -270,10 +270,10 @@ def test_directions_of_any_length_are_the_same(bumpy, random):
     unit /= np.linalg.norm(unit, axis=1, keepdims=True)
     expected = s(unit)
     for length in (1e-320, 1e-300, 1e-160, 0.3, 7.0, 1e160, 1e300):
-        # What is left of a number this small has fewer digits.
+        # Numbers this small have fewer digits.
         limit = 1e-2 if length < 1e-310 else 1e-13
         assert np.allclose(s(length * unit), expected, rtol=limit), length
-    assert np.shares_memory(rholm._arrays.directions(unit)[0], unit)  # as they lie
+    assert np.shares_memory(rholm._arrays.directions(unit)[0], unit)  # not copied
     for wrong in ([0, 0, 0], [np.nan, 0, 1], [np.inf, 0, 0]):
         with pytest.raises(rholm.InvalidInputError):
             s([[0, 0, 1], wrong])

@@ -1,4 +1,4 @@
-"""Populations: what a row has is what the function returns, wherever and however often it runs."""
+"""Populations: a row equals the function's result, wherever and however often the function runs."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def describe(path: str) -> dict[str, Any]:
-    """As in docs/batch.md; sent to other processes by its name."""
+    """Computes the row of docs/batch.md; other processes import it by its name."""
     s = rholm.expand(path, degree=4, threads=1)
     return {"volume": s.volume, "energy": rholm.power_spectrum(s)}
 
@@ -44,7 +44,7 @@ def die(x: int) -> int:
 
 @pytest.fixture(scope="module")
 def shapes(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
-    """Six star-shaped shapes, a ring, an empty file and one that is missing."""
+    """Six star-shaped shapes, a ring, an empty file and a missing file."""
     folder = tmp_path_factory.mktemp("shapes")
     paths = []
     for seed in range(6):
@@ -134,7 +134,8 @@ def test_mpi(shapes: list[str], tmp_path: Path) -> None:
         "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
         "OMPI_MCA_rmaps_base_oversubscribe": "1",
         "OMPI_MCA_btl": "self,vader",
-        # Containers do not let processes read each other's memory; ranks that wait must not be in the way.
+        # Containers forbid processes to read each other's memory, and waiting ranks must yield the
+        # processor.
         "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
         "OMPI_MCA_mpi_yield_when_idle": "1",
         "OMPI_MCA_hwloc_base_binding_policy": "none",
@@ -171,7 +172,7 @@ class Fields(NamedTuple):
 
 @dataclasses.dataclass
 class Data:
-    """A result with another in it."""
+    """A result that contains another one."""
 
     flag: bool
     inner: Fields
@@ -205,7 +206,7 @@ def test_what_a_function_may_return(bumpy: rholm.Mesh) -> None:
     assert table["area"][9] == rholm.inspect(bumpy).area
     assert list(np.nonzero(table.failed)[0]) == [10, 11, 12]
     assert list(table["error"][10:]) == ["TypeError", "TypeError", "ValueError"]
-    # Parseval, of coefficients where the document says they stand.
+    # Parseval's identity, with coefficients in the documented order.
     c = table["coefficients"][8]
     cosines, sines = s.to_array("orthonormal")
     for degree in range(4):
@@ -258,7 +259,7 @@ def test_a_journal_is_gone_on_from(tmp_path: Path) -> None:
         rholm.batch(range(20), count, executor, journal=journal, in_flight=1)
     assert len(calls) == 6
     table = rholm.batch(range(20), count, journal=journal)
-    assert len(calls) == 6 + 15  # but for the five that were done
+    assert len(calls) == 6 + 15  # without the five finished items
     assert list(np.delete(table["value"], 7)) == [x * x for x in range(20) if x != 7]
     assert table["message"][7] == "seven"
     done = len(calls)
@@ -381,7 +382,7 @@ def test_the_document_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 def test_executors_are_those_of_the_standard_library() -> None:
     class Here(Executor):
-        """Runs at once, as the smallest executor that there can be."""
+        """Runs at once: the simplest possible executor."""
 
         def submit(self, function: Any, /, *words: Any, **more: Any) -> Any:
             from concurrent.futures import Future

@@ -1,4 +1,4 @@
-"""Copies: pickled, copied, compared by value, and what cannot be written to."""
+"""Copies: pickled, copied, compared by value, and read-only."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import rholm
 
 @pytest.fixture(scope="module")
 def things(bumpy, ring):
-    """One object of every public class, and of every class of a field of one."""
+    """One object of every public class, and of every class of its fields."""
     s = rholm.expand(bumpy, 6, length_unit="km")
     toleranced = rholm.expand(bumpy, tolerance=0.2, norm="max")
     chart = rholm.make_star_chart(bumpy)
@@ -46,7 +46,7 @@ def things(bumpy, ring):
 
 
 def same(a, b):
-    """Equality by what can be seen."""
+    """Equality of all visible values."""
     if isinstance(a, tuple) and hasattr(a, "_fields"):
         return all(same(x, y) for x, y in zip(a, b, strict=True))
     if isinstance(a, np.ndarray):
@@ -153,12 +153,12 @@ def test_arrays_that_are_copies_cannot_be_written_to(bumpy):
         assert np.array_equal(array, before)
     with pytest.raises(ValueError, match="WRITEABLE"):
         bumpy.triangles.flags.writeable = True
-    for array in (s.to_array(), s([[0, 0, 1]]), s.inertia(), s.spectrum()):  # these are the user's own
+    for array in (s.to_array(), s([[0, 0, 1]]), s.inertia(), s.spectrum()):  # these belong to the user
         array[...] = 5
 
 
 class Writer:
-    """Another thread that writes to an array, and back, while something else is done."""
+    """Another thread that writes to an array, and restores it, while other code runs."""
 
     def __init__(self, array, wrong):
         self.array, self.right, self.wrong = array, array.copy(), wrong
@@ -166,7 +166,7 @@ class Writer:
         self.thread = threading.Thread(target=self.run, daemon=True)
 
     def run(self):
-        """Until it is stopped."""
+        """Writes until it is stopped."""
         while not self.stop.is_set():
             self.array[100:200] = self.wrong
             self.array[100:200] = self.right[100:200]
@@ -211,7 +211,7 @@ def test_arrays_that_nobody_can_write_to_are_used_where_they_lie(tmp_path, bumpy
     array = np.array(bumpy.vertices)
     assert not np.shares_memory(own(array), array)
     view = array[:]
-    view.flags.writeable = False  # written to through the other
+    view.flags.writeable = False  # written to through the other array
     assert not np.shares_memory(own(view), array)
     array.flags.writeable = False
     assert own(array) is array

@@ -1,4 +1,4 @@
-"""Examples of docstrings do what they say."""
+"""Examples in docstrings give the documented results."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ def test_a_sphere_has_only_degree_zero():
 
 
 def test_coefficients_are_integrals_over_the_surface(bumpy):
-    # An oracle of its own: radii along rays to Gauss-Legendre nodes, by exact closest triangles.
+    # Independent reference: radii along rays to Gauss-Legendre nodes, by exact closest triangles.
     s = rholm.expand(bumpy, 4, precision=1e-12)
     n = 120
     theta = rholm.grid_colatitudes("gauss-legendre", n)
@@ -42,7 +42,7 @@ def test_coefficients_are_integrals_over_the_surface(bumpy):
     a, b, c = (bumpy.vertices[bumpy.triangles[:, k]] - s.center for k in range(3))
     normal = np.cross(b - a, c - a)
     radii = np.zeros(len(rays))
-    for t in range(len(a)):  # which rays meet triangle t, and where
+    for t in range(len(a)):  # rays that meet triangle t, and where
         inside = np.ones(len(rays), bool)
         for p, q in ((a, b), (b, c), (c, a)):
             inside &= rays @ np.cross(p[t], q[t]) >= 0
@@ -52,7 +52,7 @@ def test_coefficients_are_integrals_over_the_surface(bumpy):
     mean = (radii.reshape(n, -1).mean(axis=1) * weights).sum() / 2
     cos2 = 1.5 * np.cos(theta) ** 2 - 0.5
     y20 = (radii.reshape(n, -1).mean(axis=1) * weights * cos2).sum() / 2 * np.sqrt(5)
-    assert abs(s.coeffs[0, 0, 0] - mean) < 1e-4  # creases: the grid's error, not ours
+    assert abs(s.coeffs[0, 0, 0] - mean) < 1e-4  # creases: the error is the grid's, not the library's
     assert abs(s.coeffs[0, 2, 0] - y20) < 1e-4
 
 
@@ -93,7 +93,7 @@ def test_gradients_are_derivatives(bumpy, random):
     t /= np.linalg.norm(t, axis=1, keepdims=True)
     h = 1e-4
     numeric = (s(np.cos(h) * u + np.sin(h) * t) - s(np.cos(h) * u - np.sin(h) * t)) / (2 * h)
-    # Third derivatives of degree L are at most about L^3 times the values.
+    # Third derivatives at degree L are at most about L^3 times the values.
     assert np.abs((gradient * t).sum(axis=1) - numeric).max() < 16**3 * h**2
 
 
@@ -331,7 +331,7 @@ def test_what_is_left_out_is_known_or_nan(bumpy):
     assert np.isclose(beyond[-1], s.errors.rms, rtol=1e-6)
     energy = s.spectrum("energy")
     assert np.allclose(beyond[:-1] ** 2 - beyond[1:] ** 2, energy[1:] / (4 * np.pi))
-    sphere = rholm.expand(rholm.icosphere(6), 8)  # whose faces leave little
+    sphere = rholm.expand(rholm.icosphere(6), 8)  # its faces have almost no truncation error
     assert np.isnan(rholm.rms_beyond(sphere)[-1])
     assert np.isnan(rholm.rms_beyond(rholm.from_array(s.coeffs))).all()
 
@@ -353,7 +353,7 @@ def test_charts_and_methods(bumpy):
     for method in ("curl", "area"):
         other = rholm.analyze(chart, 6, method=method).expansion
         assert np.abs(other.coeffs - edge.expansion.coeffs).max() < 1e-6
-    # Parseval: the norm in closed form bounds the energy of the coefficients.
+    # Parseval's identity: the norm in closed form bounds the energy of the coefficients.
     norm = rholm.radius_norm_squared(chart)
     assert 0 < norm - edge.expansion.spectrum("energy").sum() < 1e-2 * norm
     found = rholm.analyze(chart, tolerance=1e-2)
@@ -384,7 +384,7 @@ def test_encode_and_reports(bumpy, tmp_path):
 
 
 def lower(n):
-    """Ones where there are coefficients."""
+    """Ones at the places of coefficients."""
     ones = np.stack([np.tri(n), np.tri(n)])
     ones[1, :, 0] = 0
     return ones
@@ -450,7 +450,8 @@ def test_errors_that_follow_are_those_of_the_shape(bumpy):
         measured = rholm.truncation_errors(bumpy, s.truncate(degree), precision=1e-12)
         assert s.truncate(degree).errors.rms == pytest.approx(measured.rms, rel=1e-7)
         assert s.truncate(degree).errors.diagonal == s.errors.diagonal
-    # By rays of the shape itself: what a filter takes away is an error of the radius, too.
+    # Measured along rays of the shape: the part that a filter removes is an error of the radius,
+    # too.
     soft = s.low_pass(8)
     u = rholm.icosphere(5).vertices
     fine = rholm.expand(bumpy, 200, errors=False)
@@ -476,7 +477,7 @@ def test_what_an_expansion_is_not():
     for array, said in ((order, r"\[0, 1, 2\] has an order m above"), (sine, r"\[1, 2, 0\] is of sin\(0\)")):
         with pytest.raises(rholm.InvalidInputError, match=said):
             rholm.from_array(array)
-    rounded = lower(3)  # as a sum over principal components has them
+    rounded = lower(3)  # as in sums over principal components
     rounded[0, 1, 2] = 1e-17
     assert np.array_equal(rholm.from_array(rounded).coeffs, rholm.from_array(lower(3)).coeffs)
     for wrong in (np.ones((2, 3, 4)), np.ones((3, 3)), np.full((2, 2, 2), np.nan), np.zeros((2, 0, 0))):
@@ -498,7 +499,7 @@ def test_inertia_is_that_of_the_solid_about_its_centroid(bumpy):
     mesh = s.mesh(7)
     solid = mesh.to_trimesh()
     tensor = s.inertia()
-    # Chords of the icosphere cut off a part of its edge squared, 2e-4, in 5 powers.
+    # The chords of the icosphere cut off a share of the edge's square, 2e-4, in 5 powers.
     assert np.allclose(tensor, solid.moment_inertia, atol=1e-3 * np.trace(tensor))
     assert np.array_equal(tensor, tensor.T)
     assert np.array_equal(rholm.inertia(s), tensor)

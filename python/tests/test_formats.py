@@ -1,4 +1,4 @@
-"""Formats of files and kinds of errors: what Python has is what the library's tables have."""
+"""Formats of files and kinds of errors: Python has the same as the library's tables."""
 
 from __future__ import annotations
 

@@ -28,14 +28,14 @@ BLOCK = re.compile(r"^```(python|sh)\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", r
 
 
 def program() -> str | None:
-    """The folder of the program: that of RHOLM_PROGRAM, beside the interpreter, or on the path."""
+    """The folder of the program: from RHOLM_PROGRAM, beside the interpreter, or on the path."""
     beside = str(Path(sys.executable).parent)
     found = os.environ.get("RHOLM_PROGRAM") or shutil.which("rholm", path=beside) or shutil.which("rholm")
     return str(Path(found).resolve().parent) if found else None
 
 
 def run_python(code: str, where: str, names: dict[str, Any]) -> str:
-    """What the code prints."""
+    """Returns the output that the code prints."""
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
         exec(compile(code, where, "exec"), names)
@@ -43,7 +43,7 @@ def run_python(code: str, where: str, names: dict[str, Any]) -> str:
 
 
 def run_sh(code: str, where: str, folder: Path) -> str:
-    """What the commands print on standard output."""
+    """Returns the standard output of the commands."""
     path = f"{program()}{os.pathsep}{os.environ['PATH']}"
     done = subprocess.run(
         ["bash", "-eu", "-o", "pipefail", "-c", code],
@@ -60,7 +60,7 @@ def run_sh(code: str, where: str, folder: Path) -> str:
 
 
 def run_page(text: str, name: str, folder: Path) -> list[str]:
-    """Runs the blocks of a page; returns what was left out, and why."""
+    """Runs the blocks of a page; returns the blocks that were left out, and why."""
     names: dict[str, Any] = {"__name__": "__main__"}
     left_out = []
     for match in BLOCK.finditer(text):
@@ -89,7 +89,7 @@ def test_page(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "agg")
     text = page.read_text()
-    if page.stem == "README":  # its lines of sh want shapes, and are run by tests/cli/examples_test.py
+    if page.stem == "README":  # its sh lines need shapes; tests/cli/examples_test.py runs them
         text = text.replace("```sh\n", "```\n")
     left_out = run_page(text, page.name, tmp_path)
     if left_out:

@@ -1,4 +1,4 @@
-"""Meshes of other packages, in and out."""
+"""Conversion of other packages' meshes in both directions."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_pyvista(bumpy):
         warnings.simplefilter("error")
         assert np.isclose(rholm.as_mesh(grid).area, 24)  # a cube of side 2
 
-    class Older:  # of a PyVista that does not have the choice
+    class Older:  # of a PyVista without the choice
         __module__ = "pyvista.core.grid"
 
         def extract_surface(self, pass_pointid=True):
@@ -69,7 +69,7 @@ def test_pyvista(bumpy):
 def test_the_accessor_of_pyvista(bumpy):
     pyvista = pytest.importorskip("pyvista")
 
-    importlib.import_module("rholm._pyvista")  # as PyVista does by the entry point of what is installed
+    importlib.import_module("rholm._pyvista")  # PyVista does this by the entry point of an installed package
     data = bumpy.to_pyvista()
     assert data.rholm.expand(8).degree == 8
     assert isinstance(data.rholm.repair(), pyvista.PolyData)
@@ -99,7 +99,7 @@ def test_polygons_of_meshio_are_cut_into_triangles():
             prism = rholm.as_mesh(meshio.Mesh(points, [(name, ends), ("quad", sides)]))
             assert rholm.inspect(prism).closed
             assert prism.volume == pytest.approx(n / 2 * np.sin(2 * np.pi / n), rel=1e-12)
-    # A polygon that is not convex is cut as those of files are: within it.
+    # A polygon that is not convex is cut inside of it, as polygons of files are.
     star = [[0, 0, 0], [4, 0, 0], [4, 4, 0], [2, 1, 0], [0, 4, 0]]
     flat = rholm.as_mesh(meshio.Mesh(star, [("polygon", [[2, 3, 4, 0, 1]])]))
     assert flat.area == pytest.approx(16 - 6, rel=1e-12)
@@ -114,7 +114,7 @@ def test_polygons_of_meshio_are_cut_into_triangles():
 
 
 def kinds_of_mesh(mesh, tmp_path):
-    """A mesh as everything that stands for one."""
+    """Returns a mesh in every form that functions accept."""
     arrays = np.array(mesh.vertices), np.array(mesh.triangles)
     mesh.save(tmp_path / "m.ply")
     kinds = [mesh, arrays, list(arrays), (arrays[0].tolist(), arrays[1].tolist()), rholm.weld(mesh)]
@@ -149,7 +149,7 @@ def test_every_function_takes_every_kind_of_mesh_and_mends_it(tmp_path):
         lambda m: rholm.compare(m, body, samples=50).hausdorff < 1e-6,
     ]
     slow = [
-        lambda m: rholm.render(m, (16, 16)).shape,  # a list is several shapes there
+        lambda m: rholm.render(m, (16, 16)).shape,  # render() takes a list as several shapes
         lambda m: rholm.compress(m, 0.3, samples=1000, max_numbers=10**6).mesh().volume > 0,
         lambda m: rholm.patch_atlas(m, 2).mesh.volume > 0,
         lambda m: rholm.patch_picture(m).area > 0,
@@ -163,7 +163,7 @@ def test_every_function_takes_every_kind_of_mesh_and_mends_it(tmp_path):
         assert expected is not False
         for kind in some[1:]:
             if isinstance(kind, tuple) and hasattr(kind, "merged_vertices"):
-                function(kind)  # of weld(): it has fewer vertices
+                function(kind)  # weld() returns fewer vertices
             else:
                 assert repr(function(kind)) == repr(expected), type(kind)
 

@@ -1,4 +1,4 @@
-"""What the package has: every public function of the library, with a docstring and types."""
+"""Contents of the package: every public function of the library, with a docstring and types."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ FUNCTION = re.compile(
     r"[A-Za-z_][\w:<>,&* ]*[ &*>](\w+)\([^;{}]*(?:\{[^;{}]*\}[^;{}]*)*([;{])",
     re.MULTILINE,
 )
-#: What stands for functions that have no face of their name, and why.
+#: Functions of the library without a Python function of the same name: what replaces them, and why.
 ELSEWHERE = {
-    "triangulate_polygon": "as_mesh",  # of polygons of meshio
+    "triangulate_polygon": "as_mesh",  # for polygons of meshio
     "outward": "expand",  # and every other function that needs it
     "truncated": "Expansion.truncate",
     "windows": "low_pass",  # its choices and its documentation
     "window_info": "low_pass",
-    "descriptors": "Expansion.measure",  # a property each
+    "descriptors": "Expansion.measure",  # one property each
     "names_of": "",  # choices of options, which annotations list
     "find_name": "",
     "check_gravity": "Expansion.with_gravity",
@@ -40,8 +40,8 @@ ELSEWHERE = {
     "is_batch_column": "",  # for manifests, which the program reads
     "write_batch": "BatchTable.to_hdf5",
     "discard_unfinished_files": "",  # for signal handlers of programs: Python's raise exceptions
-    "encode_file": "expand",  # of a path
-    "encode_mapped": "expand",  # of a path
+    "encode_file": "expand",  # for a path
+    "encode_mapped": "expand",  # for a path
     "find_attribute": "Mesh.attributes",
     "attribute_warnings": "map_mesh",
     "described_attributes": "map_mesh",
@@ -57,15 +57,15 @@ ELSEWHERE = {
     "is_shape_file": "load",
     "is_model_name": "coefficients_formats",
     "check_columns": "read_shape",  # refuses columns that do not fit
-    "points_of_rows": "PointCloud",  # of an array with more than three columns
-    "convert_mesh": "write_shape",  # of what was read; the program converts files larger than memory
+    "points_of_rows": "PointCloud",  # for an array with more than three columns
+    "convert_mesh": "write_shape",  # after reading; the program converts files larger than memory
     "convert_points": "write_shape",
     "has_attributes": "map_mesh",  # the arrays of a mapped file are NumPy's
     "has_triangles_only": "map_mesh",
-    "release_vertices": "",  # the system does so where memory is short
+    "release_vertices": "",  # the system does it if memory is short
     "survey_mesh": "inspect",
     "set_attribute": "Mesh.attributes",  # a dict
-    "mesh_of": "Mesh",  # of arrays
+    "mesh_of": "Mesh",  # for arrays
     "view_of": "Mesh.vertices",  # an array over the mesh's memory
 }
 
@@ -212,7 +212,7 @@ def test_options_are_in_the_program_and_on_the_reference_page(program):
     said = subprocess.run([program, "reconstruct", "--help"], check=True, capture_output=True, text=True)
     words = " ".join(said.stdout.split())
     page = (ROOT / "docs" / "reference.md").read_text()
-    # --resolution, --max-memory in GiB, -o; --work-dir and --model have a help of their own
+    # --resolution, --max-memory in GiB, -o; --work-dir and --model have their own help
     elsewhere = {"step", "max_memory", "output", "work_dir", "model"}
     for field in rholm._core.ReconstructOptions.FIELDS:
         assert f"| `{field['name']}` |" in page

@@ -8,7 +8,7 @@ import rholm
 
 pysh = pytest.importorskip("pyshtools")
 
-LIMIT = 1e-12  # of the largest coefficient or value
+LIMIT = 1e-12  # relative to the largest coefficient or value
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +79,7 @@ def test_spectra_agree_in_every_unit(body, kind, unit):
 
 def test_rotations_agree(body):
     alpha, beta, gamma = 0.3, 0.7, -1.1
-    # pyshtools turns by Euler angles the body way round: x -> R^T x of its angles.
+    # pyshtools rotates by Euler angles in the body frame: x -> R^T x of its angles.
     expected = body.to_pyshtools().rotate(alpha, beta, gamma, degrees=False, body=True)
     ours = body.rotate(rholm.rotation_of(alpha, beta, gamma)).coeffs
     assert np.abs(ours - expected.coeffs).max() <= LIMIT

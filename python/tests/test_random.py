@@ -1,5 +1,5 @@
-"""Random calls: whatever comes in, an answer or an exception comes out. RHOLM_RANDOM_CALLS says how
-many (default 60); run under AddressSanitizer by scripts/python-sanitized.
+"""Random calls: any input gives a result or an exception. RHOLM_RANDOM_CALLS sets the number of
+calls (default 60). scripts/python-sanitized runs the tests under AddressSanitizer.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def arrays(draw):
 
 @st.composite
 def meshes(draw):
-    """Vertices and triangles that are a mesh more often than not: a body, damaged or not."""
+    """Vertices and triangles that usually form a mesh: a body, damaged or not."""
     body = draw(st.sampled_from([rholm.icosphere(1), rholm.box((1, 2, 3), 2), rholm.torus(2, 1, 8, 6)]))
     vertices, triangles = np.array(body.vertices), np.array(body.triangles)
     damage = draw(
@@ -94,22 +94,22 @@ ANYTHING = st.one_of(
 
 
 def mostly(valid):
-    """What a function takes, and in one draw of ten anything else."""
+    """Valid arguments of a function, and in one draw of ten any other value."""
     return st.integers(0, 9).flatmap(lambda k: ANYTHING if k == 0 else valid)
 
 
 def among(*values):
-    """One of some values, mostly."""
+    """Usually one of some values."""
     return mostly(st.sampled_from(values))
 
 
 def number(low, high):
-    """A number in a range, mostly."""
+    """Usually a number in a range."""
     return mostly(st.floats(low, high))
 
 
 def count(low, high):
-    """A whole number in a range, mostly."""
+    """Usually a whole number in a range."""
     return mostly(st.integers(low, high))
 
 
@@ -149,7 +149,7 @@ REGION = mostly(
 )
 FINE = mostly(SEED.map(lambda k: rholm.bumpy_sphere(2, 0.1, seed=k)))
 
-#: Each with the arguments it must have, and those it may have.
+#: Each function with its required and optional arguments.
 FUNCTIONS = [
     (
         rholm.expand,
@@ -290,10 +290,10 @@ FUNCTIONS = [
     ),
 ]
 
-#: What a call may raise; anything else is a defect.
+#: Exceptions that a call may raise; any other one is a defect.
 ALLOWED = (rholm.Error, TypeError, ValueError, IndexError, OverflowError)
 
-#: Calls made; long runs tell every thousandth (to be seen with -s).
+#: Number of calls; long runs report every thousandth (visible with -s).
 calls_made = itertools.count(1)
 
 

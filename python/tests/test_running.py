@@ -1,4 +1,4 @@
-"""How computations run: threads, progress, Ctrl-C, fork, several callers at once."""
+"""Running of computations: threads, progress, Ctrl-C, fork, several callers at once."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ import rholm
 
 
 def slow(progress=False, threads=0):
-    """Some tenths of a second of work."""
+    """Works for some tenths of a second."""
     cloud = rholm.sample_surface(rholm.torus(2, 0.7, 200, 100), 8000, noise=1e-3)
     return rholm.reconstruct(cloud.points, progress=progress, threads=threads)
 
 
 def long():
-    """Work that lasts until it is ended: minutes of a processor for caps of degree 2 and a small error."""
+    """Works until it is stopped: minutes of a processor, for caps of degree 2 and a small error."""
     return rholm.compress(rholm.torus(2, 0.7, 384, 192), 1e-4, max_degree=2)
 
 
@@ -79,7 +79,7 @@ def test_control_c_raises_keyboard_interrupt():
     with pytest.raises(KeyboardInterrupt):
         long()
     timer.join()
-    assert rholm.expand(rholm.icosphere(2), 4).degree == 4  # and work goes on
+    assert rholm.expand(rholm.icosphere(2), 4).degree == 4  # further calls work
 
 
 def test_functions_without_progress_look_at_signals():
@@ -94,7 +94,7 @@ def test_functions_without_progress_look_at_signals():
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.001, 0.001)
         most = 0
-        while most < 10:  # a call without a look has one before it and one afterwards
+        while most < 10:  # a call without checks has one before it and one afterwards
             before = rang
             rholm.inspect(mesh)
             most = max(most, rang - before)
@@ -133,7 +133,7 @@ def test_other_threads_run_meanwhile():
     thread = threading.Thread(target=count)
     thread.start()
     most = 0
-    while most < 20:  # while one call works; hardly any if it kept the others out
+    while most < 20:  # counts while one call works; stays small if the call keeps the lock
         before = counted
         slow()
         most = max(most, counted - before)

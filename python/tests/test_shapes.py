@@ -184,7 +184,7 @@ def test_surfaces_from_points_carry_attributes(ring):
     assert report.closed
     assert report.genus == 1
     assert np.isclose(report.volume, 2 * np.pi**2 * 2 * 0.49, rtol=0.02)
-    # An average over the nearest points.
+    # The attribute is an average over the nearest points.
     assert np.abs(r.mesh.attributes["height"] - r.mesh.vertices[:, 2]).max() < 2 * r.report.spacing
     assert r.mesh.colors.shape == (len(r.mesh.vertices), 3)
     assert len(r.atlas) == r.report.caps
@@ -233,7 +233,7 @@ def test_compression_keeps_its_tolerance(ring, tmp_path):
     assert rholm.is_atlas_file(tmp_path / "a.h5")
     back = rholm.load(tmp_path / "a.h5")
     assert isinstance(back, rholm.Atlas)
-    # Frames of caps are single precision in the file.
+    # The file stores frames of caps in single precision.
     assert rholm.compare(rholm.synthesize(back), mesh).hausdorff < 1e-6
     assert rholm.read_atlas(tmp_path / "a.h5").size.numbers == rholm.size_of(a).numbers
     caps = a.dominant_caps(ring.vertices)
@@ -241,7 +241,7 @@ def test_compression_keeps_its_tolerance(ring, tmp_path):
     cap = a.cap(0)
     assert len(a.coefficients_of(0)) == rholm.n_coefficients(cap.basis, cap.degree)
     assert rholm.highest_degree(a) == max(a.cap(i).degree for i in range(len(a)))
-    # Samples farther from its surface than four tolerances are none of a cap's.
+    # No cap has samples farther from its surface than four tolerances.
     step = 0.01 * cap.axes[2]
     distance, gradient, valid = a.evaluate(0, [cap.seed, cap.seed + step])
     assert valid.all()
@@ -298,8 +298,8 @@ def test_the_whole_mesh_is_a_region(random):
         ball.vertices * (1 + 0.004 * random.normal(size=(len(ball.vertices), 1))), ball.triangles
     )
     smooth = rholm.smooth(rough, None, 0.4)
-    # Waves longer than 0.4 are some (2 pi/0.4 + 1)^2 = 280 numbers, of 10 242 vertices: what is left of
-    # the noise is about 1/6, and half of that again where the caps' fits differ.
+    # Waves longer than 0.4 are about (2 pi/0.4 + 1)^2 = 280 numbers for 10 242 vertices: about 1/6
+    # of the noise remains, and half of that again where the caps' fits differ.
     assert np.std(np.linalg.norm(smooth.vertices, axis=1)) < 0.004 / 3
     everywhere = rholm.smooth(rough, np.ones(len(ball.vertices)), 0.4)
     assert np.array_equal(everywhere.vertices, smooth.vertices)
@@ -393,7 +393,7 @@ def test_pictures(bumpy, tmp_path):
     picture = rholm.render(bumpy, (120, 80), path=tmp_path / "a.png")
     assert picture.shape == (80, 120, 3)
     assert picture.dtype == np.uint8
-    assert picture.std() > 10  # something is seen
+    assert picture.std() > 10  # the picture is not empty
     assert (tmp_path / "a.png").read_bytes() == picture.png() == rholm.encode_png(picture)
     picture.save(tmp_path / "b.png")
     assert picture._repr_png_()[:4] == b"\x89PNG"
@@ -434,7 +434,7 @@ def test_a_copy_stays_where_it_is(bumpy):
 def test_points_are_drawn_as_balls(bumpy, tmp_path):
     cloud = rholm.sample_surface(bumpy, 3000)
     picture = rholm.render(cloud, (96, 80))
-    assert (picture[40, 48] != 255).any()  # closed in front
+    assert (picture[40, 48] != 255).any()  # no gaps in front
     assert np.array_equal(rholm.render(cloud.points, (96, 80)), picture)
     cloud.save(tmp_path / "a.ply")
     assert np.array_equal(rholm.render(tmp_path / "a.ply", (96, 80)), picture)
@@ -472,7 +472,7 @@ def test_a_sample_has_the_attributes_of_its_places(bumpy):
     mesh = bumpy.with_attributes(linear=linear, rgb=colors)
     cloud = rholm.sample_surface(mesh, 2000, noise=0)
     assert np.array_equal(cloud.points, rholm.sample_surface(bumpy, 2000).points)
-    # Values below 16, some ten roundings of each.
+    # Values are below 16, with about ten roundings each.
     assert np.abs(cloud.attributes["linear"] - (1 + cloud.points @ [1, -2, 3])).max() < 160 * 2**-53
     assert cloud.attributes["red"].dtype == np.uint8
     assert np.abs(cloud.attributes["red"] - (128 + 60 * cloud.points[:, 0])).max() <= 1  # rounded twice

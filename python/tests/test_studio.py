@@ -1,4 +1,4 @@
-"""The studio of notebooks from Python's side. That its page works is tested in JupyterLab (web/e2e)."""
+"""The studio of notebooks, tested from Python. JupyterLab tests (web/e2e) cover its page."""
 
 import json
 import re
@@ -15,7 +15,7 @@ pytest.importorskip("anywidget")
 
 @pytest.fixture(autouse=True)
 def script(tmp_path, monkeypatch):
-    """A page of one line instead of the one that scripts/studio makes."""
+    """Replaces the page of scripts/studio by a page of one line."""
     file = tmp_path / "studio.js"
     file.write_text("export default { render() {} };")
     monkeypatch.setattr(_studio, "_SCRIPT", file)
@@ -26,26 +26,26 @@ def script(tmp_path, monkeypatch):
 
 @pytest.fixture
 def page():
-    """A studio, and what its page is told."""
+    """A studio, and the messages to its page."""
     with rholm.studio(threads=1) as studio:
         yield studio, Page(studio)
 
 
 class Page:
-    """What the page does: asks by messages, and hears answers and events."""
+    """Acts as the page: sends requests as messages, and receives answers and events."""
 
     def __init__(self, studio):
         self.studio, self.told, self.heard = studio, [], threading.Condition()
         studio.widget.send = self.hear
 
     def hear(self, content, buffers=()):
-        """As the widget's send()."""
+        """Receives a message, as the widget's send()."""
         with self.heard:
             self.told.append((content, [bytes(b) for b in buffers]))
             self.heard.notify_all()
 
     def ask(self, method, path, body=b"", **query):
-        """What is answered to a message: status, type, bytes."""
+        """Returns the answer to a message: status, type, bytes."""
         asked = {"view": 1, "id": len(self.told), "method": method, "path": path, "query": query}
         asked["session"] = self.studio.widget.session
         self.studio.widget._handle_custom_msg(asked, [body] if body else [])
@@ -57,12 +57,12 @@ class Page:
         return answer["status"], answer["type"], buffers[0]
 
     def wait_for(self, event, seen):
-        """Until there is such an event."""
+        """Waits until there is such an event."""
         with self.heard:
             assert self.heard.wait_for(lambda: any(seen(d) for d in self.events(event)), timeout=600)
 
     def events(self, name):
-        """All that have been told."""
+        """Returns all events of that name."""
         return [json.loads(c["data"]) for c, _ in self.told if c.get("event") == name]
 
 
@@ -180,7 +180,7 @@ def test_it_ends_with_its_widget(bumpy, tmp_path, monkeypatch):
     assert len(list(tmp_path.glob("rholm-studio-*"))) == 1
     job = {"op": "compress", "item": 1, "tolerance": 1e-6}
     studio._ask("POST", "step", json.dumps(job).encode())
-    # As the widget's own close() leaves it: it waits for the job, which is cancelled.
+    # The widget's own close() leaves this state. Closing waits for the job, which is cancelled.
     studio.widget.comm = None
     assert not studio._teller.is_alive()
     with pytest.raises(rholm.InvalidInputError, match="closed"):

@@ -1,4 +1,4 @@
-"""Surfaces from points that are more than a tile: those of the program, whatever the size."""
+"""Surfaces from more points than a tile: the same as from the program, for any size."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def known(cloud, tmp_path_factory):
 
 
 def by_program(program: str, folder: Path, *words: str) -> bytes:
-    """The surface that the program makes of "p.ply" in that folder."""
+    """Returns the surface that the program makes of "p.ply" in that folder."""
     subprocess.run(
         [program, "reconstruct", "p.ply", *words, "-o", "program.ply", "--quiet"], cwd=folder, check=True
     )
@@ -40,7 +40,7 @@ def by_program(program: str, folder: Path, *words: str) -> bytes:
 
 
 def check_sizes(program: str, folder: Path, ring: rholm.Mesh, sizes: list[tuple[int, int | None]]) -> None:
-    """Of arrays and files, in memory and written: each size is a number of points and a tile_points."""
+    """Arrays and files, in memory and written. Each size is a number of points and a tile_points."""
     for n, tile in sizes:
         cloud = rholm.sample_surface(ring, n)
         cloud.save(folder / "p.ply")
@@ -66,12 +66,12 @@ def test_the_surface_of_many_points_is_that_of_the_program(program, ring, tmp_pa
 
 
 def test_points_that_are_not_finite_are_in_no_tile(program, cloud, tmp_path):
-    """Whether there are several tiles is decided by the points that are finite, in files and in arrays."""
+    """The number of finite points decides whether there are several tiles, for files and arrays."""
     points, normals = np.array(cloud.points[:2100]), np.array(cloud.normals[:2100])
     points[::20] = np.nan
     rows = np.hstack([points, normals])
     np.savetxt(tmp_path / "p.xyz", rows)
-    for tile in (1994, 1995):  # of 1995
+    for tile in (1994, 1995):  # of 1995 finite points
         made = rholm.reconstruct(points, normals, tile_points=tile)
         assert (made.report.points, made.report.dropped_points) == (2100, 105)
         assert (made.report.tiles > 1) == (tile < 1995)
@@ -134,7 +134,7 @@ def test_what_is_said_is_what_is_there(cloud, tmp_path):
     report, mesh = made.report, made.mesh
     assert made[:2] == (None, None)
     assert (report.vertices, report.triangles) == (len(mesh.vertices), len(mesh.triangles))
-    assert np.isclose(report.volume, mesh.volume, rtol=1e-5)  # coordinates are single
+    assert np.isclose(report.volume, mesh.volume, rtol=1e-5)  # coordinates are single precision
     assert mesh.inspect().closed
     assert np.abs(mesh.attributes["height"] - mesh.vertices[:, 2]).max() < 4 * report.spacing
     assert report.tiles > 1
@@ -145,7 +145,8 @@ def test_what_is_said_is_what_is_there(cloud, tmp_path):
     (forecast,) = seen
     assert (forecast.points, forecast.tiles) == (len(cloud), report.tiles)
     assert forecast.memory == rholm.foresee_tiles(len(cloud), TILE).memory == report.memory
-    # The same in memory: the mesh with the attributes of the points, the caps and the report.
+    # Run in memory, with the same results: the mesh with the points' attributes, the caps, the
+    # report.
     kept = rholm.reconstruct(cloud, **options)
     kept.save(tmp_path / "kept.ply")
     assert (tmp_path / "kept.ply").read_bytes() == (tmp_path / "s.ply").read_bytes()
@@ -184,7 +185,7 @@ def test_a_run_that_was_stopped_is_taken_up(cloud, known, tmp_path):
     with pytest.raises(rholm.InvalidInputError, match="another run"):
         rholm.reconstruct(cloud, **{**options, "tile_points": 1500}, resume=True)
     other = rholm.PointCloud(2 * cloud.points, cloud.normals)
-    with pytest.raises(rholm.InvalidInputError, match="another run"):  # as many points
+    with pytest.raises(rholm.InvalidInputError, match="another run"):  # the same number of points
         rholm.reconstruct(other, **options, resume=True)
     assert any((folder / "pieces" / "caps").glob("[0-9]*"))
     rholm.reconstruct(cloud, **options, resume=True, max_memory=1 << 30)
@@ -221,7 +222,7 @@ def test_memory_is_refused_with_tiles_that_fit_and_never_changes_the_surface(lar
 
 
 def test_memory_for_the_surface_is_refused_with_an_output(larger, tmp_path):
-    limit = 3 << 20  # enough for a tile of 1000 points, not for what 6000 make
+    limit = 3 << 20  # enough for a tile of 1000 points, not for the surface of 6000
     with pytest.raises(rholm.OutOfMemoryError, match="output"):
         rholm.reconstruct(larger, tile_points=1000, max_memory=limit)
     rholm.reconstruct(larger, tile_points=1000, max_memory=limit, output=tmp_path / "s.ply")

@@ -1,4 +1,4 @@
-"""The viewer of notebooks and pages: what it is given. That it draws is tested in a browser (web/e2e)."""
+"""The viewer of notebooks and pages: its input data. Browser tests (web/e2e) cover its drawing."""
 
 import json
 
@@ -10,7 +10,7 @@ from rholm import _view
 
 @pytest.fixture
 def script(tmp_path, monkeypatch):
-    """A viewer of one line instead of the one that scripts/studio makes."""
+    """Replaces the viewer of scripts/studio by a viewer of one line."""
     file = tmp_path / "viewer.js"
     file.write_text("export default { render() {} };")
     monkeypatch.setattr(_view, "_VIEWER", file)
@@ -20,7 +20,7 @@ def script(tmp_path, monkeypatch):
 
 
 def read(data):
-    """Arrays and meta, by the definition in docs/studio.md."""
+    """Returns arrays and metadata, by the definition in docs/studio.md."""
     assert data[:8] == b"RHOLM1\0\0"
     length = int.from_bytes(data[8:12], "little")
     head = json.loads(data[12 : 12 + length])

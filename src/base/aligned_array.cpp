@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kCacheLine = 64;
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
-// Chosen: below, a huge page that is filled in part costs more than it saves.
+// Chosen: in smaller blocks, a huge page that is only partly filled costs more than it saves.
 constexpr std::size_t kHugeFrom = 2 * kHugePage;
 
 std::size_t round_up(std::size_t n, std::size_t unit) { return (n + unit - 1) / unit * unit; }
@@ -30,7 +30,7 @@ void* allocate_aligned(std::size_t bytes) {
   void* data = nullptr;
   if (posix_memalign(&data, unit, size) != 0) throw std::bad_alloc();
 #ifdef MADV_HUGEPAGE
-  // A wish that may be refused without harm.
+  // The system may refuse this advice without harm.
   if (unit == kHugePage) madvise(data, size / kHugePage * kHugePage, MADV_HUGEPAGE);
 #endif
   poison_scratch(data, bytes);
@@ -48,7 +48,7 @@ void* allocate_zeroed(std::size_t bytes, std::size_t& mapped) {
   }
   if (bytes > std::numeric_limits<std::size_t>::max() - 2 * kHugePage) throw std::bad_alloc();
   const std::size_t size = round_up(bytes, 4096);
-  // What is mapped too much on either side of whole huge pages is given back at once.
+  // The parts of the mapping in front of the aligned block and behind it are unmapped at once.
   void* const room =
       mmap(nullptr, size + kHugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (room == MAP_FAILED) throw std::bad_alloc();

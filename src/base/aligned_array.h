@@ -7,18 +7,18 @@
 
 namespace rholm {
 
-// Aligned to a cache line; blocks of several MiB are placed on huge pages where the system offers
-// them, for a first touch of a small page costs far more than its part of a large one. Throws
-// std::bad_alloc. Not set to anything, but see poison.h.
+// Returns memory aligned to a cache line. Blocks of 4 MiB and more are placed on huge pages where
+// the system offers them. The first touch of small pages costs far more per byte. Throws
+// std::bad_alloc. The memory is not initialised, but see poison.h.
 void* allocate_aligned(std::size_t bytes);
 void free_aligned(void* data) noexcept;
 
-// The same, all bits zero: large blocks come so from the system, and are not touched here.
-// `mapped` is what free_zeroed() has to know.
+// Returns memory whose bits are all zero. Large blocks come zeroed from the system and are not
+// touched here. free_zeroed() needs the value of `mapped`.
 void* allocate_zeroed(std::size_t bytes, std::size_t& mapped);
 void free_zeroed(void* data, std::size_t mapped) noexcept;
 
-// n elements that are not set to anything, or to zeros.
+// Array of n elements, which are not initialised or, if made by zeros(), are zero.
 template <typename T>
 class AlignedArray {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -11,18 +11,18 @@
 
 namespace rholm {
 
-// Counts threads at work.
+// Counts the threads that are at work.
 class AtWork {
  public:
   explicit AtWork(int n = 0) : n_(n) {}
   void begin() { ++n_; }
   void end() {
-    const std::lock_guard lock(mutex_);  // not between a look at the number and the sleep
+    const std::lock_guard lock(mutex_);  // wait() must not miss the notification below
     if (--n_ == 0) none_.notify_one();
   }
-  // Until there are none; calls `meanwhile` from time to time.
+  // Waits until no thread is at work; calls `meanwhile` every kWaitInterval.
   void wait(const std::function<void()>& meanwhile) {
-    // Most have next to nothing left to do, and to sleep and be woken takes long. Chosen.
+    // Most threads have next to nothing left to do, and sleeping and waking take long. Chosen.
     for (int i = 0; i < 200 && n_ > 0; ++i) std::this_thread::yield();
     std::unique_lock lock(mutex_);
     while (!none_.wait_for(lock, kWaitInterval, [&] { return n_ == 0; })) {

@@ -1,4 +1,4 @@
-// Numbers as bytes between processes of one program, in the machine's own byte order. Layer: base.
+// Numbers as bytes for other processes of a program, in the machine's own byte order. Layer: base.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class ByteWriter {
     return append(&v, sizeof v);
   }
   ByteWriter& number(std::uint64_t n) { return value(n); }
-  // With its length.
+  // Writes the number of values before the values.
   template <typename T>
   ByteWriter& array(std::span<const T> values) {
     return number(values.size()).row(values);
@@ -50,7 +50,7 @@ class ByteWriter {
   std::string bytes_;
 };
 
-// Reads what a ByteWriter wrote, in its order; throws Io where it ends too early.
+// Reads what a ByteWriter wrote, in the same order; throws Io where the bytes end too early.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
@@ -71,7 +71,7 @@ class ByteReader {
     value(n);
     return n;
   }
-  // Good as long as the bytes.
+  // Returns a view that is valid as long as the bytes given to the constructor.
   std::string_view text() {
     const std::uint64_t n = number();
     return {take(n), n};
@@ -87,7 +87,7 @@ class ByteReader {
     if (!values.empty()) std::memcpy(values.data(), from, values.size_bytes());
   }
   std::string_view rest() const { return bytes_; }
-  // That was all.
+  // Throws Io if unread bytes are left.
   void finish() const {
     if (!bytes_.empty()) refuse();
   }
@@ -105,7 +105,7 @@ class ByteReader {
   std::string_view bytes_;
 };
 
-// Numbers of which whole rows may be zero, which then take a byte.
+// Writes numbers in rows of `row` numbers. A row of zeros takes only one byte.
 template <typename T, typename IsZero>
 void write_sparse(ByteWriter& writer, std::span<const T> all, std::size_t row,
                   const IsZero& is_zero) {
@@ -117,7 +117,7 @@ void write_sparse(ByteWriter& writer, std::span<const T> all, std::size_t row,
     if (!is_empty) writer.row(part);
   }
 }
-// Calls take(first, part) for the rows that are not; `n` numbers in all, or it is refused.
+// Calls take(first, part) for each row with values. Throws Io unless `n` numbers were written.
 template <typename T, typename Take>
 void read_sparse(ByteReader& reader, std::size_t n, std::size_t row, const Take& take) {
   std::uint64_t written = 0;

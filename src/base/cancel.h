@@ -1,4 +1,4 @@
-// Cancellation where no progress is told: by the CancelScope of the thread.
+// Asks the CancelScope of the thread whether to stop, in steps that report no progress.
 #pragma once
 
 #include <cstddef>
@@ -7,20 +7,20 @@
 
 namespace rholm {
 
-// The scope of this thread, or null.
+// Returns the scope of this thread, or null.
 const CancelScope* cancel_scope();
 
-// Throws Error{kCancelled} if this thread's scope says so. For steps that take milliseconds.
+// Throws Error{kCancelled} if this thread's scope says so. Suits steps that take milliseconds.
 void ask_cancel();
 
-// For steps of up to a few microseconds: asks once in many of them. Of the thread that makes it.
+// Asks once in 8192 calls, for steps of up to a few microseconds. Serves the thread that made it.
 //   CancelPoll poll;
 //   for (...) { poll(); ... }
 class CancelPoll {
  public:
   CancelPoll() : scope_(cancel_scope()) {}
   void operator()() {
-    constexpr std::size_t kEvery = std::size_t{1} << 13;  // chosen: a question takes some 50 ns
+    constexpr std::size_t kEvery = std::size_t{1} << 13;  // chosen: asking takes some 50 ns
     if (scope_ != nullptr && (++steps_ & (kEvery - 1)) == 0) ask_cancel();
   }
 
@@ -29,7 +29,7 @@ class CancelPoll {
   std::size_t steps_ = 0;
 };
 
-// Makes a scope, or none, that of this thread for as long as it lives.
+// Replaces the scope of this thread, possibly by null, for as long as this object lives.
 class CancelScopeSwap {
  public:
   explicit CancelScopeSwap(const CancelScope* scope);

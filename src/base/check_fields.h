@@ -1,4 +1,4 @@
-// Options against the bounds of their fields. Layer: base, private.
+// Checks options against the bounds of their fields. Layer: base, private.
 #pragma once
 
 #include <type_traits>
@@ -8,7 +8,7 @@
 
 namespace rholm {
 
-// Throws InvalidInput with name, value and limits; not a number is outside of all.
+// Throws InvalidInput with name, value and limits if a number is NaN or out of its bounds.
 void check_number(const FieldInfo& info, double value);
 
 template <HasFields Options>
@@ -27,7 +27,7 @@ void check_field(const FieldInfo& info, const V& value) {
   }
 }
 
-// Throws InvalidInput for the first value out of its bounds.
+// Throws InvalidInput for the first value that is out of its bounds.
 template <HasFields Options>
 void check_fields(const Options& options) {
   for_each_field<Options>(

@@ -1,4 +1,4 @@
-// The one user of oneTBB.
+// This is the only file that uses oneTBB.
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
@@ -15,13 +15,15 @@
 namespace rholm {
 namespace {
 
-// Callers that do not wait for each other; more do. Chosen: a slot has a few hundred bytes.
+// Number of callers that do not wait for each other; further callers do. Chosen: a slot takes a few
+// hundred bytes.
 constexpr int kCallers = 64;
 
-// One for each number of threads, for good: oneTBB (2021.8) keeps an arena that is done with in its
-// lists while any of its threads looks for work, 7 kB each, and walks them for each new one.
-// Callers have slots of their own beside those of threads - 1 others: one that found none would
-// wait in oneTBB for another to run its loop.
+// Returns the arena for a number of threads, which is kept for good. The reason is that oneTBB
+// (2021.8) keeps a finished arena, 7 kB, in its lists while any of its threads looks for work. It
+// walks all of them for each new arena. Callers have slots of their own beside the slots of the
+// `threads` - 1 other threads. A caller without a slot would wait in oneTBB until another thread
+// runs its loop.
 tbb::task_arena& arena_of(int threads) {
   static std::mutex mutex;
   static auto& arenas = *new std::map<int, tbb::task_arena>;
@@ -31,7 +33,7 @@ tbb::task_arena& arena_of(int threads) {
 
 }  // namespace
 
-// Not in arena_of(): loops are cut for as many threads as an arena has places for.
+// Does not use arena_of(): oneTBB cuts a loop for as many threads as the arena has slots.
 void run_limited(int threads, const std::function<void()>& run) {
   if (threads >= tbb::info::default_concurrency()) return run();
   tbb::task_arena(threads).execute(run);
@@ -41,7 +43,7 @@ int default_threads() { return std::max(1, tbb::info::default_concurrency()); }
 
 void run_chunks(std::size_t chunks, int threads, const std::function<bool(std::size_t)>& run,
                 const std::function<void()>& wait, CallSite) {
-  // More threads than processors only if asked for; oneTBB prints a warning without this.
+  // More threads than processors run only on request; without this, oneTBB prints a warning.
   std::optional<tbb::global_control> more;
   if (threads > tbb::info::default_concurrency()) {
     more.emplace(tbb::global_control::max_allowed_parallelism, threads);
@@ -65,7 +67,7 @@ void run_chunks(std::size_t chunks, int threads, const std::function<bool(std::s
     }
     run_next_ones();
     others.wait(wait);
-    group.wait();  // those that have not begun find no chunk
+    group.wait();  // tasks that have not begun find no chunk left
   });
 }
 

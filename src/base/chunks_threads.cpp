@@ -1,5 +1,6 @@
-// Plain threads, without oneTBB (RHOLM_TBB=OFF), and for ThreadSanitizer (RHOLM_SANITIZE_THREAD):
-// they wait for each other at the beginning and at the end of a loop, and nowhere between.
+// Runs loops on plain threads, without oneTBB (RHOLM_TBB=OFF) and for ThreadSanitizer
+// (RHOLM_SANITIZE_THREAD). Threads wait for each other only at the beginning and at the end of a
+// loop.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -19,31 +20,33 @@
 namespace rholm {
 namespace {
 
-// For ThreadSanitizer any two chunks that touch the same memory are to be a race that is seen,
-// whichever runs first: which thread runs a chunk is settled beforehand there.
+// True where ThreadSanitizer must see a race of any two chunks that touch the same memory, in
+// whatever order they run. The thread of each chunk is then fixed beforehand.
 #ifdef RHOLM_SANITIZE_THREAD
 constexpr bool kShowsRaces = true;
 #else
 constexpr bool kShowsRaces = false;
 #endif
 
-// As few as show every race of two chunks, and of three that two would hide; chosen. Threads that
-// were not asked for change no result: chunks do not depend on them.
+// Chosen: the smallest number that shows every race of two chunks, and each race of three chunks
+// that two threads would hide. More threads than requested change no result, because chunks do not
+// depend on them.
 constexpr std::size_t kLeastThreads = 4;
 
-// The threads that all loops of this process have started.
+// Number of threads that loops of this process have started and that have not ended.
 std::atomic<std::size_t> extra_threads = 0;
 
-// How many threads a loop starts. Loops in loops would have the square of their number: chosen,
-// twice the number at most.
+// Returns the number of threads that a loop starts. Nested loops would start the square of
+// `threads`; chosen: all loops together start at most twice `threads`.
 std::size_t threads_to_start(std::size_t chunks, std::size_t threads) {
   if (kShowsRaces) return std::min(chunks, std::max(threads, kLeastThreads)) - 1;
   const std::size_t running = extra_threads.load(std::memory_order_relaxed);
   return std::min({chunks - 1, threads - 1, 2 * threads - std::min(2 * threads, running)});
 }
 
-// Adds the place of a loop to the file that RHOLM_LOOPS names (scripts/check_loops), each time:
-// what knows which are there already would put loops in an order, as a lock does, and hide races.
+// Appends the place of a loop to the file that RHOLM_LOOPS names (scripts/check_loops), at every
+// call. Remembering the places already written would order the loops, as a lock does, and hide
+// races.
 void note(CallSite where) {
   if (!kShowsRaces) return;
   static const char* const name = std::getenv("RHOLM_LOOPS");
@@ -63,7 +66,7 @@ void run_chunks(std::size_t chunks, int threads, const std::function<bool(std::s
                 const std::function<void()>& wait, CallSite where) {
   note(where);
   const std::size_t n = 1 + threads_to_start(chunks, static_cast<std::size_t>(threads));
-  // Relaxed: what a chunk has written is not for the others to see.
+  // The order is relaxed: other threads need not see here what a chunk has written.
   std::atomic<bool> go_on = true;
   std::atomic<std::size_t> next = 0;
   const auto take = [&](std::size_t settled) {
@@ -86,14 +89,14 @@ void run_chunks(std::size_t chunks, int threads, const std::function<bool(std::s
         others.end();
       });
     } catch (const std::system_error&) {
-      // The system has no more: the threads that it has take all chunks.
+      // The system has no more threads; the threads that have started take all chunks.
       if (kShowsRaces) throw;
       others.end();
     }
   }
   run_some(0);
   others.wait(wait);
-  workers.clear();  // waits for them
+  workers.clear();  // waits for the threads
   extra_threads.fetch_sub(n - 1, std::memory_order_relaxed);
 }
 

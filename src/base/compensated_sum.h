@@ -1,5 +1,5 @@
-// A sum that keeps its rounding error, of each addition as Knuth finds it, without branches:
-// relative error about 2^-53 of the sum of moduli times n 2^-53, instead of n 2^-53.
+// Sum that keeps the rounding error of each addition, found as by Knuth, without branches. Its
+// error is about n 2^-106 of the sum of moduli and one rounding of the result, instead of n 2^-53.
 #pragma once
 
 namespace rholm {

@@ -9,15 +9,15 @@
 
 namespace rholm {
 
-// True where wrong checksums are to be passed over: a fuzzer does not find right ones.
+// True where wrong checksums are accepted: a fuzzer does not find right ones.
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
 inline constexpr bool kAnyChecksum = true;
 #else
 inline constexpr bool kAnyChecksum = false;
 #endif
 
-// Sixteen bytes at a time, each by a table of what it does to the remainder so many bytes later
-// (slicing: Kounavis, Berry 2005): 0.4 ns a byte, an eighth of what one table takes.
+// Table k holds the change of the remainder by a byte k bytes earlier, for 16 bytes at a time
+// (slicing: Kounavis, Berry 2005). A byte takes 0.4 ns, an eighth of the time with one table.
 class Crc32Tables {
  public:
   static constexpr std::size_t kStep = 16;
@@ -27,7 +27,7 @@ class Crc32Tables {
     Tables tables = {};
     for (std::uint32_t byte = 0; byte < 256; ++byte) {
       std::uint32_t value = byte;
-      // The polynomial of IEEE 802.3, bits reversed.
+      // The polynomial of IEEE 802.3, with its bits reversed.
       for (int bit = 0; bit < 8; ++bit) value = value >> 1 ^ ((value & 1) != 0 ? 0xedb88320U : 0);
       tables[0][byte] = value;
     }
@@ -41,7 +41,7 @@ class Crc32Tables {
   }
 };
 
-// Of `bytes`, continuing `before`, the value of what stands before them.
+// Returns the checksum of `bytes`; `before` is the checksum of the bytes in front of them.
 inline std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0) {
   static constexpr Crc32Tables::Tables kTables = Crc32Tables::make();
   constexpr std::size_t kStep = Crc32Tables::kStep;
@@ -52,7 +52,7 @@ inline std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0) {
       std::memcpy(&low, bytes.data(), 8);
       std::memcpy(&high, bytes.data() + 8, 8);
       low ^= value;
-      // Two sums that do not wait for each other.
+      // The two sums do not wait for each other.
       std::uint32_t even = 0, odd = 0;
       for (std::size_t i = 0; i < kStep / 2; ++i) {
         even ^= kTables[kStep - 1 - i][low >> 8 * i & 0xff];

@@ -19,7 +19,7 @@ class DisjointSets {
     return i;
   }
   void unite(std::uint32_t i, std::uint32_t j) {
-    if (parent_[i] == parent_[j]) return;  // nearly always, of the edges of triangles
+    if (parent_[i] == parent_[j]) return;  // nearly always so for edges of faces
     i = find(i);
     j = find(j);
     if (i > j) std::swap(i, j);

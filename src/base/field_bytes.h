@@ -1,4 +1,4 @@
-// Options and results as bytes between processes, by their fields. Layer: base, private.
+// Writes options and results as bytes for other processes, field by field. Layer: base, private.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Options as text: what a folder to resume from remembers of them. Layer: base, private.
+// Writes options as text, which a folder to resume from stores. Layer: base, private.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace rholm {
 template <HasFields Options>
 std::string text_of_fields(const Options& options);
 
-// Different for different values: numbers have all their digits.
+// Returns different texts for different values: numbers have all their digits.
 template <typename V>
 std::string text_of_field(const V& value) {
   if constexpr (kIsOptional<V>) {
@@ -32,7 +32,7 @@ std::string text_of_field(const V& value) {
   }
 }
 
-// "step 0 tolerance 0.1 holes fill ...": all fields that change the result.
+// Returns "step 0 tolerance 0.1 holes fill ...", with all fields that change the result.
 template <HasFields Options>
 std::string text_of_fields(const Options& options) {
   std::string text;

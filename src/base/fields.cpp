@@ -13,7 +13,7 @@
 namespace rholm {
 namespace {
 
-// "above 0", "0 or more", "0 ... 1", "finite".
+// Returns "above 0", "0 or more", "0 ... 1", "finite" and the like.
 std::string bounds_of(const FieldInfo& info) {
   const bool has_least = info.least > -std::numeric_limits<double>::infinity();
   const bool has_most = info.most < std::numeric_limits<double>::infinity();
@@ -26,7 +26,7 @@ std::string bounds_of(const FieldInfo& info) {
                     : fmt::format("{} ... {}", info.least, info.most);
 }
 
-// The same with "or 0".
+// Returns bounds_of(), followed by ", or 0" where the field may be zero.
 std::string limits_of(const FieldInfo& info) {
   return bounds_of(info) + (info.may_be_zero ? ", or 0" : "");
 }

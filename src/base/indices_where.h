@@ -1,4 +1,4 @@
-// Which of many are wanted. Layer: base.
+// Selects indices by a condition. Layer: base.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 
 namespace rholm {
 
-// Those of 0 ... n - 1 for which wanted(i), ascending; it is asked on several threads.
+// Returns the i of 0 ... n - 1 for which wanted(i) is true, ascending. Calls it on several threads.
 template <typename Wanted>
 std::vector<std::uint32_t> indices_where(std::size_t n, const Context& context,
                                          const Wanted& wanted,
                                          CallSite where = {__builtin_FILE(), __builtin_LINE()}) {
-  constexpr std::size_t kGrain = 8192;  // chosen: some 10 us
+  constexpr std::size_t kGrain = 8192;  // chosen: takes some 10 us
   std::vector<std::vector<std::uint32_t>> found((n + kGrain - 1) / kGrain);
   const auto look = [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t>& own = found[begin / kGrain];

@@ -15,13 +15,13 @@ namespace rholm {
 namespace {
 
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
-constexpr std::size_t kPiece = 4 * kHugePage;  // chosen: 1 ms and more
+constexpr std::size_t kPiece = 4 * kHugePage;  // chosen: takes 1 ms or more
 
 }  // namespace
 
 void touch_pages(void* data, std::size_t bytes, const Context& context) {
 #if defined(MADV_HUGEPAGE) && defined(MADV_POPULATE_WRITE)
-  // Whole huge pages. All are wishes that may be refused without harm.
+  // Only whole huge pages are requested. The system may refuse these calls without harm.
   const std::size_t before =
       (kHugePage - reinterpret_cast<std::uintptr_t>(data) % kHugePage) % kHugePage;
   if (bytes < before + kHugePage) return;
@@ -31,7 +31,7 @@ void touch_pages(void* data, std::size_t bytes, const Context& context) {
   const auto populate = [&](std::size_t begin, std::size_t end) {
     madvise(first + begin, end - begin, MADV_POPULATE_WRITE);
   };
-  parallel_for(size, kPiece, context, {}, populate, {});  // no place: nothing is written here
+  parallel_for(size, kPiece, context, {}, populate, {});  // no place: the loop writes nothing
 #endif
 }
 

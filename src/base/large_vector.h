@@ -8,11 +8,11 @@
 
 namespace rholm {
 
-// Asks the system for the memory by huge pages, where it offers them, and on all threads: else the
-// first thread to write to each page waits for it.
+// Requests the memory from the system on all threads, and as huge pages where the system has them.
+// Without this call, the first thread that writes to a page waits for the page.
 void touch_pages(void* data, std::size_t bytes, const Context& context);
 
-// v of n elements instead of none, with room for `more` that will not be moved.
+// Resizes an empty v to n elements, and reserves room for `more` elements behind them.
 template <typename T>
 void resize_large(std::vector<T>& v, std::size_t n, std::size_t more, const Context& context) {
   v.reserve(n + more);
@@ -20,14 +20,14 @@ void resize_large(std::vector<T>& v, std::size_t n, std::size_t more, const Cont
   v.resize(n);
 }
 
-// Frees its memory, which v = {} keeps.
+// Frees the memory of v, which v = {} keeps.
 template <typename T>
 void release(std::vector<T>& v) {
   std::vector<T>().swap(v);
 }
 
-// Gives memory that was freed back to the system. What is asked for in larger pieces than before
-// would else be added to it.
+// Returns freed memory to the system. Otherwise later requests for larger blocks, which do not fit
+// into the freed blocks, would add to the memory in use.
 void return_free_memory();
 
 }  // namespace rholm

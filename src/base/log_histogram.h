@@ -1,4 +1,4 @@
-// How positive values are distributed, within a hundredth of each. Layer: base.
+// Distribution of positive values, each within a hundredth of itself. Layer: base.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace rholm {
 
-// Sums of weights of values between powers of 2^(1/64). Depends on the order in which they are
-// added by no more than rounding of these sums.
+// Sums the weights of values between consecutive powers of 2^(1/64). The order of the additions
+// changes these sums only by rounding.
 class LogHistogram {
  public:
   void add(double value, double weight = 1) {
@@ -16,8 +16,8 @@ class LogHistogram {
     bins_[bin] += weight;
     sum_ += weight;
   }
-  // A value that this part of the weight does not exceed, and no smaller one but for the width of
-  // its bin: the middle of it, 0 of values that are none, and without any.
+  // Returns the middle of the lowest bin up to which more than this part of the weight lies.
+  // Returns 0 for the bin of values that are not positive, and for an empty histogram.
   double quantile(double part) const {
     double below = 0;
     for (const auto& [bin, weight] : bins_) {
@@ -28,7 +28,7 @@ class LogHistogram {
   }
 
  private:
-  static constexpr double kBins = 64;  // to a factor of two
+  static constexpr double kBins = 64;  // bins per factor of two
   static constexpr int kZero = std::numeric_limits<int>::min();
   static double value_of(int bin) { return bin == kZero ? 0 : std::exp2((bin + 0.5) / kBins); }
 

@@ -24,17 +24,17 @@ void report_progress(const Context& context, std::string_view stage, double frac
 
 namespace {
 
-// The first of what several threads throw.
+// Keeps the first of the exceptions that several threads throw.
 class FirstException {
  public:
-  // In a catch block: keeps what was caught, unless there is one.
+  // Called in a catch block: keeps the current exception, unless there is one already.
   void keep() {
     const std::lock_guard lock(mutex_);
     if (!first_) first_ = std::current_exception();
     any_.store(true, std::memory_order_relaxed);
   }
   bool any() const { return any_.load(std::memory_order_relaxed); }
-  // When no other thread is left.
+  // Called when no other thread is left.
   void rethrow() const {
     if (first_) std::rethrow_exception(first_);
   }
@@ -42,7 +42,7 @@ class FirstException {
  private:
   std::mutex mutex_;
   std::exception_ptr first_;
-  std::atomic<bool> any_ = false;  // relaxed: a hint to stop
+  std::atomic<bool> any_ = false;  // relaxed: it is only a hint to stop
 };
 
 }  // namespace
@@ -74,7 +74,7 @@ void parallel_for(std::size_t n, std::size_t grain, const Context& context,
   const std::thread::id caller = std::this_thread::get_id();
   const CancelScope* const scope = cancel_scope();
   const auto ask_caller = [&] {
-    if (exception.any()) return;  // who has said no is not asked again
+    if (exception.any()) return;  // the loop ends already: the caller is not asked again
     try {
       const CancelScopeSwap swap(scope);
       ask_cancel();
@@ -83,9 +83,9 @@ void parallel_for(std::size_t n, std::size_t grain, const Context& context,
     }
   };
   const auto run_on_any_thread = [&](std::size_t chunk) {
-    // The user's question is for the caller, whether others are done for is one for all. (The
-    // caller may be here from within another loop, by way of oneTBB: its scope would be about that
-    // one.)
+    // Only the caller asks the user; each thread asks whether another one has failed. The captured
+    // `scope` is used because oneTBB may run this chunk on the caller's thread from within another
+    // loop. There, cancel_scope() would return the scope of the other loop.
     const bool asks = scope != nullptr && std::this_thread::get_id() == caller;
     const CancelScope of_loop([&] { return !exception.any() && (!asks || scope->keep_going()); });
     try {

@@ -11,11 +11,11 @@
 namespace rholm {
 
 // Calls body(begin, end) for the chunks [0, grain), [grain, 2 grain), ... of [0, n), on several
-// threads. Chunks do not depend on the number of threads, so a body that writes only what belongs
-// to its chunk gives the same bits for any number. Progress is reported under `stage`, from
-// `from` to `to`; an empty stage reports nothing but still asks whether to cancel (with the
-// name "" and the fraction `from`). Throws Error{kCancelled}, or the first exception of a body.
-// `where` is for tests, which look whether every loop ran on several threads.
+// threads. Chunks do not depend on the number of threads. So a body that writes only data of its
+// own chunk gives the same bits for any number of threads. Progress is reported under `stage`, from
+// `from` to `to`. An empty stage still asks whether to cancel, with the name "" and these
+// fractions. Throws Error{kCancelled}, or the first exception of a body. Tests check by `where`
+// that every loop ran on several threads.
 struct ParallelStage {
   std::string_view name = {};
   double from = 0;
@@ -29,7 +29,7 @@ void parallel_for(std::size_t n, std::size_t grain, const Context& context,
 // Reports progress between serial steps; throws Error{kCancelled} if the callback says so.
 void report_progress(const Context& context, std::string_view stage, double fraction);
 
-// The number of threads `context` asks for: at least 1.
+// Returns the number of threads that `context` asks for: at least 1.
 int thread_count(const Context& context);
 
 }  // namespace rholm

@@ -15,7 +15,7 @@ bool stays(char32_t code, std::string_view allowed) {
          (code < 0x80 && allowed.find(static_cast<char>(code)) != std::string_view::npos);
 }
 
-// At least so many digits.
+// Returns at least `n_digits` digits.
 std::string digits_of(unsigned value, unsigned base, std::size_t n_digits) {
   std::string digits;
   for (; value > 0 || digits.size() < n_digits; value /= base) {
@@ -24,7 +24,7 @@ std::string digits_of(unsigned value, unsigned base, std::size_t n_digits) {
   return digits;
 }
 
-// `allowed` are control characters that stay.
+// Escapes characters that are not shown, except the control characters in `allowed`.
 std::string escaped(std::string_view text, std::string_view allowed) {
   std::string result;
   result.reserve(text.size());
@@ -59,7 +59,7 @@ Utf8Character first_character(std::string_view text) {
     if ((byte & 0xC0U) != 0x80U) return {};
     code = code << 6U | (byte & 0x3FU);
   }
-  // Neither longer than needed, nor half of a pair of UTF-16, nor beyond the last character.
+  // Rejects overlong encodings, halves of UTF-16 pairs and codes beyond the last character.
   constexpr char32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
   const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
   if (code < kLeast[length] || is_surrogate || code > 0x10FFFF) return {};
@@ -78,7 +78,7 @@ std::string escaped_line(std::string_view text) { return escaped(text, "\t"); }
 
 std::string shell_text(const std::string& text) {
   if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain_in_shells)) return text;
-  // What is not shown can be typed in the quotes of ANSI C, which bash, zsh and ksh read.
+  // Characters that are not shown can be typed in ANSI C quotes, which bash, zsh and ksh read.
   const bool is_one_line = escaped_line(text) == text;
   std::string quoted = is_one_line ? "'" : "$'";
   for (std::string_view rest = text; !rest.empty();) {
@@ -92,7 +92,7 @@ std::string shell_text(const std::string& text) {
     } else if (escaped_line(one) == one) {
       quoted += one;
     } else {
-      // Three digits of base eight end where they end, whatever follows.
+      // An escape of three octal digits ends there, whatever character follows.
       for (const char c : one) quoted += "\\" + digits_of(static_cast<unsigned char>(c), 8, 3);
     }
   }

@@ -1,4 +1,4 @@
-// Text that comes from outside, as it may be shown: names in files, names of files.
+// Prepares text that comes from outside for display: names in files, names of files.
 #pragma once
 
 #include <string>
@@ -7,34 +7,34 @@
 
 namespace rholm {
 
-// The character of UTF-8 at the begin of `text`: its bytes and its code point; no bytes where there
-// is none.
+// The first character of a UTF-8 text: its bytes and its code point. `bytes` is empty where the
+// text does not begin with a valid character.
 struct Utf8Character {
   std::string_view bytes = {};
   char32_t code = 0;
 };
 Utf8Character first_character(std::string_view text);
 
-// Whether a character is shown as itself: no control character, no separator of lines or
-// paragraphs, no mark that turns the direction of writing.
+// Returns false for control characters, separators of lines or paragraphs, and marks that turn the
+// direction of writing: they are not shown as themselves.
 bool is_shown(char32_t code);
 
-// Escapes what is not shown: "\x1b" for a byte, "\u202e" for a character. Tabs and ends of lines
-// stay.
+// Escapes characters that are not shown: "\x1b" for a byte, "\u202e" for a character. Tabs and ends
+// of lines stay.
 std::string escaped_text(std::string_view text);
-// Ends of lines are escaped too: "\n".
+// Escapes ends of lines too: "\n". Tabs stay.
 std::string escaped_line(std::string_view text);
 
-// One word of a command line as a shell reads it back.
+// Returns one word of a command line, quoted where needed, as a shell reads it back.
 std::string shell_text(const std::string& text);
-// The same for the name of a file, which is never taken for an option: "./-x.ply". "-" stays.
+// Quotes a file's name, and adds "./" to a name that looks like an option: "./-x.ply". "-" stays.
 std::string shell_word(const std::string& file);
 
-// "ply, obj or xyz" with last = "or".
+// Returns "ply, obj or xyz" for last = "or".
 std::string listed(const std::vector<std::string>& words, const std::string& last);
 
-// Text from a file as a message may show it: in quotes, cut to 40 bytes, ? for what is not
-// printable ASCII.
+// Returns text from a file as a message may show it: in quotes, cut to 40 bytes, with ? for bytes
+// that are not printable ASCII.
 std::string in_quotes(std::string_view text);
 
 }  // namespace rholm

@@ -1,4 +1,5 @@
-// Compiled twice: for the library, and with RHOLM_POISON_SCRATCH for the programs of the tests.
+// This file is compiled twice: for the library, and with RHOLM_POISON_SCRATCH for the test
+// programs.
 #include "base/poison.h"
 
 #include <cstring>

@@ -1,4 +1,4 @@
-// Finds reads of memory that nobody has written. Layer: base.
+// Helps to find reads of memory that nobody has written. Layer: base.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace rholm {
 
-// Says that scratch memory holds nothing: what a kernel was given to fill, or has left from its
-// last use. In the programs of the tests it is filled with NaN (as whole numbers: -1 or the
-// largest), so that whoever reads what was not written since is found out; everywhere else this
-// does nothing.
+// Marks scratch memory as uninitialised: memory that a kernel must fill, or that holds values of
+// its last use. In the programs of the tests the memory is filled with NaN (as integers: -1 or the
+// largest one). Tests then find code that reads memory before writing it. Everywhere else this
+// function does nothing.
 void poison_scratch(void* data, std::size_t bytes);
 
 template <typename T>
@@ -18,7 +18,7 @@ void poison_scratch(std::span<T> values) {
   static_assert(std::is_trivially_copyable_v<T>);
   poison_scratch(values.data(), values.size_bytes());
 }
-// The same of all that is in `scratch`.
+// Poisons all bytes of `scratch`.
 template <typename T>
 void poison_all(T& scratch) {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -10,8 +10,8 @@
 
 namespace rholm {
 
-// Reports parts of `total` as they are done, from `from` to `to` under `stage`; throws
-// Error{kCancelled} if the callback says so.
+// Reports the part of `total` that is done, as a fraction between `from` and `to`, under `stage`.
+// Throws Error{kCancelled} if the callback says so.
 class SharedProgress {
  public:
   SharedProgress(const Context& context, const char* stage, double from, double to, double total)

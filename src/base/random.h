@@ -6,11 +6,11 @@
 
 namespace rholm {
 
-// 64 well-mixed bits of (seed, counter): two rounds of the splitmix64 finaliser (Steele, Lea,
-// Flood 2014).
+// Returns 64 well-mixed bits of (seed, counter), by two rounds of the splitmix64 finaliser (Steele,
+// Lea, Flood 2014).
 std::uint64_t random_bits(std::uint64_t seed, std::uint64_t counter);
 
-// Uniform in [0, 1), 53 bits.
+// Returns a uniform number in [0, 1) with 53 random bits.
 double random_uniform(std::uint64_t seed, std::uint64_t counter);
 
 }  // namespace rholm

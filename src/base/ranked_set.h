@@ -1,4 +1,4 @@
-// A set of numbers of a range, which knows how many of its members come before each.
+// Set of integers of a range that counts the members in front of each member.
 #pragma once
 
 #include <bit>
@@ -11,7 +11,7 @@ namespace rholm {
 // Takes 3/16 byte for each number of the range.
 class RankedSet {
  public:
-  // Of numbers low ... low + n - 1.
+  // The range is low ... low + n - 1.
   RankedSet(std::uint32_t low, std::size_t n)
       : low_(low), words_((n + 63) / 64), ranks_(words_.size()) {}
 
@@ -19,7 +19,7 @@ class RankedSet {
     const std::uint32_t bit = number - low_;
     words_[bit / 64] |= std::uint64_t{1} << bit % 64;
   }
-  // All members in order.
+  // Returns all members in ascending order.
   std::vector<std::uint32_t> sorted() {
     std::uint32_t count = 0;
     for (std::size_t w = 0; w < words_.size(); ++w) {
@@ -36,7 +36,7 @@ class RankedSet {
     }
     return numbers;
   }
-  // The place of a member in sorted(), once that has been called.
+  // Returns the index of a member in sorted(), which must have been called before.
   std::uint32_t rank(std::uint32_t number) const {
     const std::uint32_t bit = number - low_;
     const std::uint64_t below = (std::uint64_t{1} << bit % 64) - 1;

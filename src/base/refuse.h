@@ -1,4 +1,4 @@
-// The answer to bad input.
+// Rejects bad input.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Large arrays whose pages are touched for the first time: a second for ten gigabytes.
+// Resizes large arrays. The first touch of their pages takes a second for ten gigabytes.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 
 namespace rholm {
 
-// As values.resize(n), and asks from time to time whether to cancel.
+// Does the same as values.resize(n), and asks from time to time whether to cancel.
 template <class T>
 void resize_asking(std::vector<T>& values, std::size_t n) {
-  constexpr std::size_t kStep = std::size_t{1} << 18;  // chosen: a millisecond
+  constexpr std::size_t kStep = std::size_t{1} << 18;  // chosen: takes a millisecond
   values.reserve(n);
   while (values.size() < n) {
     ask_cancel();

@@ -1,5 +1,5 @@
-// Union-find over 0 ... n - 1 by several threads at once (Anderson, Woll 1991): sets are the same
-// in whatever order they are united, and so are their representatives, the smallest members.
+// Union-find over 0 ... n - 1 by several threads at once (Anderson, Woll 1991). Sets, and their
+// representatives (the smallest members), do not depend on the order of the unions.
 #pragma once
 
 #include <atomic>
@@ -17,36 +17,36 @@ class SharedSets {
     std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
   }
   std::size_t size() const { return parent_.size(); }
-  // While sets are united: what was the representative at some time since the call.
+  // Returns a member that has been the representative at some time since the call.
   std::uint32_t find(std::uint32_t i) {
     for (;;) {
       const std::uint32_t up = parent(i), over = parent(up);
       if (over == up) return up;
-      // Whoever has a parent never loses it, and all above it are of its set: whichever thread
-      // writes last, the path stays one.
+      // A member with a parent never becomes a root again, and all its ancestors are in its set. So
+      // the path stays valid, whichever thread writes last.
       at(i).store(over, std::memory_order_relaxed);
       i = over;
     }
   }
   void unite(std::uint32_t i, std::uint32_t j) {
-    if (parent(i) == parent(j)) return;  // nearly always, of the edges of triangles
+    if (parent(i) == parent(j)) return;  // nearly always so for edges of faces
     for (;;) {
       i = find(i), j = find(j);
       if (i == j) return;
       if (i > j) std::swap(i, j);
-      std::uint32_t own = j;  // unless it has been put below another meanwhile
+      std::uint32_t own = j;  // unless j has got another parent meanwhile
       if (at(j).compare_exchange_strong(own, i, std::memory_order_relaxed)) return;
     }
   }
-  // Once all are united.
+  // Returns true if i is the smallest member of its set, once all sets are united.
   bool is_first(std::uint32_t i) const { return parent_[i] == i; }
 
  private:
-  // Relaxed: parents are all that threads tell each other.
+  // The order is relaxed, because threads exchange nothing but parents.
   std::atomic_ref<std::uint32_t> at(std::uint32_t i) { return std::atomic_ref(parent_[i]); }
   std::uint32_t parent(std::uint32_t i) { return at(i).load(std::memory_order_relaxed); }
 
-  std::vector<std::uint32_t> parent_;  // never larger than the member itself
+  std::vector<std::uint32_t> parent_;  // a parent is never larger than the member itself
 };
 
 }  // namespace rholm

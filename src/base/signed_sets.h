@@ -12,8 +12,8 @@ namespace rholm {
 class SignedSets {
  public:
   struct Member {
-    std::uint32_t set = 0;  // its smallest member
-    bool opposite = false;  // the sign is not that of the smallest member
+    std::uint32_t set = 0;  // smallest member of the set
+    bool opposite = false;  // the sign differs from the smallest member's sign
   };
 
   explicit SignedSets(std::size_t n) : parent_(n), opposite_(n, 0) {
@@ -22,12 +22,12 @@ class SignedSets {
 
   Member find(std::uint32_t i) {
     std::uint32_t root = i;
-    bool sign = false;  // of i against its root
+    bool sign = false;  // sign of i relative to its root
     while (parent_[root] != root) {
       sign ^= opposite_[root] != 0;
       root = parent_[root];
     }
-    for (bool rest = sign; parent_[i] != root && i != root;) {  // all on the way point to the root
+    for (bool rest = sign; parent_[i] != root && i != root;) {  // the whole path points to the root
       const std::uint32_t next = std::exchange(parent_[i], root);
       const bool next_rest = rest ^ (opposite_[i] != 0);
       opposite_[i] = rest;
@@ -37,8 +37,8 @@ class SignedSets {
     return {root, sign};
   }
 
-  // Makes one set of two; i and j then have the same sign, or opposite ones. False if they are
-  // in one set already: nothing changes.
+  // Unites the sets of i and j, which then have equal or opposite signs. Returns false and changes
+  // nothing if i and j are in one set already.
   bool unite(std::uint32_t i, std::uint32_t j, bool opposite) {
     Member a = find(i), b = find(j);
     if (a.set == b.set) return false;
@@ -50,7 +50,7 @@ class SignedSets {
 
  private:
   std::vector<std::uint32_t> parent_;
-  std::vector<char> opposite_;  // against the parent
+  std::vector<char> opposite_;  // sign relative to the parent
 };
 
 }  // namespace rholm

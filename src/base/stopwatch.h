@@ -17,7 +17,7 @@ inline double cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Adds the time from its making to its end to a stage.
+// Adds the time between its construction and its destruction to a stage.
 class StageTimer {
  public:
   StageTimer(StageTimes& times, const std::string& stage)
@@ -35,7 +35,7 @@ class StageTimer {
   double cpu_;
 };
 
-// Runs a stage and notes its times.
+// Runs a stage and records its times.
 template <typename Stage>
 auto timed(StageTimes& times, const std::string& name, const Stage& stage) {
   const StageTimer timer(times, name);

@@ -10,8 +10,8 @@
 namespace rholm {
 namespace {
 
-// A binomial tree: rank r has its bytes from r without its lowest bit, and hands them on to r + 2^k
-// for all 2^k below that bit.
+// Sends bytes along a binomial tree. Rank r receives them from r without its lowest bit, and sends
+// them to r + 2^k for all 2^k below that bit.
 std::string spread(Ranks& ranks, std::string bytes, Tag tag) {
   const int rank = ranks.rank(), size = ranks.size();
   if (rank != 0) bytes = ranks.receive(tag, rank & (rank - 1)).bytes;

@@ -21,7 +21,7 @@ namespace {
 enum class Says : std::uint64_t { kMore, kResult };
 enum class Gives : std::uint64_t { kWide, kNarrow, kNothing };
 
-// How a part ended: behind its bytes, or behind what is wrong with its input.
+// The last byte of a result: the bytes in front of it are the result, or a message about bad input.
 constexpr char kDone = 'd', kInvalid = 'i';
 
 constexpr std::size_t kMostAtOnce = 64;  // chosen: a message is rare beside parts of 0.1 ms
@@ -39,7 +39,7 @@ std::string result_of(const Executor::Work& work, std::size_t part, int threads)
   }
 }
 
-// The part of any rank: works what rank 0 hands out, until nothing is left to be begun.
+// Runs on every rank: computes the parts that rank 0 hands out, until no part is left.
 void serve(Ranks& ranks, int threads, const Executor::Work& work) {
   const auto send = [&](Says what, std::uint64_t number, std::string_view text) {
     ByteWriter writer;
@@ -62,7 +62,7 @@ void serve(Ranks& ranks, int threads, const Executor::Work& work) {
   };
   PartThreads crew(
       threads, [&](std::size_t part) { work_on(part, 1); }, look);
-  // The next parts are asked for while half of the last ones are still there.
+  // The next parts are asked for while half of the last ones are still in the queue.
   for (std::size_t last = 0;;) {
     crew.wait_for_queue(last / 2);
     send(Says::kMore, static_cast<std::uint64_t>(threads), {});
@@ -83,7 +83,7 @@ void serve(Ranks& ranks, int threads, const Executor::Work& work) {
   look();
 }
 
-// What is not handed out yet.
+// The parts that are not handed out yet.
 class HandOut {
  public:
   HandOut(const Parts& parts, const PartResults& results, int ranks)
@@ -96,13 +96,13 @@ class HandOut {
   std::size_t handed_out() const { return handed_out_; }
   void stop() { stopped_ = true; }
 
-  // What a rank gets that asks, if anything is to be said now.
+  // Returns the answer to a rank that asks for parts, or nothing while the rank must wait.
   std::optional<std::string> some(int rank, std::size_t threads, std::size_t all_threads) {
     const std::size_t r = parts_.dealt ? static_cast<std::size_t>(rank) : 0;
     std::size_t& next = next_[r];
     const std::size_t left = (parts_.dealt ? first_of(r + 1) : parts_.count) - next;
     if (stopped_ || left == 0) return given(Gives::kNothing);
-    // What is dealt may all wait.
+    // Dealt parts are handed out at once: all of their results may wait.
     if (!parts_.dealt && next >= results_.end_of_window(all_threads)) return std::nullopt;
     const bool is_wide = next < parts_.wide;
     const std::size_t n = is_wide || parts_.in_order ? 1 : share_of(left, threads, all_threads);
@@ -115,7 +115,7 @@ class HandOut {
   std::size_t first_of(std::size_t rank) const {
     return parts_.dealt ? rank * parts_.count / ranks_ : 0;
   }
-  // Of what is left: large in the beginning, single ones in the end.
+  // Returns a share of the parts that are left: large in the beginning, single parts in the end.
   static std::size_t share_of(std::size_t left, std::size_t threads, std::size_t all_threads) {
     const std::size_t share = left * threads / (4 * all_threads);
     return std::min(left, std::clamp<std::size_t>(share, 1, kMostAtOnce * threads));
@@ -129,8 +129,8 @@ class HandOut {
   bool stopped_ = false;
 };
 
-// On rank 0: until all results are taken, and all ranks know that nothing is left. Gives what is
-// wrong with the first part whose input is invalid, in the order in which results are taken.
+// Runs on rank 0, until all results are taken and all ranks know that no part is left. Returns the
+// message of the first part with invalid input, in the order in which results are taken.
 std::optional<std::string> hand_out(Ranks& ranks, const Parts& parts, const Executor::Take& take) {
   std::optional<std::string> fault;
   const Executor::Take take_valid = [&](std::size_t part, std::string bytes) {
@@ -181,7 +181,7 @@ void RankExecutor::run(const Parts& parts, const Work& work, const Take& take) {
   std::optional<std::string> fault;
   if (ranks_.rank() == 0) {
     if (call_) call_(parts);
-    // Rank 0 asks itself, as the others ask it.
+    // Rank 0 asks itself for parts, in the same way as the other ranks ask it.
     std::jthread own([&] {
       try {
         serve(ranks_, threads_, work);
@@ -192,7 +192,7 @@ void RankExecutor::run(const Parts& parts, const Work& work, const Take& take) {
     try {
       fault = hand_out(ranks_, parts, take);
     } catch (...) {
-      ranks_.fail(std::current_exception());  // before its own parts are waited for
+      ranks_.fail(std::current_exception());  // called before waiting for rank 0's own parts
       throw;
     }
   } else {

@@ -1,4 +1,4 @@
-// Ranks as an executor. Layer: cluster, private.
+// Executor whose parts are computed by ranks. Layer: cluster, private.
 #pragma once
 
 #include <functional>
@@ -9,21 +9,21 @@
 
 namespace rholm {
 
-// Rank 0 hands parts out to all threads of all ranks, itself as well: ranks that are faster get
-// more. All ranks call the same functions in the same order, from one thread each; parts are those
-// that rank 0 names, results are taken there. Each function ends on all ranks at once: what one has
-// left in a store all see.
+// Rank 0 hands out parts to all threads of all ranks, also its own: faster ranks get more parts.
+// All ranks call the same functions in the same order, from one thread each. Rank 0 names the parts
+// and takes the results. Each function ends on all ranks at once; then all ranks see the pieces
+// that any rank has left in a store.
 //
-// InvalidInput of a part is thrown on rank 0, as if it had been worked there. What else one throws
-// ends the run of all ranks.
+// InvalidInput of a part is thrown on rank 0, as if rank 0 had computed the part. Any other
+// exception of a part ends the run of all ranks.
 class RankExecutor final : public Executor {
  public:
-  // `threads` of each rank; 0: its share of the processors. `call` is called on rank 0 before each
-  // run(), and has the others call it, too; none where they do so anyway.
+  // `threads` is for each rank; 0 means its share of the processors. `call` runs on rank 0 before
+  // each run(), and makes the other ranks call run(); it is empty where they do so anyway.
   RankExecutor(Ranks& ranks, int threads, std::function<void(const Parts& parts)> call = {});
 
   void run(const Parts& parts, const Work& work, const Take& take) override;
-  // On rank 0.
+  // Calls the body on rank 0.
   void once(const std::function<void()>& body) override;
   bool is_shared() const override { return true; }
 

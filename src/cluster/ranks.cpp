@@ -16,13 +16,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Of messages of the kind kControl.
+// Kinds of messages with the tag kControl.
 enum class Word : std::uint64_t { kPulse, kFailed, kStop, kStopped, kLeave };
 
 constexpr double kPulseSeconds = 1;  // chosen: rare beside messages, often beside any patience
-constexpr double kGraceSeconds = 5;  // chosen: for loops that ask seldom
-constexpr double kAbortSeconds = 6;  // chosen: an abort has ended all ranks by then
-// Between looks, chosen: while messages come and go, and 2 to 3 % of a processor when none do.
+constexpr double kGraceSeconds = 5;  // chosen: for loops that seldom ask whether to stop
+constexpr double kAbortSeconds = 6;  // chosen: by then an abort has ended all ranks
+// Pauses between polls. Chosen: the shortest one while messages come and go, up to the longest one
+// when none do, which takes 2 to 3 % of a processor.
 constexpr std::chrono::microseconds kShortest = 50us, kLongest = 1ms;
 
 double now_seconds() {
@@ -70,7 +71,7 @@ int Ranks::run(const std::function<Ending(Ranks&)>& lead,
   try {
     speak();
   } catch (const Error& error) {
-    // Of MPI: nobody can be told any more.
+    // The error comes from MPI: no other rank can be reached any more.
     program_.error(of_rank(rank(), error.what()));
     code_ = program_.failure;
     abort();
@@ -119,7 +120,7 @@ void Ranks::end_work() {
   --working_;
 }
 
-// Others know of it before anything can happen to this rank.
+// The next pulse goes out at once: others know the patience before anything happens to this rank.
 void Ranks::set_patience(double seconds) {
   patience_ = seconds;
   pulse_wanted_ = true;
@@ -211,7 +212,7 @@ void Ranks::control(const Packet& packet) {
   }
 }
 
-// Rank 0 tells all, the others rank 0.
+// Rank 0 sends its pulse to all ranks; the others send theirs to rank 0.
 void Ranks::send_pulse() {
   const Pulse pulse = {working_ > 0, program_.progress() + done_};
   ByteWriter bytes;
@@ -229,7 +230,8 @@ void Ranks::send_pulse() {
   }
 }
 
-// Rank 0 looks at all; the others at rank 0, one a little later than the one before it.
+// Rank 0 looks at all ranks. The others look at rank 0, each with more patience than the rank
+// before.
 void Ranks::look_at_others(double now) {
   if (rank() == 0) {
     if (state_ != State::kRunning) return;
@@ -244,7 +246,7 @@ void Ranks::look_at_others(double now) {
   }
   const double patience = patience_ + 2 * kPulseSeconds + kAbortSeconds * (rank() - 1);
   if (!watch_->look(now, patience, rank(), 0)) return;
-  // A rank that is asked to stop is so because another one has said it before.
+  // A rank is only asked to stop because another rank has printed a message already.
   if (program_.interrupted() == 0) {
     program_.error(
         of_rank(0, fmt::format("has not been heard of by rank {} for {:.0f} s (--patience)", rank(),
@@ -277,7 +279,7 @@ void Ranks::tell(const Ending& ending) {
                       .take());
 }
 
-// Of several endings the first counts.
+// The first of several endings counts.
 void Ranks::decide(const Ending& ending, int rank) {
   if (state_ != State::kRunning) return;
   if (!ending.message.empty() && now_seconds() > given_up_until_) {
@@ -307,7 +309,7 @@ void Ranks::stop(int code) {
   program_.stop(code);
 }
 
-// Nobody leaves before nothing is on its way any more: all ranks have stopped, and say so.
+// Rank 0 lets ranks leave only when no message is on its way: all have stopped and said so.
 void Ranks::move_on(double now) {
   if (state_ == State::kRunning || state_ == State::kLeft) return;
   bool has_ended = false;

@@ -1,13 +1,13 @@
-// Ranks that work as one. Layer: cluster.
+// Ranks that work together on one run. Layer: cluster.
 //
-// Rank 0 leads: it runs what was asked for, and calls the others for their part. On every rank one
-// thread speaks MPI, and nothing else, so that ranks hear each other whatever is computed; work is
-// done on other threads, which send and receive by the functions here.
+// Rank 0 leads: it runs the command, and calls the others for their part of the work. On every
+// rank, one thread does nothing but speak MPI, so that ranks hear each other during any
+// computation. Other threads do the work; they send and receive by the functions here.
 //
 // However a run ends, all ranks end with the same code, and at most one message is printed. A rank
-// whose work throws tells rank 0, which says what it was, and has all others stop; their work ends
-// by Stopped. A rank that is silent, or at work without progress, for longer than the patience,
-// ends the run in the same way; one that does not stop then is ended by MPI.
+// whose work throws tells rank 0. Rank 0 prints the message and makes all others stop; their work
+// ends by Stopped. The run ends in the same way if a rank is silent, or at work without progress,
+// for longer than the patience. MPI ends a rank that does not stop then.
 #pragma once
 
 #include <atomic>
@@ -28,10 +28,10 @@ namespace rholm {
 
 class Watch;
 
-// Thrown where a thread waits for other ranks, when the run is about to end.
+// Thrown in a thread that waits for other ranks, when the run is about to end.
 struct Stopped : std::exception {};
 
-// How work ended: an exit code, and what is to be said, if anything.
+// How work ended: an exit code, and a message to be printed unless it is empty.
 struct Ending {
   int code = 0;
   std::string message = {};
@@ -40,25 +40,25 @@ struct Ending {
 // Kinds of messages.
 enum class Tag : int { kControl, kCall, kCollect, kTask, kHand, kTest };
 
-// What all ranks have spent.
+// Resources that all ranks have used.
 struct RankTotals {
   int ranks = 0;
   Traffic traffic;
-  double cpu_seconds = 0;          // of all
-  double longest_cpu_seconds = 0;  // of the one that has most
+  double cpu_seconds = 0;          // sum over all ranks
+  double longest_cpu_seconds = 0;  // largest value of one rank
 };
 
-// What ranks ask of the program around them. All may be called from the thread that speaks MPI.
+// Callbacks to the program around the ranks. The thread that speaks MPI may call all of them.
 struct RanksProgram {
   std::function<std::uint64_t()> progress;        // grows while something is computed
-  std::function<bool()> keep_going;               // asked while parts are worked; none: yes
-  std::function<int()> interrupted;               // the signal that asked to stop, or 0
-  std::function<void(int code)> stop;             // work is to end soon
-  std::function<void(const std::string&)> error;  // prints it
-  std::function<void(const RankTotals&)> ended;   // on rank 0, after a run that was not aborted
-  std::function<void()> discard;                  // unfinished files, before an abort
-  std::function<Ending(std::exception_ptr)> ending_of;  // what an exception comes to
-  int failure = 1;  // the code of a rank that is stuck, or of MPI
+  std::function<bool()> keep_going;               // asked while parts are computed; empty: yes
+  std::function<int()> interrupted;               // returns the signal that asked to stop, or 0
+  std::function<void(int code)> stop;             // announces that work is to end soon
+  std::function<void(const std::string&)> error;  // prints a message
+  std::function<void(const RankTotals&)> ended;   // called on rank 0, unless a run was aborted
+  std::function<void()> discard;                  // removes unfinished files before an abort
+  std::function<Ending(std::exception_ptr)> ending_of;  // code and message of an exception
+  int failure = 1;  // exit code of a rank that is stuck, and after an error of MPI
 };
 
 class Ranks {
@@ -69,46 +69,46 @@ class Ranks {
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
-  // Runs `lead` on rank 0, `serve` on the others, until `lead` returns or anybody throws; returns
-  // the code to exit with. `serve` ends by Stopped.
+  // Runs `lead` on rank 0 and `serve` on the others, until `lead` returns or any of them throws.
+  // Returns the code to exit with. `serve` ends by Stopped.
   int run(const std::function<Ending(Ranks&)>& lead, const std::function<void(Ranks&)>& serve);
 
   int rank() const { return transport_.rank(); }
   int size() const { return transport_.size(); }
   int processors() const { return transport_.processors(); }
 
-  // Sends bytes of any size; returns at once. Any thread.
+  // Sends bytes of any size and returns at once. Any thread may call it.
   void send(int to, Tag tag, std::string bytes);
-  // The next message of that kind, in the order in which they arrived; from any rank, or that one.
-  // Throws Stopped.
+  // Waits for the next message of that kind and returns it, in the order of arrival; from any rank,
+  // or from rank `from`. Throws Stopped.
   Packet receive(Tag tag, std::optional<int> from = {});
   bool is_stopping() const { return stopping_; }
   bool keep_going() const { return !stopping_ && (!program_.keep_going || program_.keep_going()); }
-  // What was thrown on a thread of this rank ends the run, from now on: the first one counts.
-  // Stopped is none. Any thread.
+  // Ends the run because of an exception on a thread of this rank. The first call counts; Stopped
+  // is ignored. Any thread may call it.
   void fail(const std::exception_ptr& what);
 
-  // Something to do begins and ends: what lies between is to show progress.
+  // Mark the beginning and the end of work. Progress is expected in between.
   void begin_work() { ++working_; }
   void end_work();
 
-  // On rank 0: seconds without a sign of life or of progress after which the run ends.
+  // Called on rank 0. The run ends after that many seconds without a sign of life or of progress.
   void set_patience(double seconds);
-  // On rank 0: what is added to a message about a run that did not end well: how to go on. Asked on
-  // the thread that speaks MPI, also when the work has ended.
+  // Called on rank 0. `hint` returns what is added to a message about a run that failed: how to go
+  // on. The thread that speaks MPI calls it, also when the work has ended.
   void set_hint(std::function<std::string()> hint);
 
  private:
   enum class State { kRunning, kStopping, kAcknowledged, kLeft };
 
-  void speak();  // until the run is over
+  void speak();  // runs until the run is over
   void take_outgoing();
   void deliver(Packet packet);
   void control(const Packet& packet);
   void send_pulse();
   void look_at_others(double now);
   void look_at_own_work();
-  void tell(const Ending& ending);  // how this rank's work ended
+  void tell(const Ending& ending);  // reports how this rank's work ended
   void decide(const Ending& ending, int rank);
   void stop(int code);
   void move_on(double now);
@@ -120,31 +120,31 @@ class Ranks {
   Transport transport_;
   std::atomic<bool> stopping_ = false;
   std::atomic<int> working_ = 0;
-  std::atomic<std::uint64_t> done_ = 0;  // pieces of work
+  std::atomic<std::uint64_t> done_ = 0;  // number of finished pieces of work
   std::atomic<double> patience_ = 300;
-  std::atomic<bool> pulse_wanted_ = false;  // at once
+  std::atomic<bool> pulse_wanted_ = false;  // true where a pulse is sent at once
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members up to hint_
   std::condition_variable arrived_, leaving_;
   std::map<Tag, std::deque<Packet>> mailbox_;
   std::deque<Packet> outgoing_;
-  std::optional<Ending> own_ending_;  // of the work of this rank
-  bool has_ended_ = false;            // and whether its thread has
+  std::optional<Ending> own_ending_;  // how the work of this rank ended
+  bool has_ended_ = false;            // true once its thread has ended
   std::function<std::string()> hint_;
 
-  // Of the thread that speaks.
+  // Members of the thread that speaks MPI.
   State state_ = State::kRunning;
-  bool has_told_ = false;  // its failure, to rank 0
+  bool has_told_ = false;  // true once rank 0 knows how this rank's work ended
   int code_ = 0;
   double stopped_at_ = 0;
-  double given_up_until_ = 0;  // the others may have given this rank up, and said so
+  double given_up_until_ = 0;  // until then, the others may have given up this rank
   int acknowledged_ = 0;
   RankTotals totals_;
   std::map<int, std::string> hosts_;
   std::unique_ptr<Watch> watch_;
 };
 
-// Tells that something is worked on for as long as it lives.
+// Marks work as going on for as long as this object lives.
 class RankAtWork {
  public:
   explicit RankAtWork(Ranks& ranks) : ranks_(ranks) { ranks_.begin_work(); }

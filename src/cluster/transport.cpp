@@ -11,7 +11,7 @@
 #include <list>
 #include <thread>
 
-// Not the bindings for C++ that MPI 3 has dropped.
+// Leaves out the bindings for C++ that MPI 3 has dropped.
 #define OMPI_SKIP_MPICXX 1
 #define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
@@ -22,11 +22,11 @@
 namespace rholm {
 namespace {
 
-// A message is a head, the size of all (8 bytes) and what it is (4), with the bytes themselves
-// where they are few; else these follow in pieces.
+// A message has a head: the size of its bytes (8 bytes) and its tag (4 bytes). Up to kFew bytes
+// follow in the head itself; more bytes follow in pieces.
 constexpr int kHeadTag = 1, kPieceTag = 2;
 constexpr std::size_t kHead = 12;
-constexpr std::size_t kFew = 4096;  // chosen: what all implementations send without asking first
+constexpr std::size_t kFew = 4096;  // chosen: all implementations send this without asking first
 
 void check(int code, const char* what) {
   if (code == MPI_SUCCESS) return;
@@ -56,7 +56,7 @@ bool is_done(std::vector<MPI_Request>& requests, const char* what) {
   return done != 0;
 }
 
-// Calls `take` for the pieces of so many bytes.
+// Calls `take` with the offset and size of each piece of `size` bytes.
 template <typename Take>
 void for_each_piece(std::size_t size, std::size_t piece, const Take& take) {
   for (std::size_t at = 0; at < size; at += piece) {
@@ -64,7 +64,8 @@ void for_each_piece(std::size_t size, std::size_t piece, const Take& take) {
   }
 }
 
-// Of each processor this rank gets the share that it has in it.
+// Returns the sum of this rank's shares of processors: one over the number of ranks that may use
+// it.
 int fair_share(MPI_Comm world) {
   MPI_Comm node = MPI_COMM_NULL;
   check(MPI_Comm_split_type(world, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node), "ranks nearby");
@@ -94,8 +95,8 @@ struct Transport::State {
   std::size_t piece = 0;
   int rank = 0, size = 1, processors = 1;
   std::list<Outgoing> outgoing;
-  std::vector<std::deque<Incoming>> incoming;  // of each rank, in their order
-  std::vector<Packet> own;                     // to itself
+  std::vector<std::deque<Incoming>> incoming;  // messages of each rank, in their order
+  std::vector<Packet> own;                     // messages to itself
   Traffic traffic;
 
   void receive_head(const MPI_Status& status);
@@ -211,8 +212,8 @@ std::vector<Packet> Transport::poll() {
 }
 
 void Transport::abort(int code) {
-  // MPICH waits in MPI_Abort() for a rank that does not run; who started the ranks ends all of them
-  // when one has left.
+  // MPICH waits in MPI_Abort() for a rank that does not run. The program that started the ranks
+  // ends all of them when one has left.
   std::thread([code] {
     std::this_thread::sleep_for(std::chrono::seconds(3));
     _exit(code);

@@ -1,6 +1,6 @@
-// MPI: bytes from rank to rank. Layer: cluster, private. The one place that knows it.
+// Sends bytes from rank to rank by MPI. Layer: cluster, private. Only this file uses MPI.
 //
-// All calls come from the thread that made it (MPI_THREAD_FUNNELED), and none waits.
+// All calls come from the thread that made the object (MPI_THREAD_FUNNELED), and no call waits.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@ namespace rholm {
 
 struct Packet {
   int from = 0;
-  int tag = 0;  // what it is, for the receiver; >= 0
+  int tag = 0;  // kind of message, for the receiver; >= 0
   std::string bytes;
 };
 
-// What a rank has sent to others: payloads, without heads.
+// Traffic from a rank to the others: payloads, without heads.
 struct Traffic {
   std::uint64_t bytes = 0;
   std::uint64_t messages = 0;
@@ -24,9 +24,9 @@ struct Traffic {
 
 class Transport {
  public:
-  // Begins MPI. A message is sent in pieces of at most that many bytes; MPI counts by int.
+  // Begins MPI. A message is sent in pieces of at most `piece` bytes, because MPI counts by int.
   explicit Transport(std::size_t piece = std::size_t{1} << 30);
-  // Ends MPI, which waits for all other ranks to do the same: not with messages on their way.
+  // Ends MPI, which waits until all other ranks do the same. No message may be on its way.
   ~Transport();
   Transport(const Transport&) = delete;
   Transport& operator=(const Transport&) = delete;
@@ -34,18 +34,18 @@ class Transport {
   int rank() const;
   int size() const;
   std::string host() const;
-  // Processors that this rank may use, shared with the ranks on the same machine that may use them
-  // too: at least 1. Asked once, by all ranks at the same time.
+  // Returns this rank's share of the processors that it may use, at least 1: ranks on the same
+  // machine share processors. Determined once, by all ranks at the same time.
   int processors() const;
 
-  // Begins to send; messages from one rank to another arrive in their order. Throws Io.
+  // Begins to send. Messages from one rank to another arrive in their order. Throws Io.
   void send(int to, int tag, std::string bytes);
-  // What has arrived since. Throws Io.
+  // Returns the messages that have arrived since the last call. Throws Io.
   std::vector<Packet> poll();
-  bool is_sending() const;  // whether messages are on their way to others
+  bool is_sending() const;  // true while messages are on their way to others
   Traffic traffic() const;
 
-  // Ends all ranks now, as MPI can; they have no time to clean up.
+  // Ends all ranks at once by MPI. They have no time to clean up.
   [[noreturn]] void abort(int code);
 
  private:

@@ -28,7 +28,7 @@ std::optional<Watch::Finding> Watch::look(double now, double patience, int self,
     const State& state = states_[i];
     if (only && rank != *only) continue;
     if (rank != self && now - state.heard > patience) return Finding{rank, Why::kSilent};
-    // By its last pulse: of a rank that is silent nobody knows whether it gets on.
+    // The last pulse decides here: nobody knows whether a silent rank makes progress.
     if (state.pulse.is_working && state.pulsed - state.moved > patience) {
       return Finding{rank, Why::kNoProgress};
     }

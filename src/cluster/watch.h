@@ -1,4 +1,4 @@
-// Whether ranks are alive, and get on. Layer: cluster, private. Knows no MPI and no clock.
+// Watches whether ranks live and progress. Layer: cluster, private. Uses no MPI and no clock.
 #pragma once
 
 #include <cstdint>
@@ -7,21 +7,21 @@
 
 namespace rholm {
 
-// What a rank says of itself every second.
+// Report of a rank about itself, sent every second.
 struct Pulse {
-  bool is_working = false;     // whether it has something to do
-  std::uint64_t progress = 0;  // another number each time it has got on
+  bool is_working = false;     // true while it has something to do
+  std::uint64_t progress = 0;  // changes each time it makes progress
 };
 
-// Seconds count from any beginning.
+// Times are in seconds since any fixed moment.
 class Watch {
  public:
   Watch(int ranks, double now);
-  // Any message of a rank, and its pulse.
+  // Record the time of any message of a rank, and its pulse.
   void heard(int rank, double now);
   void pulse(int rank, const Pulse& pulse, double now);
 
-  // All are taken as heard now: who looks has been away itself.
+  // Takes all ranks as heard now, because the watching rank itself was not running.
   void forgive(double now);
 
   enum class Why { kSilent, kNoProgress };
@@ -29,8 +29,8 @@ class Watch {
     int rank = 0;
     Why why = Why::kSilent;
   };
-  // The first rank that has been silent, or at the same work without progress, for `patience`.
-  // `self` is not looked at for silence; with `only` no other rank than that is.
+  // Returns the first rank that has been silent, or at the same work without progress, for longer
+  // than `patience`. Silence of `self` does not count; if given, `only` is the one rank looked at.
   std::optional<Finding> look(double now, double patience, int self,
                               std::optional<int> only = {}) const;
 

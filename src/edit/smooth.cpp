@@ -17,26 +17,26 @@
 namespace rholm {
 namespace {
 
-// Degrees below this say where the surface is and how it curves, no detail.
+// Lower degrees represent the surface's position and curvature, not detail.
 constexpr int kLowestDegree = 2;
-// Of a region that is bridged: of the weights that a file may have, what is taken as in it.
+// Least weight of a vertex in a bridged region; files may have fractional weights.
 constexpr double kInRegion = 0.5;
-// The surface around such a region that its fits are compared with: in wavelengths, and in edges
-// at least.
+// Width of the rim around a bridged region whose surface is
+// compared with the fits, in wavelengths, and at least in edges.
 constexpr double kRim = 0.5, kRimEdges = 4;
-// A region that is bridged, in wavelengths: beyond the half that is advised, where fits begin to be
-// free in the middle.
+// Widest bridged region in wavelengths. The advised width is half a
+// wavelength; at this width fits become undetermined in the middle.
 constexpr double kWidestBridge = 0.8;
-// A repair moves what is this near to what stands out, in wavelengths, and fades over the second
-// length: the flanks of a scratch stand out less than its middle.
+// A repair moves points within this distance of an outlier, in wavelengths, and fades
+// over the second length. The flanks of a scratch deviate less than its middle.
 constexpr double kRepairCore = 0.25, kRepairReach = 0.25;
-// What lies off a fit by no more than this part of the wavelength does not stand out of it, however
-// exact the fit (chosen: far below any detail, far above the rounding of coordinates).
+// Least deviation of an outlier as a part of the wavelength, even if the fit is
+// exact. Chosen: far below any detail, far above the rounding of coordinates.
 constexpr double kLeastOutstanding = 1e-6;
-// Squares of squares of coordinates are formed.
+// Largest coordinate, because fourth powers of coordinates are computed.
 constexpr double kLargest = 1e70;
 
-// Weights fall to 0 away from what stands out of the fits.
+// Reduces weights to 0 away from points that deviate from the fits.
 void keep_outstanding(const Blend& blend, double wavelength, Site& site) {
   std::vector<double> distance(site.weights.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < distance.size(); ++i) {
@@ -70,7 +70,7 @@ void check_mesh(const Mesh& mesh, double wavelength) {
   }
 }
 
-// Marks the points of the regions; these and what is within `rim` around them have weight.
+// Marks the points of the regions; they and the points within `rim` get a weight.
 void ignore_regions(const Mesh& mesh, std::span<const Region> regions, double rim, Site& site) {
   const std::vector<double> weights = region_weights(mesh, regions, 0);
   const std::size_t n = site.local.points.size();
@@ -114,7 +114,7 @@ Site make_site(const Mesh& mesh, std::span<const Region> regions, const PatchOpt
   return site;
 }
 
-// A region that is left out of the fits must be narrow enough for waves to span it.
+// Throws if a region left out of the fits is too wide for waves to span it.
 void check_bridged(const Site& site, double wavelength) {
   if (site.ignored.empty()) return;
   if (std::find(site.ignored.begin(), site.ignored.end(), 1) == site.ignored.end()) {
@@ -192,7 +192,7 @@ std::vector<Vec3> update(const Patch& patch, const PatchUpdate& wanted) {
   }
   if (!std::isfinite(wanted.strength)) refuse("the strength must be finite");
   if (wanted.strength == 0) return patch.positions;
-  // Between two degrees the mean of their fits.
+  // Between two degrees, the mean of their fits is taken.
   const double cut = patch.degree * patch.wavelength / wavelength;
   const auto low = std::min(static_cast<std::size_t>(cut), static_cast<std::size_t>(patch.degree));
   const double part = cut - static_cast<double>(low);

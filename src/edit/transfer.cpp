@@ -20,13 +20,13 @@
 namespace rholm {
 namespace {
 
-// A base of waves of this many edges at least: what smoothing takes, and some room.
+// A base has waves of at least this number of edges: the limit of smoothing, plus some room.
 constexpr double kFewestBaseEdges = 3;
-// Transitions, in radii of the regions, unless waves are shorter: what is around a region, limbs
-// and folds, is not to come along.
+// Width of transitions in radii of the regions, unless waves are
+// shorter. A small width excludes limbs and folds around a region.
 constexpr double kTransition = 0.25;
-// Edges of a refined target, in those of the source times the scale: lines on the texture's map are
-// half an edge apart, and heights between them cubic.
+// Edge length of a refined target, in edges of the source times the scale. Lines
+// on the texture's map are half an edge apart, and heights between them are cubic.
 constexpr double kRefined = 1;
 
 void check_update(const TransferUpdate& u, int from_degree) {
@@ -45,7 +45,7 @@ double median_edge(const TexturedPatch& textured) {
   return median_edge(textured.local.points, textured.local.triangles, in);
 }
 
-// Heights of the source at places of the target's chart, whose lengths are `scale` of its own.
+// Heights of the source on the target's chart, whose lengths are `scale` of the source's lengths.
 struct Texture {
   const DetailMap& map;
   const RepeatedMap& repeated;
@@ -55,7 +55,7 @@ struct Texture {
   double single(const Place2& at) const { return map(at) * map.weight(at); }
 
   double operator()(const Place2& at) const {
-    // Back into the source: turned the other way, larger.
+    // Converts back to the source: turned the other way, divided by the scale.
     const double c = std::cos(angle), s = std::sin(angle);
     const Place2 back{(c * at.p + s * at.q) / scale, (c * at.q - s * at.p) / scale};
     return repeat ? repeated(back) : single(back);
@@ -72,11 +72,11 @@ double rms_in_disc(const DetailMap& map) {
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
-// Not a name that a file could give to a property.
+// A name that a file cannot give to a property.
 constexpr const char* kCarriedName = "region of a transfer";
 
-// Refines in the regions and their transition; returns how many vertices are new. Of the regions
-// places stay, but paint and numbers of vertices become an attribute, which refinement carries on.
+// Refines in the regions and their transition; returns the number of new vertices.
+// Balls and boxes stay; other regions become an attribute, which refinement carries on.
 std::size_t refine_target(double transition, double length, std::vector<Region>& regions,
                           Mesh& mesh) {
   std::vector<double> weights = region_weights(mesh, regions, transition);
@@ -106,7 +106,7 @@ std::vector<Vec3> displaced(const TexturedPatch& target, const Texture& texture,
     if (row == kNoRow) continue;
     const double h = height * texture(target.chart(target.base[i])) * patch.weights[row];
     const Vec3 at = positions[row] + h * target.normals[i];
-    // Points of a seam have a row each, one after the other.
+    // Points of a seam have one row each, in sequence.
     const std::size_t n = target.local.members_of(i).size();
     for (std::size_t k = row; k < row + n; ++k) {
       if (h != 0 || remove_own) positions[k] = at;
@@ -115,7 +115,7 @@ std::vector<Vec3> displaced(const TexturedPatch& target, const Texture& texture,
   return positions;
 }
 
-// The base needs waves that the source has.
+// Throws if the base needs waves that the source cannot represent.
 void check_degree(const Mesh& source, std::span<const double> weights, double radius, int degree) {
   const double edge = median_edge(source.vertices, source.triangles, weights);
   if (4 * radius / degree >= kFewestEdges * edge) return;
@@ -128,7 +128,7 @@ void check_degree(const Mesh& source, std::span<const double> weights, double ra
                             : std::string("a larger region, or a finer mesh")));
 }
 
-// A closed mesh that is inside out, turned: heights are along normals that point outwards.
+// Turns a closed mesh that is inside out, because heights are along outward normals.
 std::optional<Mesh> turned_outwards(const Mesh& mesh) {
   if (!(enclosed_volume(mesh) < 0) || !outward(mesh).flipped) return std::nullopt;
   Mesh turned = mesh;
@@ -142,7 +142,7 @@ struct TransferSourceState {
   TexturedPatch patch;
   DetailMap texture;
   mutable std::once_flag repeating;
-  mutable RepeatedMap repeated;  // once it is wanted
+  mutable RepeatedMap repeated;  // computed when it is needed
 };
 
 struct TransferState {
@@ -222,7 +222,7 @@ TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& targ
   state->target = texture_of(mesh, regions, report.target_wavelength, transition, context);
   count_azimuths_like(patch.chart, state->target.chart);
   report.target_edge = median_edge(state->target);
-  // Of the bases: the detail on them does not count in how large they are.
+  // These sizes belong to the bases: detail does not count.
   report.source_radius = patch.chart.unit;
   report.target_radius = state->target.chart.unit;
   report.scale = options.scale * report.target_radius / report.source_radius;
@@ -241,7 +241,7 @@ TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& targ
 TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> from,
                                   const Mesh& target, std::span<const Region> to,
                                   const TransferOptions& options, const Context& context) {
-  check_fields(options);  // before the work
+  check_fields(options);  // checked before the work
   return analyze_transfer(analyze_source(source, from, options.from_degree, context), target, to,
                           options, context);
 }

@@ -8,7 +8,7 @@
 namespace rholm {
 namespace {
 
-// Where the bytes are as long as the owner, if they have none yet.
+// Returns the section itself if it has an owner, or a copy of the bytes that has one.
 SectionBytes owned(const SectionBytes& section) {
   if (section.owner) return section;
   const auto copy =
@@ -79,7 +79,7 @@ class MemoryStore::Growing final : public GrowingPieces {
   MemoryStore& store_;
   std::string group_;
   std::vector<std::shared_ptr<Content>> pieces_;
-  std::uint64_t bytes_ = 0;  // that are not whole yet
+  std::uint64_t bytes_ = 0;  // of pieces that are not finished yet
 };
 
 bool MemoryStore::has(const std::string& name) const {

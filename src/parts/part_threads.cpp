@@ -12,7 +12,7 @@ PartThreads::PartThreads(int threads, std::function<void(std::size_t)> work,
   try {
     for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { work_on(); });
   } catch (const std::system_error&) {
-    if (threads_.empty()) throw;  // else those that the system has work all parts
+    if (threads_.empty()) throw;  // else the existing threads compute all parts
   }
 }
 

@@ -1,5 +1,5 @@
-// What executors are made of: threads that work parts, and results in their order. Layer: parts,
-// private.
+// Building blocks of executors: threads that compute parts, and results in their order. Layer:
+// parts, private.
 #pragma once
 
 #include <condition_variable>
@@ -18,28 +18,28 @@
 
 namespace rholm {
 
-// Threads that work parts of a queue. After the first failure no part is begun.
+// Threads that compute the parts of a queue. After the first failure no part is begun.
 class PartThreads {
  public:
-  // `meanwhile` is called every few milliseconds where the owner waits, and may throw.
+  // While the owner waits, it calls `meanwhile` every few milliseconds; `meanwhile` may throw.
   PartThreads(int threads, std::function<void(std::size_t part)> work,
               std::function<void()> meanwhile);
-  // Drops the queue, and waits for parts that are being worked.
+  // Drops the queue, and waits for parts that are being computed.
   ~PartThreads();
   PartThreads(const PartThreads&) = delete;
   PartThreads& operator=(const PartThreads&) = delete;
 
   // Adds parts `first` ... `first` + `n` - 1 to the queue.
   void add(std::size_t first, std::size_t n);
-  // Waits until no more than so many parts are in the queue.
+  // Waits until no more than `most` parts are in the queue.
   void wait_for_queue(std::size_t most) {
     wait([&] { return queue_.size() <= most; });
   }
-  // Waits until all parts are worked.
+  // Waits until all parts are computed.
   void wait_for_all() {
     wait([&] { return queue_.empty() && busy_ == 0; });
   }
-  // Waits until the condition holds, which is asked after each part. Throws the first failure.
+  // Waits until the condition, which is asked after each part, holds. Throws the first failure.
   template <typename Condition>
   void wait(const Condition& condition) {
     std::unique_lock lock(mutex_);
@@ -56,7 +56,7 @@ class PartThreads {
 
   const std::function<void(std::size_t)> work_;
   const std::function<void()> meanwhile_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
   std::deque<std::size_t> queue_;
   int busy_ = 0;
@@ -65,14 +65,14 @@ class PartThreads {
   std::vector<std::jthread> threads_;
 };
 
-// Results on their way to who takes them.
+// Passes results on to `take`, in the order that Parts asks for.
 class PartResults {
  public:
   PartResults(const Parts& parts, const Executor::Take& take) : parts_(parts), take_(take) {}
 
-  // Takes a result, and those that have waited for it; or keeps it until those before it are there.
+  // Takes a result and results that waited for it, or keeps it until all earlier ones are there.
   void put(std::size_t part, std::string bytes);
-  // Parts from here on wait until more results are taken, where `threads` work.
+  // Returns the first part that may not begin before more results are taken, for `threads` threads.
   std::size_t end_of_window(std::size_t threads) const {
     return parts_.in_order ? taken_ + 2 * threads : parts_.count;
   }

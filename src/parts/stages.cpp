@@ -11,9 +11,9 @@
 namespace rholm {
 namespace {
 
-// What takes less was done before: a piece that is there is only looked for.
+// Steps that took less time were done by an earlier run: only their pieces were searched.
 constexpr double kDoneBefore = 0.002;  // seconds for each step
-// Before so many seconds nothing is said of the rest: the first stages tell little of the others.
+// Seconds before the time left is reported: first stages predict little about others.
 constexpr double kSilent = 10;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// A computation as named stages: what each leaves in a store, how long it took, and when the whole
-// will be done. Layer: parts, private.
+// A computation as named stages: the pieces that each stage leaves in a store, its times, and the
+// time left. Layer: parts, private.
 #pragma once
 
 #include <chrono>
@@ -16,22 +16,22 @@
 
 namespace rholm {
 
-// A stage and what it costs, as a part of the whole: only ratios count.
+// A stage and its cost relative to the other stages: only ratios count.
 struct StageCost {
   std::string_view name;
   double cost = 0;
 };
 
-// Time that is left, from the costs of what is done and what is not. Stages that take no time at
-// all, as they were done by a run before, do not count.
+// Estimates the time left from the costs of stages done and to come. Stages that take no time,
+// because an earlier run has done them, do not count.
 class TimeLeft {
  public:
-  // All stages to come.
+  // `stages` are all stages to come.
   explicit TimeLeft(const std::vector<StageCost>& stages);
   void add(const std::vector<StageCost>& stages);
-  // This part of a stage is done, after so many seconds since the begin.
+  // Records that this part of a stage is done, `seconds` after the start of the run.
   void done(std::string_view stage, double part, double seconds);
-  // Whether work has been done in this run, from which the time that is left can be told.
+  // Returns true once this run has done enough work to estimate the time left.
   bool is_known() const;
   double seconds() const;
 
@@ -41,48 +41,48 @@ class TimeLeft {
     double done = 0;
   };
   std::vector<Stage> stages_;
-  double worked_ = 0;   // costs of what took time
-  double seconds_ = 0;  // that these took
-  double last_ = 0;     // when it was asked last
+  double worked_ = 0;   // sum of costs of the stages that took time
+  double seconds_ = 0;  // time that these stages took
+  double last_ = 0;     // time of the last call of done()
 };
 
-// "3 min", "2 h 5 min", "40 s": no more digits than are known.
+// Returns "3 min", "2 h 5 min" or "40 s", with no more digits than are known.
 std::string text_of_seconds(double seconds);
 
-// A stage whose parts 0 ... count - 1 are worked one at a time, each on all threads of a process.
+// A stage whose parts 0 ... count - 1 are computed one at a time, each on all threads of a process.
 struct Stage {
   std::string_view name;
   std::size_t count = 0;
-  // A part leaves the pieces OUTPUT/PART in the store. Parts whose outputs are all there, from a
-  // run before, are not worked again.
+  // Names of outputs: a part leaves the pieces OUTPUT/PART in the store. A part whose outputs are
+  // all there, from an earlier run, is not computed again.
   std::vector<std::string> outputs = {};
-  // Pieces INPUT/PART that no later stage reads are removed when the stage has ended, unless the
-  // store is kept.
+  // Names of inputs INPUT/PART that no later stage reads. They are removed when the stage has
+  // ended, unless the store is kept.
   std::vector<std::string> last_inputs = {};
 };
 
-// All processes of the executor go through the same stages in the same order, and share the store.
-// A part leaves what it finds there only, where all see it once the stage has ended.
+// Runs the stages. All processes of the executor run the same stages in the same order, and share
+// the store. A part leaves its results only there; all processes see them once the stage has ended.
 class Stages {
  public:
   using Body = std::function<void(std::size_t part)>;
 
-  // The whole of it is `costs`; `context` is told of each stage, with the time that is left.
+  // `costs` lists all stages; `context` receives each stage and the time left.
   Stages(Executor& executor, PieceStore& store, const std::vector<StageCost>& costs,
          StageTimes& times, const Context& context);
   Stages(const Stages&) = delete;
   Stages& operator=(const Stages&) = delete;
 
-  // More stages that are to come.
+  // Adds stages that are to come.
   void add(const std::vector<StageCost>& costs) { left_.add(costs); }
 
-  // All parts.
+  // Runs the body for all parts.
   void each(const Stage& stage, const Body& body);
   void each(std::string_view stage, std::size_t count, const Body& body) {
     each({.name = stage, .count = count}, body);
   }
-  // The values that all parts give, those of each behind those of the parts before it. They stay in
-  // the store as the first output.
+  // Returns the values of all parts, in the order of the parts. The values stay in the store as the
+  // first output.
   template <class T, class Work>
   std::vector<T> values(const Stage& stage, const Work& work) {
     const std::string& output = stage.outputs.front();
@@ -94,14 +94,14 @@ class Stages {
     }
     return all;
   }
-  // By the process that leads.
+  // Runs the body in the process that leads.
   void once(std::string_view stage, const std::function<void()>& body);
-  // By each process for itself.
+  // Runs the body in each process.
   void all(std::string_view stage, const std::function<void()>& body);
 
   bool is_shared() const { return executor_.is_shared(); }
 
-  // For what bodies call: its progress is that of the stage.
+  // Returns the context for functions that bodies call: their progress is the stage's progress.
   const Context& context() const { return inner_; }
   StageTimes& times() { return times_; }
 
@@ -120,7 +120,7 @@ class Stages {
   Context outer_, inner_;
   TimeLeft left_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  std::mutex mutex_;  // of what follows, and of left_: the executor may tell while a body does
+  std::mutex mutex_;  // guards left_ and what follows: the executor and a body may report
   std::string_view stage_;
   std::size_t done_ = 0, n_ = 0;  // parts of the stage
 };

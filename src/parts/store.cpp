@@ -5,7 +5,7 @@
 namespace rholm {
 namespace {
 
-// Of a buffer; chosen: below, what it costs to open a file counts; above, nothing is gained.
+// Limits of a buffer's size. Chosen: below, opening files costs time; above, nothing is gained.
 constexpr std::size_t kLeastBlock = std::size_t{1} << 12, kMostBlock = std::size_t{1} << 20;
 
 }  // namespace

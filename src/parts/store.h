@@ -1,8 +1,8 @@
-// Values by name, for whoever works parts: in memory, or in a folder. Layer: parts, private.
+// Stores values by name, in memory or in a folder, for the parts of a task. Layer: parts, private.
 //
-// A piece is a list of sections, bytes that are read one by one. It is made once, appears whole or
-// not at all, and is read many times, by several threads at once. Names are words of letters,
-// digits, '-' and '_' with slashes between them: "caps/12".
+// A piece is a list of sections; a section is bytes that are read together. A piece is made once,
+// appears whole or not at all, and is read many times, by several threads at once. Names are words
+// of letters, digits, '-' and '_', separated by slashes: "caps/12".
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace rholm {
 
-// What a store has of a piece.
+// The stored content of a piece.
 class PieceContent {
  public:
   PieceContent() = default;
@@ -29,14 +29,14 @@ class PieceContent {
   PieceContent& operator=(const PieceContent&) = delete;
 
   virtual std::size_t n_sections() const = 0;
-  virtual std::uint64_t size(std::size_t section) const = 0;  // bytes
-  // Where they lie in memory, as long as this; else null.
+  virtual std::uint64_t size(std::size_t section) const = 0;  // in bytes
+  // Returns the bytes in memory, valid as long as this object; null if they are in a file.
   virtual const std::byte* place(std::size_t section) const = 0;
-  // Throws Io, and InvalidInput if they are not what was written.
+  // Throws Io, and InvalidInput if the bytes differ from the bytes written.
   virtual void read(std::size_t section, std::span<std::byte> bytes) const = 0;
 };
 
-// Numbers of a piece: where they lie in memory, without a copy, or read from a file.
+// The numbers of a piece: a view of memory without a copy, or a vector read from a file.
 template <class T>
 class PieceValues {
  public:
@@ -45,7 +45,7 @@ class PieceValues {
   PieceValues(std::shared_ptr<const PieceContent> content, std::span<const T> values)
       : content_(std::move(content)), values_(values) {}
   explicit PieceValues(std::vector<T> read) : read_(std::move(read)), values_(read_) {}
-  PieceValues(PieceValues&&) noexcept = default;  // a vector that is moved stays where it is
+  PieceValues(PieceValues&&) noexcept = default;  // the buffer of a moved vector stays in place
   PieceValues& operator=(PieceValues&&) noexcept = default;
   PieceValues(const PieceValues&) = delete;
   PieceValues& operator=(const PieceValues&) = delete;
@@ -62,7 +62,7 @@ class PieceValues {
     if (i >= values_.size()) throw std::out_of_range("a piece has fewer values");
     return values_[i];
   }
-  // As numbers that can be changed: a copy of those in memory.
+  // Converts to a vector that can be changed: numbers in memory are copied.
   operator std::vector<T>() && {  // NOLINT(misc-explicit-constructor)
     return content_ ? std::vector<T>(begin(), end()) : std::move(read_);
   }
@@ -73,23 +73,23 @@ class PieceValues {
   std::span<const T> values_;
 };
 
-// A piece that is read; several threads may do so. It can be read on when its store has replaced or
-// removed it.
+// Reads a piece; several threads may use one reader. It stays readable after its store has replaced
+// or removed the piece.
 class PieceReader {
  public:
   explicit PieceReader(std::shared_ptr<const PieceContent> content)
       : content_(std::move(content)) {}
 
   std::size_t n_sections() const { return content_->n_sections(); }
-  std::uint64_t size(std::size_t section) const { return content_->size(section); }  // bytes
-  // Throws Io, and InvalidInput if they are not what was written.
+  std::uint64_t size(std::size_t section) const { return content_->size(section); }  // in bytes
+  // Throws Io, and InvalidInput if the bytes differ from the bytes written.
   std::vector<std::byte> read(std::size_t section) const {
     std::vector<std::byte> bytes(size(section));
     content_->read(section, bytes);
     return bytes;
   }
-  // The section as numbers in the order of this machine; what is too short for one more is left
-  // out. Throws as read().
+  // Returns the section as numbers in this machine's byte order. Bytes at the end that are too few
+  // for a number are left out. Throws like read().
   template <class T>
   PieceValues<T> values(std::size_t section) const {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -112,13 +112,13 @@ class PieceReader {
   std::shared_ptr<const PieceContent> content_;
 };
 
-// Bytes of a section that is written. What has an owner may stay where it is.
+// Bytes of a section to be written. A store in memory keeps bytes with an owner without a copy.
 struct SectionBytes {
   std::span<const std::byte> bytes;
   std::shared_ptr<const void> owner = {};
 };
 
-// Bytes of all pieces, also those that are being written. Any thread.
+// Number of bytes of all pieces, also of pieces that are being written. Any thread may use it.
 class PieceBytes {
  public:
   void add(std::uint64_t bytes) {
@@ -144,8 +144,8 @@ class PieceBytes {
   std::uint64_t now_ = 0, most_ = 0;
 };
 
-// Pieces "GROUP/0" ... "GROUP/(n - 1)" that grow section by section. finish() makes all of them
-// appear together, in the place of any that have been there, or the destructor none.
+// Pieces "GROUP/0" ... "GROUP/(n - 1)" that grow section by section. finish() makes all appear
+// together and replaces any older ones. Without finish(), the destructor drops them.
 class GrowingPieces {
  public:
   GrowingPieces() = default;
@@ -153,7 +153,7 @@ class GrowingPieces {
   GrowingPieces(const GrowingPieces&) = delete;
   GrowingPieces& operator=(const GrowingPieces&) = delete;
 
-  // Throw Io.
+  // Both throw Io.
   virtual void append(std::size_t piece, std::span<const std::byte> section) = 0;
   virtual void finish() = 0;
 };
@@ -167,23 +167,23 @@ class PieceStore {
 
   virtual bool in_memory() const = 0;
   virtual bool has(const std::string& name) const = 0;
-  // Replaces an older one. Throws Io.
+  // Writes a piece, replacing an older one. Throws Io.
   virtual void write(const std::string& name, std::vector<SectionBytes> sections) = 0;
   void write(const std::string& name, std::span<const std::span<const std::byte>> sections);
   void write(const std::string& name, std::vector<std::vector<std::byte>> sections);
-  // Throws Io if it is not there, InvalidInput if it is not whole.
+  // Throws Io if the piece is not there, InvalidInput if it is not whole.
   virtual PieceReader open(const std::string& name) const = 0;
-  // Does nothing where there is none.
+  // Does nothing where there is no such piece.
   virtual void remove(const std::string& name) = 0;
   virtual std::unique_ptr<GrowingPieces> grow(const std::string& group, std::size_t n) = 0;
 
-  // Of all pieces, also those that are being written: now, and at most so far.
+  // Number of bytes of all pieces, also of those being written: now, and the maximum so far.
   std::uint64_t bytes() const { return bytes_.now(); }
   std::uint64_t most_bytes() const { return bytes_.most(); }
-  // Throws Io if there is less room than that.
+  // Throws Io if there is room for fewer bytes.
   virtual void check_room(std::uint64_t bytes) const = 0;
-  // Whether pieces stay, for a run that takes them up again; at first they do not, and in memory
-  // never.
+  // Sets whether pieces stay for a run that resumes this one. At first they do not, and in memory
+  // they never do.
   virtual void keep(bool kept) = 0;
   virtual bool is_kept() const = 0;
 
@@ -191,16 +191,16 @@ class PieceStore {
   PieceBytes bytes_;
 };
 
-// Throws InvalidInput for what no piece may be called.
+// Throws InvalidInput for a name that no piece may have.
 void check_piece_name(const std::string& name);
 
-// Pieces that grow at once through buffers of limited size. For one thread.
+// Pieces that grow at the same time through buffers of limited size. For one thread.
 class PieceAppender {
  public:
-  // The buffers have `most_bytes` in all; 64 KiB for each piece are good.
+  // All buffers together have `most_bytes`; 64 KiB for each piece are good.
   PieceAppender(PieceStore& store, const std::string& group, std::size_t n, std::size_t most_bytes);
 
-  // Bytes of one call stay together, in one section; those of several may share it. Throws Io.
+  // Bytes of one call stay together in one section; several calls may share a section. Throws Io.
   void append(std::size_t piece, std::span<const std::byte> bytes) {
     Buffer& buffer = buffers_[piece];
     if (buffer.used + bytes.size() > buffer.room || bytes.empty()) {
@@ -210,7 +210,7 @@ class PieceAppender {
     std::memcpy(buffer.bytes.get() + buffer.used, bytes.data(), bytes.size());
     buffer.used += bytes.size();
   }
-  // A section of its own. Throws Io.
+  // Appends a section of its own. Throws Io.
   void append_section(std::size_t piece, std::span<const std::byte> bytes);
   void finish();  // the last call; throws Io
 
@@ -225,12 +225,12 @@ class PieceAppender {
   std::unique_ptr<GrowingPieces> pieces_;
   std::vector<Buffer> buffers_;
   std::size_t block_ = 0;      // bytes of a buffer
-  std::size_t most_ = 0;       // buffers
-  std::size_t n_buffers_ = 0;  // that have memory
+  std::size_t most_ = 0;       // largest number of buffers
+  std::size_t n_buffers_ = 0;  // number of buffers that have memory
 };
 
-// Numbers as bytes, in the order of this machine, and back; what is too short for one more is left
-// out.
+// Converts numbers to bytes, in this machine's byte order, and back. Bytes at the end that are too
+// few for a number are left out.
 template <class T>
 std::span<const std::byte> bytes_of(std::span<const T> values) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -249,7 +249,7 @@ std::vector<T> vector_of(std::span<const std::byte> bytes) {
   return values;
 }
 
-// A piece of one section. What is given away stays where it is, in a store in memory.
+// Writes a piece of one section. A store in memory keeps a vector that is moved in without a copy.
 template <class T>
 void write_values(PieceStore& store, const std::string& name, std::vector<T>&& values) {
   values.shrink_to_fit();

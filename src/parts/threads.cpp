@@ -13,7 +13,7 @@
 namespace rholm {
 namespace {
 
-// One part after the other.
+// Computes one part after the other on this thread.
 void run_here(std::size_t first, std::size_t end, int threads, const Executor::Work& work,
               PartResults& results) {
   for (std::size_t part = first; part < end; ++part) {
@@ -22,10 +22,10 @@ void run_here(std::size_t first, std::size_t end, int threads, const Executor::W
   }
 }
 
-// Parts on several threads, while this one takes what they give.
+// Computes parts on several threads, while this thread takes their results.
 void run_threads(std::size_t first, std::size_t end, std::size_t n, const Executor::Work& work,
                  PartResults& results) {
-  std::mutex mutex;  // of what follows
+  std::mutex mutex;  // guards `given`
   std::deque<std::pair<std::size_t, std::string>> given;
   std::atomic<bool> go_on = true;
   const auto work_one = [&](std::size_t part) {
@@ -56,7 +56,7 @@ void run_threads(std::size_t first, std::size_t end, std::size_t n, const Execut
       take_given();
     }
   } catch (...) {
-    go_on = false;  // what is the first failure is known: parts that are being worked end soon
+    go_on = false;  // a failure is known: parts that are being computed end soon
     throw;
   }
 }

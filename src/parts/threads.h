@@ -7,7 +7,7 @@
 
 namespace rholm {
 
-// 0 threads: as many as this process is good for.
+// Computes parts on threads of this process. 0 threads: the number that suits this process.
 class Threads final : public Executor {
  public:
   explicit Threads(int threads = 0);

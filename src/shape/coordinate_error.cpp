@@ -1,12 +1,11 @@
-// Source of the bounds: a triangle has its longest edge of length L along the unit vector l, its
-// height h over that edge along m, and its normal n. Corners that move by at most `error` along
-// each axis move by at most a = sum_k error_k |m_k| along m, and by b = sum_k error_k |n_k| along
-// n.
-// - The apex and the line of the edge approach each other by at most 2 a: for h <= 2 a some
-// triangle
-//   within the errors has no area.
-// - Otherwise the plane turns about the edge by at most 2 b over the height that is left, h - 2 a,
-//   and along the edge by at most 2 b over L.
+// Derivation of the bounds: a triangle has its longest edge of length L along the unit vector
+// l, its height h over this edge along m, and its normal n. Corners that move by at most
+// `error` along each axis move by at most a = sum_k error_k |m_k| along m, and by at most b =
+// sum_k error_k |n_k| along n.
+// - The apex and the line of the edge approach each other by at most 2 a. For h <= 2 a some
+//   triangle within the errors has no area.
+// - Otherwise the plane turns about the edge by at most 2 b over the remaining height h - 2 a, and
+//   along the edge by at most 2 b over L.
 #include "shape/coordinate_error.h"
 
 #include <algorithm>
@@ -20,24 +19,26 @@
 namespace rholm {
 namespace {
 
-// Of the largest coordinate. Coordinates in double precision are results of computations. Chosen:
-// rotations, intersections and conversions of units lose at most ten of the 53 bits.
+// Error relative to the largest coordinate, for coordinates in double precision that are results of
+// computations. Chosen: rotations, intersections and conversions of units lose at most ten of the
+// 53 bits.
 constexpr double kDoubleError = 0x1p-43;
-// Between one and two steps at the largest coordinate: half a step is lost when a coordinate is
-// stored, and as much when it is computed in single precision.
+// Error relative to the largest coordinate, between one and two spacings of floats there: storing a
+// coordinate loses half a spacing, and computing it in single precision loses another half.
 constexpr double kSingleError = 0x1p-23;
-// Chosen: fewer digits are written by hand, or by formats for voxels, and are exact.
+// Least number of digits of rounded decimals. Chosen: decimals with fewer digits are written by
+// hand, or by formats for voxels, and are exact.
 constexpr int kFewestDigits = 5;
-// Above, the last digit is below kDoubleError.
+// Largest number of digits of decimals; with more, the last digit is below kDoubleError.
 constexpr int kMostDigits = 13;
-// From so many digits on, numbers of single precision are told from others.
+// Number of digits from which decimals are compared with single-precision numbers.
 constexpr int kDigitsOfSingle = 8;
-// Of the largest coordinate: below, decimals are the noise of a computation (chosen).
+// Decimals below this part of the largest coordinate are noise of a computation (chosen).
 constexpr double kNoise = 1e-9;
-// Faces looked at before coordinates are taken as rounded (chosen: some 10 us).
+// Number of faces looked at before coordinates are taken as rounded (chosen: some 10 us).
 constexpr std::size_t kSampled = 1000;
 
-// Calls visit(coordinate) until it returns false; whether it never did.
+// Calls visit(coordinate) until it returns false; returns true if it never did.
 template <typename Visit>
 bool all_coordinates(const MeshView& mesh, const Visit& visit) {
   CancelPoll poll;
@@ -51,15 +52,15 @@ bool all_coordinates(const MeshView& mesh, const Visit& visit) {
 
 bool is_single(double x) { return std::abs(x) < 1e38 && double{static_cast<float>(x)} == x; }
 
-// 10^k exactly, 0 <= k <= 22.
+// Returns 10^k exactly, for 0 <= k <= 22.
 double power_of_ten(int k) {
   double power = 1;
   for (; k > 0; --k) power *= 10;
   return power;
 }
 
-// The multiple of 10^-decimals nearest to x, as reading it gives: 10^22 and integers below 2^53 are
-// exact, and the division rounds once.
+// Returns the multiple of 10^-decimals nearest to x, exactly as reading its decimal text does:
+// 10^22 and integers below 2^53 are exact, and the division rounds once.
 double to_decimals(double x, int decimals) {
   if (decimals < 0) {
     const double power = power_of_ten(-decimals);
@@ -73,16 +74,16 @@ int digits_before_point(double x) {
   return x > 0 ? static_cast<int>(std::floor(std::log10(x))) + 1 : 0;
 }
 
-// Decimals in which all coordinates are written.
+// Decimal notation in which all coordinates are written.
 struct Decimals {
-  int digits = 0;      // of the largest coordinate, or of each
-  bool fixed = false;  // all have the same number of decimals, else of digits
+  int digits = 0;      // digits of the largest coordinate if `fixed`, of every coordinate otherwise
+  bool fixed = false;  // true: all have the same number of decimals; false: of digits
 
   int decimals(double x) const { return digits - digits_before_point(std::abs(x)); }
 };
 
-// With `digits` of them for the largest coordinate, or for each; none if that takes more than
-// kMostDigits.
+// Returns the notation with the fewest digits, at first with `digits` of the largest coordinate,
+// then of each one. Returns nothing if both need more than kMostDigits digits.
 std::optional<Decimals> decimals_of(const MeshView& mesh, double largest) {
   const int before = digits_before_point(largest);
   if (before > kMostDigits || before < kMostDigits - 22) return std::nullopt;
@@ -117,13 +118,13 @@ bool are_written_singles(const MeshView& mesh, const Decimals& written, double l
   });
 }
 
-// Whether fewer than half of a sample of the faces are thinner than the error.
+// Returns true if fewer than half of a sample of the faces are thinner than the error.
 bool leaves_most_faces(const MeshView& mesh, double scale, const Vec3& error) {
   const std::size_t step = std::max<std::size_t>(1, mesh.n_triangles / kSampled);
   std::size_t thin = 0, n = 0;
   for (std::size_t t = 0; t < mesh.n_triangles; t += step, ++n) {
     const Triangle triangle = mesh.triangle(t);
-    if (std::ranges::max(triangle) >= mesh.n_vertices) validate(mesh);  // throws, and says which
+    if (std::ranges::max(triangle) >= mesh.n_vertices) validate(mesh);  // throws with the index
     thin += is_thin(scaled_corners(mesh, triangle, scale), scale * error);
   }
   return 2 * thin < n;

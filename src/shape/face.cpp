@@ -6,8 +6,8 @@
 namespace rholm {
 namespace {
 
-// a b - c d to about one rounding of the result (Kahan; error bound 1.5 ulp: Jeannerod, Louvet,
-// Muller 2013).
+// Returns a b - c d to about one rounding of the result (Kahan; error bound 1.5 ulp: Jeannerod,
+// Louvet, Muller 2013).
 double difference_of_products(double a, double b, double c, double d) {
   const double cd = c * d;
   return std::fma(a, b, -cd) + std::fma(-c, d, cd);
@@ -22,20 +22,20 @@ double largest_modulus(const Vec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// The plain product loses -log2 of this many bits before the accurate one takes over; chosen:
-// one triangle in a thousand of a usual mesh pays for the slower one.
+// Largest sine of an angle at which the accurate product replaces the plain one, which loses -log2
+// of this many bits. Chosen: one triangle in a thousand of a usual mesh needs the slower product.
 constexpr double kIllConditioned = 0x1p-10;
 
-// Coordinates are known to half an ulp: 2^-53 of their modulus. Two ends of the longest edge and
-// the apex move by sqrt(3) of that at most, so the height is uncertain by 2 sqrt(3) 2^-53 = 3.5
-// 2^-53; the products above add 5 2^-53 of a quarter of the longest edge, which is at most
-// 2 sqrt(3) times the largest coordinate: 4.3 2^-53. Together below 8 2^-53.
+// Coordinates are known to half an ulp: 2^-53 of their modulus. Both ends of the longest edge and
+// the apex move by at most sqrt(3) times this, so the height is uncertain by 2 sqrt(3) 2^-53 = 3.5
+// 2^-53. The products above add 5 2^-53 times a quarter of the longest edge. This edge is at most 2
+// sqrt(3) times the largest coordinate, which gives 4.3 2^-53. The sum is below 8 2^-53.
 constexpr double kHeightRounding = 8 * 0x1p-53;
 
 }  // namespace
 
 UnitFrame unit_frame(const Bounds& bounds) {
-  // Halves, so that the difference of the largest numbers does not overflow.
+  // Uses halves, so that the difference of the largest numbers does not overflow.
   const Vec3 half = 0.5 * bounds.max - 0.5 * bounds.min;
   const double extent = largest_modulus(half);
   UnitFrame frame;
@@ -50,7 +50,7 @@ FaceNormal face_normal(const std::array<Vec3, 3>& corners) {
   const Vec3 edges[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]};  // edge k is opposite corner k
   const double squares[3] = {dot(edges[0], edges[0]), dot(edges[1], edges[1]),
                              dot(edges[2], edges[2])};
-  // Between the two shorter edges the product of lengths, and so the rounding, is smallest.
+  // The two shorter edges have the smallest product of lengths, and so the smallest rounding.
   const int apex = static_cast<int>(std::max_element(squares, squares + 3) - squares);
   const int i = apex == 2 ? 0 : apex + 1, j = apex == 0 ? 2 : apex - 1;
   Vec3 normal = cross(edges[i], edges[j]);

@@ -6,16 +6,16 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kSome = 1024;  // chosen: a few pages each of a large file
+constexpr std::size_t kSome = 1024;  // chosen: a few pages of a large file for each list
 
-// FNV-1a.
+// The hash FNV-1a.
 class Hash {
  public:
   void add(const void* data, std::size_t n) {
     const auto* bytes = static_cast<const unsigned char*>(data);
     for (std::size_t i = 0; i < n; ++i) value_ = (value_ ^ bytes[i]) * 0x100000001b3u;
   }
-  // Evenly spread, the last one too.
+  // Adds up to kSome rows, evenly spread and including the last one.
   void add_some(const std::byte* first, std::size_t n, std::size_t stride, std::size_t size) {
     add(&n, sizeof n);
     const std::size_t some = std::min(n, kSome);

@@ -1,4 +1,4 @@
-// Whether two processes have the same mesh.
+// Tells whether two processes have the same mesh.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace rholm {
 
-// A hash of the numbers of vertices and triangles, and of a thousand of each.
+// Returns a hash of the numbers of vertices and triangles, and of up to 1024 of each.
 std::uint64_t fingerprint(const MeshView& mesh);
 
 }  // namespace rholm

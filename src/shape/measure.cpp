@@ -72,7 +72,7 @@ Measures measure(const MeshView& mesh, const UnitFrame& frame) {
   result.area = std::ldexp(0.5 * twice_area.value(), -2 * frame.exponent);
   result.volume = std::ldexp(six_volumes.value() / 6, -3 * frame.exponent);
   result.area_centroid = result.volume_centroid = frame.to_shape({});
-  // A triangle's centroid is a third of the sum of its corners, a tetrahedron's a quarter.
+  // A triangle's centroid is a third of the sum of its corners; a tetrahedron's is a quarter.
   if (twice_area.value() > 0) {
     result.area_centroid = frame.to_shape(area_moment.value() / (3 * twice_area.value()));
   }

@@ -84,7 +84,7 @@ void validate(const MeshView& mesh) {
     poll();
     for (const std::uint32_t index : mesh.triangle(t)) {
       if (index >= mesh.n_vertices) {
-        // Negative numbers arrive here as if they had no sign.
+        // Negative indices of the input appear here as large unsigned numbers.
         const bool negative = index > INT32_MAX;
         throw Error(
             ErrorCode::kInvalidInput,

@@ -1,4 +1,4 @@
-// The normals of a mesh's vertices, which are its attributes nx, ny and nz. Layer: shape.
+// Gives access to the normals of a mesh's vertices, the attributes nx, ny, nz. Layer: shape.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@
 
 namespace rholm {
 
-// Refers to the values of the attributes, not to the list of them.
+// Points to the values of the three attributes. It stays valid when the list of attributes moves.
 struct NormalAttributes {
   std::array<std::vector<double>*, 3> axes{};
 
-  // Whether there are all three; the others ask for that.
+  // Returns true if all three attributes exist; the other functions require this.
   explicit operator bool() const { return axes[0] && axes[1] && axes[2]; }
   Vec3 operator[](std::size_t v) const { return {(*axes[0])[v], (*axes[1])[v], (*axes[2])[v]}; }
   void set(std::size_t v, const Vec3& normal) const {

@@ -1,4 +1,4 @@
-// Points without a surface.
+// Recognises points that span no surface.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace rholm {
 
-// Whether all points lie within `width` of the line from the first one to the one farthest from it.
-// O(n); true for no points. Coordinates whose squares are in range.
+// Returns true if all points lie within `width` of the line from the first point to the point
+// farthest from it. O(n); true for no points. Squares of the coordinates must not overflow.
 inline bool lie_on_line(std::span<const Vec3> points, double width) {
   if (points.empty()) return true;
   const Vec3 first = points.front();

@@ -1,4 +1,4 @@
-// Small motions of parts of a shape. Layer: shape.
+// Describes small motions of parts of a shape. Layer: shape.
 #pragma once
 
 #include <cmath>
@@ -7,11 +7,11 @@
 
 namespace rholm {
 
-// About `middle`: a turn and a shift.
+// A rotation about `middle`, followed by a translation.
 struct RigidMotion {
-  Vec3 middle, shift, turn;  // a vector of rotation, radians
+  Vec3 middle, shift, turn;  // turn: rotation vector in radians
 
-  // Rodrigues' formula.
+  // Rotates a direction by Rodrigues' formula.
   Vec3 direction(const Vec3& v) const {
     const double angle = norm(turn);
     if (!(angle > 0)) return v;

@@ -15,7 +15,7 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Rows without gaps: vectors of scalars, in which x, y, z take turns.
+// Reads rows without gaps as vectors of scalars, in which x, y and z alternate.
 template <class T>
 HWY_INLINE std::size_t PackedRange(const std::byte* at, std::size_t n, VertexRange& range) {
   const hn::CappedTag<T, 16> d;
@@ -34,7 +34,7 @@ HWY_INLINE std::size_t PackedRange(const std::byte* at, std::size_t n, VertexRan
       const W v = hn::LoadU(d, scalars + k * lanes);
       low[k] = hn::Min(low[k], v);
       high[k] = hn::Max(high[k], v);
-      nothing[k] = hn::Add(nothing[k], hn::Sub(v, v));  // NaN for what is not finite
+      nothing[k] = hn::Add(nothing[k], hn::Sub(v, v));  // NaN for a coordinate that is not finite
     }
   }
   for (std::size_t k = 0; k < 3; ++k) {

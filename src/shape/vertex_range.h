@@ -1,4 +1,4 @@
-// The bounding box of a mesh that lies in somebody else's memory. Layer: shape.
+// Computes the bounding box of a mesh in memory of the caller. Layer: shape.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 
 namespace rholm {
 
-// The smallest and largest x, y and z.
+// The smallest and largest x, y and z of some vertices.
 struct VertexRange {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double min[3] = {kInfinity, kInfinity, kInfinity};
   double max[3] = {-kInfinity, -kInfinity, -kInfinity};
-  bool finite = true;  // every coordinate is
+  bool finite = true;  // true if every coordinate is finite
 
   void add(std::size_t k, double low, double high) {
     min[k] = std::min(min[k], low);
@@ -23,10 +23,10 @@ struct VertexRange {
   }
 };
 VertexRange vertex_range(const MeshView& mesh, std::size_t begin, std::size_t end);
-// Of all vertices, on several threads.
+// Returns the range of all vertices, computed on several threads.
 VertexRange vertex_range(const MeshView& mesh, const Context& context);
 
-// Of the bounding box.
+// Returns the diagonal of the bounding box.
 double diagonal_of(const MeshView& mesh, const Context& context);
 
 }  // namespace rholm

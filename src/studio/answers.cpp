@@ -11,9 +11,9 @@
 namespace rholm::studio {
 namespace {
 
-constexpr std::size_t kMaxShownPoints = 2000000;  // chosen: what a screen of today has pixels
+constexpr std::size_t kMaxShownPoints = 2000000;  // chosen: the pixels of a current screen
 
-// Every so many of them, evenly.
+// Returns every n-th point, evenly, so that at most kMaxShownPoints are left.
 PointCloud thinned(const PointCloud& cloud) {
   const std::size_t step = (cloud.points.size() + kMaxShownPoints - 1) / kMaxShownPoints;
   if (step <= 1) return cloud;
@@ -85,7 +85,7 @@ Response surface_answer(const Item& item, bool original) {
   binary.add("positions", positions, {n, 3});
   binary.add("normals", normals_of(positions, mesh.triangles, joined_triangles(mesh)), {n, 3});
   binary.add("triangles", indices_of(mesh.triangles), {m, 3});
-  // A series has the colours of the shape it is of: its vertices are those of the shape.
+  // A series has the colours and the vertices of its shape.
   const std::vector<std::uint8_t> colors = colors_of(item.original ? *item.original : mesh);
   if (!colors.empty()) binary.add("colors", colors, {n, 3});
   if (item.atlas) {

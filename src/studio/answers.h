@@ -1,4 +1,4 @@
-// What is asked of one item and of filter windows, answered. Layer: studio.
+// Answers requests about one item and about filter windows. Layer: studio.
 #pragma once
 
 #include <map>
@@ -14,21 +14,21 @@ namespace rholm::studio {
 
 Response json_response(const Json& json, int status = 200);
 
-// BINARY of positions, normals, triangles, colours, labels of caps, faces that the centre does not
-// see; without its look if the original is wanted.
+// Returns BINARY of positions, normals, triangles, colours, labels of caps, and faces
+// that the centre does not see. With `original`, the surface is shown without its look.
 Response surface_answer(const Item& item, bool original);
-// Energy and errors of every degree.
+// Returns the energy and the errors of every degree.
 Response measures_answer(const Item& item);
-// A file of the format "ply", "h5", "png", ..., with the bytes that the program writes; of the size
-// "WxH" if it is a picture. Throws Refusal 400 for a format that the item has not.
+// Returns a file of the format "ply", "h5", "png", ..., with the bytes that the program writes.
+// `size` is "WxH" for pictures. Throws Refusal 400 if the item cannot be saved in that format.
 Response save_answer(const Item& item, const Recipe& recipe, const std::string& format,
                      const std::string& size, Scratch& scratch, const Context& context);
 
-// All windows of filters, as the table of the library has them, and which is the default.
+// Returns all filter windows in the library's table, and the default.
 Response windows_answer();
-// The gains of a low-pass filter for the degrees 0 ... `degree`: `query` names the `window`, its
-// `cutoff`, `degree`, and any of its parameters. Throws Refusal 400 for what is no number, and what
-// low_pass() throws.
+// Returns the gains of a low-pass filter for the degrees 0 ... `degree`.
+// `query` has the `window`, `cutoff`, `degree` and parameters of the window.
+// Throws Refusal 400 for invalid numbers, and the errors of low_pass().
 Response gains_answer(const std::map<std::string, std::string>& query);
 
 }  // namespace rholm::studio

@@ -1,13 +1,13 @@
-// Between two expansions. Layer: studio.
+// Blends two expansions. Layer: studio.
 #pragma once
 
 #include "rholm/coefficients.h"
 
 namespace rholm::studio {
 
-// (1 - t) a + t b, coefficient by coefficient, and centres likewise; degrees that one has not are
-// zero there. t from 0 to 1 goes from a to b, beyond it exaggerates. Throws InvalidInput if their
-// functions differ, or t is not within -1 ... 2.
+// Returns (1 - t) a + t b for coefficients and centres; missing degrees
+// count as zero. t from 0 to 1 goes from a to b; other values exaggerate.
+// Throws InvalidInput if the functions differ, or t is not within -1 ... 2.
 Expansion blended(const Expansion& a, const Expansion& b, double t);
 
 }  // namespace rholm::studio

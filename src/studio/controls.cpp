@@ -22,14 +22,14 @@ namespace {
 
 enum class Scale { kLinear, kLog };
 
-// What the page's panels show by themselves. Ranges that are narrower than those of a list are
-// chosen: what a slider is used for.
+// Settings of a control that the panels of the page show. Some ranges are narrower
+// than in the list of fields; they are chosen as the useful range of a slider.
 struct Shown {
   const char* label;
-  std::optional<double> least = {}, most = {}, at = {};  // instead of those of the list
-  double step = 0;                                       // 0: any value, or whole ones
+  std::optional<double> least = {}, most = {}, at = {};  // override the field's values
+  double step = 0;                                       // 0: any value, or whole numbers
   Scale scale = Scale::kLinear;
-  const char* unit = "";                  // "diagonal": a part of it; "degrees"
+  const char* unit = "";                  // "diagonal": as a part of it; "degrees"
   std::vector<const char*> choices = {};  // labels of the choices, in their order
 };
 
@@ -41,7 +41,7 @@ std::string label_of(std::string name) {
 
 Json bound(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-// As docs/studio.md describes a control.
+// Returns a control as described in docs/studio.md.
 Json control(const char* name, const char* help, const char* kind, Json standard) {
   return {{"name", name},    {"label", label_of(name)},  {"help", help},
           {"kind", kind},    {"default", standard},      {"least", nullptr},
@@ -88,7 +88,7 @@ class Controls {
  public:
   explicit Controls(const char* op) : op_(op) {}
 
-  // All fields that requests of the step have by their names.
+  // Adds all fields that requests of the step may have.
   template <HasFields Options>
   Controls&& fields() && {
     const Options standard;
@@ -100,14 +100,14 @@ class Controls {
     });
     return std::move(*this);
   }
-  // How the page shows a field of the list.
+  // Sets how the page shows a field of the list.
   Controls&& show(const char* name, const Shown& shown) && {
     for (Json& json : list_) {
       if (json["name"] == name) json = shown_as(std::move(json), shown);
     }
     return std::move(*this);
   }
-  // A number that requests have beside the fields of the list.
+  // Adds a number of requests that is not a field of the options.
   Controls&& number(const char* name, const Shown& shown) && {
     list_.push_back(
         shown_as(control(name, "", shown.step == 1 ? "whole number" : "number", nullptr), shown));
@@ -135,7 +135,7 @@ Json controls() {
                            .at = 0.08,
                            .scale = Scale::kLog,
                            .unit = "diagonal"})
-      .show("fitting", {.label = "Fitting"})  // both are what the page calls an action
+      .show("fitting", {.label = "Fitting"})  // the page shows both as an action
       .show("repair", {.label = "Repair"})
       .number("strength", {.label = "Strength", .least = -1, .most = 1, .at = 1, .step = 0.01})
       .add_to(all);
@@ -160,7 +160,7 @@ Json controls() {
       .add_to(all);
   Controls("simplify")
       .number("faces", {.label = "Faces",
-                        .least = 100,  // a shape that can be told
+                        .least = 100,  // the shape is still recognisable
                         .at = 10000,
                         .step = 1,
                         .scale = Scale::kLog})
@@ -189,7 +189,7 @@ Json controls() {
   return all;
 }
 
-// Negative values would be taken for options.
+// Negative values would be parsed as options.
 std::string value_text(const std::string& value) {
   return (value.starts_with('-') ? "=" : " ") + value;
 }

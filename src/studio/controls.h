@@ -1,5 +1,5 @@
-// Fields of options as requests have them, as lines of a recipe, and as controls of the page.
-// Layer: studio.
+// Fields of options in requests, in lines of a
+// recipe, and as controls of the page. Layer: studio.
 #pragma once
 
 #include <optional>
@@ -18,15 +18,15 @@ template <typename V>
 inline constexpr bool kIsAsked =
     NamedEnum<V> || std::is_arithmetic_v<V> || std::is_same_v<V, std::optional<double>>;
 
-// Whether requests and the page have a field by its name: what the program has, but for lengths,
-// which it takes as parts of the diagonal, for places and for what does not change the result.
+// Returns true if requests and the page have this field by its name: a field of the program
+// that changes the result and has no unit. Lengths and places are given in other ways.
 template <typename V>
 bool is_asked(const FieldInfo& info) {
   return kIsAsked<V> && info.in_program && info.changes_result && info.unit == FieldUnit::kNone;
 }
 
-// The value of a request's field. Throws Refusal 400 for another type, a name that is no choice,
-// and a number out of bounds.
+// Returns the value of a request's field. Throws Refusal 400 for
+// a wrong type, an unknown choice, or a number out of bounds.
 template <typename V>
 V value_in(const Json& request, const FieldInfo& info) {
   V value = {};
@@ -47,8 +47,8 @@ V value_in(const Json& request, const FieldInfo& info) {
   return value;
 }
 
-// Takes the fields that a request has by their names; null leaves the default. Throws as
-// value_in().
+// Takes the fields that a request has by their names; null
+// leaves the default. Throws the errors of value_in().
 template <HasFields Options>
 void take_fields(const Json& request, Options& options) {
   for_each_field<Options>([&](auto member, const FieldInfo& info) {
@@ -61,7 +61,7 @@ void take_fields(const Json& request, Options& options) {
   });
 }
 
-// Calls visit(info, value) for each of these fields that is not as by default.
+// Calls visit(info, value) for each of these fields that differs from its default.
 template <HasFields Options, typename Visit>
 void for_each_change(const Options& options, const Visit& visit) {
   const Options standard;
@@ -78,7 +78,7 @@ void for_each_change(const Options& options, const Visit& visit) {
   });
 }
 
-// These fields of a step of the recipe.
+// Writes the changed fields to a step of the recipe.
 template <HasFields Options>
 void record_fields(const Options& options, Json& step) {
   for_each_change(options, [&](const FieldInfo& info, const auto& value) {
@@ -90,14 +90,14 @@ void record_fields(const Options& options, Json& step) {
   });
 }
 
-// Options of a command, and arguments of a function of Python.
+// Options of a command, and arguments of a Python function.
 struct Arguments {
   std::string shell = {}, python = {};  // " --scale 2 --refine", ", scale=2, refine=True"
 
   void flag(const std::string& name);
   void number(const std::string& name, double value);
   void choice(const std::string& name, const std::string& value);
-  // All fields that are not as by default.
+  // Adds all fields that differ from their defaults.
   template <HasFields Options>
   void fields(const Options& options) {
     for_each_change(options, [&](const FieldInfo& info, const auto& value) {
@@ -113,7 +113,7 @@ struct Arguments {
   }
 };
 
-// What the page shows to choose options of steps by, as docs/studio.md says.
+// Returns the controls for options of steps on the page, as described in docs/studio.md.
 Response controls_answer();
 
 }  // namespace rholm::studio

@@ -1,4 +1,4 @@
-// Steps on surfaces: smoothed, given texture, simplified, mended.
+// Steps on surfaces: smooth, transfer texture, simplify, repair.
 #include "rholm/repair.h"
 #include "rholm/simplify.h"
 #include "studio/controls.h"
@@ -14,7 +14,7 @@ ItemPtr with_surface(const Json& request, const char* field, const Document& now
   return item;
 }
 
-// The edited mesh in place of the item, the step in the recipe.
+// Replaces the item by the edited mesh, and adds the step to the recipe.
 void finish(Document& document, const Item& before, Mesh mesh, const std::string& suffix, Json step,
             Shared& shared, const Context& context) {
   Item changed = edited(before, std::move(mesh), shared, context);
@@ -22,7 +22,7 @@ void finish(Document& document, const Item& before, Mesh mesh, const std::string
   put(document, std::move(changed));
 }
 
-// With the surface that it is done to.
+// Returns the step with the surface it is applied to.
 Json of_surface(Json step, const char* field, const Named& surface) {
   step[field] = json_of(surface);
   return step;

@@ -32,7 +32,7 @@ SmoothWish smooth_in(const Json& request) {
   SmoothWish wish;
   wish.regions = regions_in(request, "regions");
   parsed(wish.regions);
-  number_of(request, "wavelength");  // there is no default
+  number_of(request, "wavelength");  // throws if missing: there is no default
   take_fields(request, wish.options);
   wish.strength = number_or(request, "strength", 1);
   if (wish.options.repair && wish.options.fitting == PatchFitting::kMean) {

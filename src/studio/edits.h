@@ -1,4 +1,4 @@
-// What requests and steps of a recipe ask of reconstruction, smoothing and transfer. Layer: studio.
+// Options of reconstruction, smoothing and transfer in requests and steps. Layer: studio.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@
 
 namespace rholm::studio {
 
-// `noise` is auto or none, `simplify` a share. `holes` may be close for fill.
-// Throws Refusal 400.
+// `noise` is auto or none, `simplify` a share. `holes`
+// may be close instead of fill. Throws Refusal 400.
 ReconstructOptions reconstruct_in(const Json& request);
 
 struct SmoothWish {
@@ -28,7 +28,7 @@ struct TransferWish {
   std::vector<std::string> from, to;
   TransferOptions options;
   TransferUpdate update;
-  std::optional<double> degrees;  // the angle as it was asked for
+  std::optional<double> degrees;  // the requested angle
 };
 TransferWish transfer_in(const Json& request);
 

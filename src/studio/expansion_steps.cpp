@@ -1,4 +1,4 @@
-// Steps on expansions: made, looked at, aligned, blended.
+// Steps on expansions: analyze, look, align, blend.
 #include <algorithm>
 #include <numbers>
 
@@ -27,18 +27,18 @@ EncodeOptions analysis_in(const Json& request) {
   if (const std::optional<double> tolerance = maybe_number(request, "tolerance")) {
     options.tolerance = Tolerance{.error = *tolerance};
   } else {
-    number_of(request, "degree");  // one of the two must be there
+    number_of(request, "degree");  // throws: one of the two is required
   }
   options.chart.center = parse_center(string_or(request, "center", "auto"));
   return options;
 }
 
-// A mesh of its own: as it was read, or what is shown of a series or caps.
+// Returns the item's own mesh: as read, or the shown surface of a series or caps.
 std::shared_ptr<const Mesh> shape_of(const Item& item) {
   return item.original ? item.original : item.shown;
 }
 
-// The files of that mesh.
+// Returns the file and variable of that mesh.
 Named shape_of(Recipe& recipe, const Item& item) {
   return item.original ? Named{item.file, item.variable} : surface_of(recipe, item);
 }
@@ -88,8 +88,8 @@ Step look_at(const Json& request, const Document& now, Shared& shared) {
           }};
 }
 
-// Every point p becomes R M (p - from) + to, directions turn along; a mirror image is turned inside
-// out, so that it faces outwards again.
+// Moves every point p to R M (p - from) + to, and rotates normals.
+// A mirror image is flipped, so that it faces outwards again.
 Mesh placed_mesh(Mesh mesh, const Placement& placement) {
   const AlignedRotation& best = placement.alignment.best;
   const auto turned = [&](Vec3 v) {
@@ -116,7 +116,7 @@ Mesh placed_mesh(Mesh mesh, const Placement& placement) {
   return mesh;
 }
 
-// "Turned by 41.2 degrees onto egg.ply: radii differ by 0.0123 (rms), before by 0.21."
+// Returns "Turned by 41.2 degrees onto egg.ply: radii differ by 0.0123 (rms), before by 0.21."
 std::string told_of(const Alignment& alignment, const Item& onto) {
   const AlignedRotation& best = alignment.best;
   const bool gauge = onto.model->expansion.function == RadialFunction::kGauge;

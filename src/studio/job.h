@@ -1,4 +1,4 @@
-// Work on a thread of its own, as those see it who wait for it. Layer: studio.
+// Work on its own thread, with its status for waiting pages. Layer: studio.
 #pragma once
 
 #include <atomic>
@@ -14,18 +14,18 @@ namespace rholm::studio {
 
 class Job {
  public:
-  // `changed` is called, from the job's thread, when there is something new to be told: some times
-  // a second at most.
+  // `changed` is called from the job's thread when the
+  // status has changed, at most some times per second.
   Job(int id, std::string label, std::function<void()> changed)
       : id_(id), label_(std::move(label)), changed_(std::move(changed)) {}
 
   int id() const { return id_; }
-  // For the library: progress is noted, and the work ends when it is cancelled.
+  // Returns a context for the library that records progress and ends the work when cancelled.
   Context context(int threads);
   void cancel() { cancelled_ = true; }
   bool cancelled() const { return cancelled_; }
   bool running() const;
-  // The end: "done", "failed", "cancelled".
+  // Sets the final state: "done", "failed", "cancelled".
   void finish(const std::string& state, const std::string& message = {});
   Json json() const;
 
@@ -37,7 +37,7 @@ class Job {
   const std::function<void()> changed_;
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::atomic<bool> cancelled_{false};
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the fields below
   std::string stage_, state_ = "running", message_;
   double fraction_ = 0, seconds_ = 0;
   std::chrono::steady_clock::time_point told_ = begin_;

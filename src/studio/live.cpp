@@ -27,7 +27,7 @@ ItemPtr item_with_model(const Json& request, const char* field, const Document& 
 
 Json meta_of(const Item& item) { return {{"item", item.id}, {"revision", item.revision}}; }
 
-// Some vertices and where they go.
+// Returns some vertices with their new positions.
 Response moved_answer(const Item& item, const Patch& patch, const std::vector<Vec3>& positions) {
   Binary binary;
   binary.add("indices", patch.vertices, {patch.vertices.size()});
@@ -38,7 +38,7 @@ Response moved_answer(const Item& item, const Patch& patch, const std::vector<Ve
   return binary.response();
 }
 
-// A whole mesh, for one whose vertices are others than the item's.
+// Returns a whole mesh, for edits that change the vertices of the item.
 Response mesh_answer(const Item& item, const Mesh& mesh) {
   const std::vector<float> positions = floats_of(mesh.vertices);
   const std::size_t n = mesh.vertices.size();
@@ -86,7 +86,7 @@ Response Live::degree(const Json& request, const Document& document) const {
   return binary.response();
 }
 
-// Weights fall to 0 over half the radius, as long as no wavelength is chosen.
+// Weights fall to 0 over half the radius, unless a wavelength is given.
 Response Live::brush(const Json& request, const Document& document) const {
   const ItemPtr item = item_with_mesh(request, "item", document);
   const std::vector<Region> regions = parsed(regions_in(request, "regions"));
@@ -135,7 +135,7 @@ Response Live::transfer(const Json& request, const Document& document) {
   const ItemPtr source = item_with_mesh(request, "source", document);
   const ItemPtr target = item_with_mesh(request, "target", document);
   TransferWish wish = transfer_in(request);
-  // A hand that turns it does not wait for what it does not want to know.
+  // If the angle is given, its slow search is skipped.
   wish.options.find_angle = !wish.update.angle;
   const std::string of_source =
       fmt::format("{} / {}", fmt::join(wish.from, " "), wish.options.from_degree);
@@ -170,7 +170,7 @@ Response Live::transfer(const Json& request, const Document& document) {
   return mesh_answer(*target, mesh);
 }
 
-// On the directions of a, whatever those of b are.
+// Blends at the directions of a, whatever the directions of b are.
 Response Live::blend(const Json& request, const Document& document) const {
   const ItemPtr a = item_with_model(request, "a", document);
   const ItemPtr b = item_with_model(request, "b", document);

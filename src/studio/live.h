@@ -1,4 +1,4 @@
-// Looks that follow a hand: answered at once, never steps. Layer: studio.
+// Previews during dragging: answered at once, never recorded as steps. Layer: studio.
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@
 
 namespace rholm::studio {
 
-// Of one session. For several threads: of each kind one request is worked on at a time, and of
-// those that wait only the newest is.
+// Previews of one session, for several threads. One request of each kind is
+// processed at a time; of the waiting ones only the newest is processed.
 class Live {
  public:
   explicit Live(int threads) : threads_(threads) {}
-  // Throws Refusal 409 "superseded" for a request that a newer one has overtaken.
+  // Throws Refusal 409 "superseded" if a newer request of the kind has arrived.
   Response answer(const Json& request, const Document& document);
 
  private:
@@ -29,11 +29,11 @@ class Live {
     std::mutex working;
     std::atomic<std::uint64_t> newest{0};
   };
-  // An analysis, and what it is of; only the last one is kept.
+  // The last analysis, with its key and meshes.
   template <typename T>
   struct Kept {
     std::string key;
-    std::shared_ptr<const void> of[2];  // the meshes: as long as they live no other has their place
+    std::shared_ptr<const void> of[2];  // the meshes, kept alive so their addresses stay unique
     std::shared_ptr<const T> analysis;
   };
 
@@ -46,11 +46,11 @@ class Live {
 
   const int threads_;
   std::map<std::string, Kind> kinds_;
-  std::mutex mutex_;  // of the map
+  std::mutex mutex_;  // guards the map
   Kept<Patch> patch_;
   Kept<TransferSource> source_;  // the texture, while its target moves
   Kept<TransferAnalysis> transfer_;
-  bool transfer_angle_ = false;  // whether it has looked for the angle
+  bool transfer_angle_ = false;  // true if the analysis includes the angle
 };
 
 }  // namespace rholm::studio

@@ -9,8 +9,8 @@
 namespace rholm::studio {
 namespace {
 
-constexpr std::size_t kMaxName = 200;      // bytes; chosen: longer ones are no names
-constexpr std::size_t kMaxFileName = 255;  // bytes; what file systems take
+constexpr std::size_t kMaxName = 200;      // bytes; chosen: longer texts are no names
+constexpr std::size_t kMaxFileName = 255;  // bytes; the limit of file systems
 
 bool is_reserved(const std::string& name) {
   static const std::set<std::string> kReserved = {
@@ -35,7 +35,7 @@ std::string plain_text(std::string_view text) {
 
 std::string plain_name(const std::string& name) {
   std::string plain = plain_text(name.substr(name.find_last_of("/\\") + 1));
-  // Cut between two characters: a torn one goes.
+  // The cut may split a character; plain_text() removes the incomplete one.
   if (plain.size() > kMaxName) plain = plain_text(plain.substr(0, kMaxName));
   return plain.empty() || plain == "." || plain == ".." || plain == "-" ? "shape" : plain;
 }

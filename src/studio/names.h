@@ -1,5 +1,5 @@
-// Texts that come from outside, as they may be shown, and stand in lines of commands. Layer:
-// studio.
+// Prepares texts from outside for display
+// and for lines of commands. Layer: studio.
 #pragma once
 
 #include <string>
@@ -9,22 +9,22 @@
 
 namespace rholm::studio {
 
-// Without bytes that are not UTF-8, and without what does not print: control characters, line and
-// paragraph separators, and marks that turn the direction of writing.
+// Removes bytes that are not UTF-8, and unprintable characters: control characters,
+// line and paragraph separators, and marks that change the writing direction.
 std::string plain_text(std::string_view text);
 
-// The last part of a path as plain text, at most 200 bytes; "shape" if nothing is left.
+// Returns the last part of a path as plain text, at most 200 bytes; "shape" if it is empty.
 std::string plain_name(const std::string& name);
 
-// Whether it is plain text, and the name of a file of the folder where one is: no path.
+// Returns true if `text` is plain text and the name of a file without a folder.
 bool is_file_name(const std::string& text);
 
-// Whether Python takes it as the name of a variable, and rholm does not need it.
+// Returns true if Python accepts `text` as a variable, and rholm does not use it.
 bool is_variable(const std::string& text);
-// The same with a '_' behind what Python or rholm needs. Letters, digits and '_' are expected.
+// Appends '_' to names that Python or rholm use. Letters, digits and '_' are expected.
 std::string free_variable(const std::string& text);
 
-// As Python reads it back. Shells: base/plain_text.h.
+// Returns a Python literal of the text. Shells: base/plain_text.h.
 std::string python_text(const std::string& text);
 
 }  // namespace rholm::studio

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kHead = 4096;  // bytes; enough for every signature
 
-// Throws what `read` throws, with the name that people know in place of the file's.
+// Calls `read` and rethrows its errors with the user's file name instead of the path.
 void read_as(const std::string& name, const std::filesystem::path& path,
              const std::function<void()>& read) {
   try {
@@ -28,7 +28,7 @@ void read_as(const std::string& name, const std::filesystem::path& path,
   }
 }
 
-// A model file is read by its name only.
+// The library reads a model file only by its path.
 Item open_model(std::string_view bytes, const std::string& name, Scratch& scratch,
                 const Context& context) {
   std::optional<Item> item;
@@ -118,7 +118,7 @@ Item open_item(const std::string& name, std::string_view bytes, Scratch& scratch
 Item open_table(const Table& table, const std::string& columns, const Context& context) {
   Item item = open_shape(*table.bytes, table.name, context, columns);
   auto told = std::make_shared<Table>(*item.table);
-  told->bytes = table.bytes;  // once
+  told->bytes = table.bytes;  // one copy
   told->file = table.file;
   told->variable = table.variable;
   item.table = std::move(told);

@@ -1,4 +1,4 @@
-// Files that people give to a session. Layer: studio.
+// Opens files in a session. Layer: studio.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace rholm::studio {
 
-// What the bytes hold: a mesh, points, an expansion or an atlas, in any format that the program
-// reads. The item has its name and the unit of its file. `columns` are those of a text table of
-// points, as in ShapeReadOptions; nothing else has any. Throws what the readers throw.
+// Opens a mesh, points, an expansion or an atlas in any format of the program. The item
+// has its name and the unit of its file. `columns` are the columns of a text table of
+// points, as in ShapeReadOptions; other files have none. Throws the errors of the readers.
 Item open_item(const std::string& name, std::string_view bytes, Scratch& scratch,
                const Context& context, const std::string& columns = {});
-// The points of a table with other columns: without a number, and without names for the recipe.
+// Returns the points of a table with other columns, without a number and recipe names.
 Item open_table(const Table& table, const std::string& columns, const Context& context);
 
-// Its names in the recipe, which reads the table with these columns.
+// Records the columns in the recipe and sets the item's names there.
 void record_columns(Recipe& recipe, Item& item, const std::string& columns);
 
 }  // namespace rholm::studio

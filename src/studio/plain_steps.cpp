@@ -1,4 +1,4 @@
-// Steps that need no thread: shapes made, removed, renamed, given a unit.
+// Steps without a thread: make, remove, rename, set the unit.
 #include "rholm/coefficients_io.h"
 #include "rholm/compress.h"
 #include "rholm/points.h"
@@ -8,10 +8,10 @@
 namespace rholm::studio {
 namespace {
 
-// What is made.
+// Shape to make.
 struct Making {
   std::string kind;
-  double amplitude = 0.2;  // of bumpy shapes, and points on them
+  double amplitude = 0.2;  // amplitude of bumpy shapes, and of points on them
   std::uint64_t seed = 1;
 };
 
@@ -19,7 +19,7 @@ Making making_of(const Json& request) {
   Making making = {.kind = string_or(request, "shape", "bumpy")};
   making.amplitude = number_or(request, "amplitude", making.amplitude);
   const int seed = integer_or(request, "seed", static_cast<int>(making.seed));
-  // As `rholm make` takes them.
+  // The limits of `rholm make`.
   if (!(making.amplitude >= 0 && making.amplitude <= 0.99)) {
     throw bad_request("the field 'amplitude' must be within 0 ... 0.99");
   }
@@ -28,7 +28,7 @@ Making making_of(const Json& request) {
   return making;
 }
 
-// As `rholm make` makes them by default.
+// Makes a shape with the defaults of `rholm make`.
 Mesh shape_of(const Making& making) {
   const std::string& kind = making.kind;
   if (kind == "bumpy" || kind == "points") return bumpy_sphere(5, making.amplitude, making.seed);
@@ -39,7 +39,7 @@ Mesh shape_of(const Making& making) {
   throw bad_request("the field 'shape' must be bumpy, sphere, ellipsoid, torus, box or points");
 }
 
-constexpr int kPoints = 20000;  // chosen: a surface is made of them in a second
+constexpr int kPoints = 20000;  // chosen: reconstruction takes a second
 
 void record_made(Recipe& recipe, Item& item, const Making& making) {
   const bool points = making.kind == "points";
@@ -114,7 +114,7 @@ void set_unit(Item& item, const std::string& unit, Scratch& scratch) {
   item.atlas = atlas;
 }
 
-// Shapes have no unit in their files: only models are made anew.
+// Files of shapes have no unit, so only models get a new file.
 void record_unit(Recipe& recipe, Item& item) {
   if (!item.model && !item.atlas) return;
   const Named from = {item.model_file, item.model_variable};
@@ -131,7 +131,7 @@ void record_unit(Recipe& recipe, Item& item) {
   }
 }
 
-// The unit of lengths: their numbers stay.
+// Sets the unit of lengths; the numbers stay.
 Step set_unit(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = item_in(request, "item", now);
   const std::string unit = string_of(request, "unit");

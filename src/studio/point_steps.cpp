@@ -1,4 +1,4 @@
-// Steps from points to surfaces, and to and on caps.
+// Steps from points to surfaces and caps, and steps on caps.
 #include "rholm/compress.h"
 #include "rholm/points.h"
 #include "rholm/reconstruct.h"
@@ -26,7 +26,7 @@ Step orient_item(const Json& request, const Document& now, Shared& shared) {
             PointCloud cloud = *item->points;
             orient(cloud, options, context);
             Item changed = *item;
-            changed.table = nullptr;  // whose points have other normals, or none
+            changed.table = nullptr;  // the table has other normals, or none
             changed.points = std::make_shared<const PointCloud>(std::move(cloud));
             changed.revision = ++shared.revisions;
             record(document.recipe, changed, "-oriented", step);
@@ -34,7 +34,7 @@ Step orient_item(const Json& request, const Document& now, Shared& shared) {
           }};
 }
 
-// The table once more, with what its columns are.
+// Reads the table again with the given columns.
 Step read_columns(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = with_points(request, now);
   if (!item->table)
@@ -73,7 +73,7 @@ Step reconstruct_item(const Json& request, const Document& now, Shared& shared) 
           }};
 }
 
-// As its file has it, which is rounded: what is shown is what another program will show.
+// Returns the rounded model of its file, so that other programs show the same surface.
 Item item_of_written(const AtlasModel& model, Scratch& scratch, const Context& context) {
   AtlasModel read;
   std::string bytes = scratch.written(".h5", [&](const std::filesystem::path& path) {
@@ -85,7 +85,7 @@ Item item_of_written(const AtlasModel& model, Scratch& scratch, const Context& c
   return item;
 }
 
-// As `rholm analyze --atlas` takes a mesh.
+// Prepares a mesh in the same way as `rholm analyze --atlas`.
 Mesh prepared(const Mesh& mesh) {
   Mesh welded = weld(mesh).mesh;
   if (inspect(welded).inside_out) flip(welded);
@@ -115,14 +115,14 @@ Step compress_item(const Json& request, const Document& now, Shared& shared) {
             step["made"] = json_of(Named{made.model_file, made.model_variable});
             if (!item->unit.empty()) step["unit"] = item->unit;
             recipe.add(step);
-            made.file = made.model_file;  // as edits take the surface of a file of caps
+            made.file = made.model_file;  // used by edits of the surface of a caps file
             made.variable = made.model_variable + ".mesh()";
             made.name = made.model_file;
             add(document, std::move(made), shared);
           }};
 }
 
-// Caps of no higher degrees: the surface, and nothing else, is another.
+// Limits the degree of the caps; only the surface changes.
 Step look_at_atlas(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = item_in(request, "item", now);
   if (!item->atlas) throw wrong_kind(*item, "caps are needed");

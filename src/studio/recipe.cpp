@@ -8,7 +8,7 @@
 namespace rholm::studio {
 namespace {
 
-constexpr std::size_t kMostLetters = 100;  // of a variable; chosen: files are called by them, too
+constexpr std::size_t kMostLetters = 100;  // letters of a variable; chosen: files have them, too
 
 bool is_whole(const Item& item) { return item.look == whole(*item.model); }
 
@@ -103,7 +103,7 @@ void add_reading(Recipe& recipe, Item& item) {
   const Named made = {item.name, recipe.variable(stem_of(item.name))};
   (series ? item.model_file : item.file) = made.file;
   (series ? item.model_variable : item.variable) = made.variable;
-  if (item.atlas) {  // whose surface has a file only when it is wanted
+  if (item.atlas) {  // an atlas surface has a file only when needed
     item.file = item.name;
     item.variable = made.variable + ".mesh()";
   }

@@ -1,7 +1,7 @@
-// The lines of a shell, and of Python, that do what has been done in a session. Layer: studio.
+// Lines of a shell and of Python that repeat the steps of a session. Layer: studio.
 //
-// A session has steps; their lines are made of them, here and nowhere else. So a file with steps
-// cannot have other lines than those of what a step may be.
+// A session stores steps; their lines are made from them only here. A file with steps therefore
+// cannot contain lines that no step has.
 #pragma once
 
 #include <set>
@@ -15,25 +15,25 @@
 
 namespace rholm::studio {
 
-// Where the lines have a thing: a file, and a variable of Python.
+// Name of a result in the lines: a file, and a Python variable.
 struct Named {
   std::string file, variable;
 };
 Json json_of(const Named& named);
 
 struct Recipe {
-  std::vector<Json> steps;                 // as step_lines() takes them
+  std::vector<Json> steps;                 // in the form that step_lines() takes
   std::vector<std::string> shell, python;  // their lines
-  std::set<std::string> files, variables;  // names that are taken
+  std::set<std::string> files, variables;  // used names
 
-  // A name that is not taken yet, and now is: "bumpy-2.ply" for "bumpy" and ".ply".
+  // Returns an unused name and marks it as used: "bumpy-2.ply" for "bumpy" and ".ply".
   std::string file(const std::string& stem, const std::string& ending);
   std::string variable(const std::string& stem);  // the same for Python: "bumpy_2"
 
-  // A step with its lines; names that it makes are taken from now on. Throws what step_lines()
-  // throws.
+  // Adds a step with its lines, and marks the names it
+  // makes as used. Throws the errors of step_lines().
   void add(const Json& step);
-  // Whether lines before have such a variable, or surface of caps: "bumpy_caps.mesh()".
+  // Returns true if earlier lines make this variable, or surface of caps: "bumpy_caps.mesh()".
   bool has_variable(const std::string& expression) const;
 };
 
@@ -42,28 +42,28 @@ struct StepLines {
   std::vector<Named> made;
 };
 
-// The lines of one step: {"op": ..., "from": NAMED, "made": NAMED, ...}, its other fields as in the
-// request for it (docs/studio.md). Nothing of it is believed: names of files are plain, variables
-// are those that a line before has made, all else is read as requests are, and quoted. Throws
-// Refusal 400, Error{kInvalidInput}.
+// Returns the lines of a step {"op": ..., "from": NAMED, "made": NAMED, ...}; its
+// other fields are as in its request (docs/studio.md). The step is untrusted: file
+// names must be plain, and variables must come from an earlier line. All other fields
+// are read like requests, and quoted. Throws Refusal 400, Error{kInvalidInput}.
 StepLines step_lines(const Json& step, const Recipe& before);
 
-// The shortest digits that read back the same.
+// Returns the shortest digits that give the same number when read.
 std::string digits(double value);
 
-// "bumpy" of "folder/bumpy.ply".
+// Returns "bumpy" for "folder/bumpy.ply".
 std::string stem_of(const std::string& name);
 
-// The file, and the variable, with the surface of an item as it is shown; lines that make it are
-// added where it is the surface of a series.
+// Returns the file and variable of an item's shown surface. Adds
+// the lines that make the surface if it comes from a series.
 Named surface_of(Recipe& recipe, const Item& item);
-// The same of its coefficients, filtered as it is shown.
+// Returns the file and variable of the item's coefficients, filtered as shown.
 Named model_of(Recipe& recipe, const Item& item);
 
-// The recipe, and lines that make what is shown of series that are cut off or filtered.
+// Returns the recipe, with lines for shown surfaces of cut off or filtered series.
 Recipe with_looks(Recipe recipe, std::span<const ItemPtr> items);
 
-// Gives an item that came from a file its names, with the line of Python that reads it.
+// Sets the names of an item from a file, and adds the Python line that reads it.
 void add_reading(Recipe& recipe, Item& item);
 
 }  // namespace rholm::studio

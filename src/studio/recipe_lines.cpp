@@ -1,4 +1,4 @@
-// Every step as lines of a shell and of Python.
+// Converts every step to lines of a shell and of Python.
 #include <algorithm>
 #include <map>
 
@@ -22,7 +22,7 @@
 namespace rholm::studio {
 namespace {
 
-// One step that is read: its fields, and the lines that come of it.
+// Step that is being read: its fields, and the resulting lines.
 struct Reading {
   const Json& step;
   const Recipe& before;
@@ -39,7 +39,7 @@ struct Reading {
     }
     return named;
   }
-  // What a step before has made.
+  // Returns the name of a result of an earlier step.
   Named used(const char* field) const {
     const Named made = named(field);
     if (!before.files.contains(made.file) || !before.has_variable(made.variable)) {
@@ -55,7 +55,7 @@ struct Reading {
     lines.made.push_back(made);
     return made;
   }
-  // One line of each that makes `to`.
+  // Adds one line of each language that makes `to`.
   void say(const Named& to, const std::string& shell, const std::string& python) {
     lines.shell.push_back(shell + " -o " + shell_word(to.file));
     lines.python.push_back(to.variable + " = " + python);
@@ -101,7 +101,7 @@ void read_file(Reading& r) {
   r.lines.python.push_back(made.variable + " = " + call);
 }
 
-// A table of points, with what its columns are.
+// Reads a table of points with given columns.
 void read_columns(Reading& r) {
   const Named from = r.used("from"), made = r.made();
   const std::string columns = string_of(r.step, "columns");
@@ -114,7 +114,7 @@ void read_columns(Reading& r) {
                                        python_text(from.file), python_text(plain)));
 }
 
-// As `rholm make` makes them by default.
+// Makes shapes with the defaults of `rholm make`.
 void make(Reading& r) {
   struct Words {
     const char *kind, *shell, *python;
@@ -158,7 +158,7 @@ void filter(Reading& r) {
   }
   const std::string python =
       fmt::format("{}.filter([{}])", from.variable, fmt::join(texts_of(gains), ", "));
-  // A file with a degree and its gain a line, of all degrees.
+  // File with a degree and its gain per line, for all degrees.
   const std::string file = string_of(r.step, "gain_file");
   const int degrees = integer_of(r.step, "degrees");
   if (!is_file_name(file) || degrees < 1 || degrees > kMaxDegree + 1) {
@@ -190,7 +190,7 @@ void synthesize_series(Reading& r) {
   r.say(made, shell, fmt::format("{}.mesh({})", from.variable, fmt::join(python, ", ")));
 }
 
-// The options of a struct that a step has under their names.
+// Returns the options of a struct that the step has under their names.
 template <HasFields Options>
 Options options_in(const Json& step) {
   Options options;
@@ -232,7 +232,7 @@ void align_lines(Reading& r) {
                     words.python));
 }
 
-// The program has no command for it: the shell calls Python.
+// The program has no command for a blend, so the shell calls Python.
 void blend(Reading& r) {
   const Named from = r.used("a"), to = r.used("b"), made = r.made();
   const double t = number_of(r.step, "t");
@@ -257,7 +257,7 @@ void blend(Reading& r) {
   r.lines.python.push_back(made.variable + " = " + call(from.variable, to.variable));
 }
 
-// The program has no command for it: the shell calls Python.
+// The program has no command for a unit, so the shell calls Python.
 void set_unit(Reading& r) {
   const Named from = r.used("from"), made = r.made();
   const std::string unit = string_or(r.step, "unit", "");
@@ -279,7 +279,7 @@ void smooth(Reading& r) {
   const Named from = r.used("from"), made = r.made();
   SmoothWish wish = smooth_in(r.step);
   const std::string wavelength = digits(wish.options.wavelength);
-  wish.options.wavelength = 0;  // Python has it without its name
+  wish.options.wavelength = 0;  // Python takes it without a name
   Arguments words;
   if (wish.strength != 1) words.number("strength", wish.strength);
   words.fields(wish.options);

@@ -1,4 +1,4 @@
-// Items as files: the library writes them, as it does for the program.
+// Saves items as files, written by the library as for the program.
 #include <charconv>
 #include <optional>
 
@@ -19,10 +19,10 @@ namespace {
 
 constexpr const char* kBytes = "application/octet-stream";
 
-// By its name, or by an extension of its files.
+// Format selected by its name or by a file extension.
 struct Wanted {
   SavedFormat format;
-  std::string ending;  // with the dot
+  std::string ending;  // includes the dot
 };
 std::optional<Wanted> wanted_format(const Item& item, const std::string& wanted) {
   for (const SavedFormat& format : saved_formats(item)) {
@@ -57,7 +57,7 @@ std::string coefficients_bytes(const Item& item, const Wanted& wanted, Scratch& 
   });
 }
 
-// "1024x768"; within what render() takes is for it to say.
+// Parses "1024x768"; render() checks the range.
 void set_size(const std::string& size, RenderOptions& options) {
   if (size.empty()) return;
   const char* end = size.data() + size.size();
@@ -89,7 +89,7 @@ std::string report_bytes(const Item& item, const Recipe& recipe, const Context& 
   return report_html(expansion_of(*item.model, item.look), item.original.get(), options, context);
 }
 
-// Letters that every system has in names; no path.
+// Returns a name of characters that every system allows, without a path.
 std::string download_name(const Item& item, const std::string& ending) {
   std::string name = stem_of(item.name) + ending;
   for (char& c : name) {

@@ -10,7 +10,7 @@
 namespace rholm::studio {
 namespace {
 
-// Removed at the end, whatever happens.
+// Deletes a file at the end of a scope.
 struct Removed {
   std::filesystem::path path;
   explicit Removed(std::filesystem::path p) : path(std::move(p)) {}

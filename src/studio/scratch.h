@@ -1,5 +1,5 @@
-// Files in a folder of their own, for what the library reads and writes by name only. Layer:
-// studio.
+// Temporary files in their own folder, for library
+// functions that take only file names. Layer: studio.
 #pragma once
 
 #include <filesystem>
@@ -13,16 +13,16 @@
 
 namespace rholm::studio {
 
-// The folder is made below `parent` when it is first needed, for its owner only, and goes with the
-// object. Throw Io. For several threads.
+// The folder is made below `parent` when needed, accessible to its owner only,
+// and is deleted with the object. Functions throw Io. Safe for several threads.
 class Scratch {
  public:
   explicit Scratch(std::filesystem::path parent) : parent_(std::move(parent)) {}
 
-  // The bytes that `write` puts into the file it is given, whose name ends like that.
+  // Returns the bytes that `write` puts into a file whose name has this ending.
   std::string written(const std::string& ending,
                       const std::function<void(const std::filesystem::path&)>& write);
-  // Calls `read` with a file that holds the bytes.
+  // Calls `read` with a file that contains the bytes.
   void read(std::string_view bytes, const std::string& ending,
             const std::function<void(const std::filesystem::path&)>& read);
 

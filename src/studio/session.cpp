@@ -18,7 +18,7 @@
 namespace rholm::studio {
 namespace {
 
-constexpr std::size_t kMaxPast = 100;  // steps; chosen: more than anybody takes back
+constexpr std::size_t kMaxPast = 100;                        // steps; chosen: more than users undo
 constexpr std::size_t kMaxPastBytes = std::size_t{2} << 30;  // chosen: what a laptop can spare
 
 Json recipe_json(const Recipe& recipe) {
@@ -26,7 +26,7 @@ Json recipe_json(const Recipe& recipe) {
           {"python", "import rholm\n" + fmt::format("{}", fmt::join(recipe.python, "\n"))}};
 }
 
-// The formats of files that can be opened, and the kinds of items that come of them.
+// Returns the formats that can be opened, with the kinds of items they give.
 Json opened_json() {
   Json opened = Json::array();
   const auto add = [&](const FileFormat& format, const std::vector<const char*>& kinds) {
@@ -52,7 +52,7 @@ Json opened_json() {
   return opened;
 }
 
-// What a document has beyond another one, put into a third.
+// Adds to `to` what `changed` has and `before` does not have.
 void add_new(const Document& changed, const Document& before, Document& to) {
   const auto append = [](const auto& all, std::size_t known, auto& list) {
     list.insert(list.end(), all.begin() + static_cast<std::ptrdiff_t>(known), all.end());
@@ -133,7 +133,7 @@ void Session::refuse_while_busy() const {
   if (job_ && job_->running()) throw Refusal(409, "busy", "another job runs; wait or cancel it");
 }
 
-// With mutex_ held. The last step can always be undone.
+// Requires mutex_. The last step can always be undone.
 void Session::forget_oldest() {
   if (past_.size() > kMaxPast) past_.erase(past_.begin());
   std::vector<const Document*> documents;
@@ -146,7 +146,7 @@ void Session::forget_oldest() {
   }
 }
 
-// With mutex_ held.
+// Requires mutex_.
 void Session::commit(const Step& step, Document document) {
   if (!step.first || !past_.empty()) {
     past_.push_back({step.label, std::move(now_)});
@@ -158,8 +158,8 @@ void Session::commit(const Step& step, Document document) {
   changed_.notify_all();
 }
 
-// What is opened is there before and after every step: all documents get it, with names that none
-// of them has. The last one that can be done again has the names of all that came before it.
+// An opened item exists before and after every step: all documents get it, with names that
+// none of them has. The last document that can be redone has the names of all earlier ones.
 Response Session::open(const std::string& name, std::string_view bytes,
                        const std::string& columns) {
   const std::lock_guard one(steps_);
@@ -231,9 +231,9 @@ Response Session::step(const Json& request) {
   return json_response(state_locked());
 }
 
-// With steps_ held and no job running.
+// Requires steps_, and that no job runs.
 Response Session::start(Step step) {
-  if (thread_.joinable()) thread_.join();  // of a job that has ended
+  if (thread_.joinable()) thread_.join();  // the thread of a job that has ended
   const std::lock_guard lock(mutex_);
   if (closed_) throw not_found("the session has ended");
   job_ = std::make_shared<Job>(++jobs_, step.label, [this] { tell_of_job(); });
@@ -244,7 +244,7 @@ Response Session::start(Step step) {
   return json_response({{"job", job_->json()}}, 202);
 }
 
-// The job's thread. What it makes is seen whole, or not at all.
+// Runs on the job's thread. Its result appears as a whole, or not at all.
 void Session::run(const Step& step, const std::shared_ptr<Job>& job, Document document) {
   std::string state = "done", message;
   try {

@@ -1,4 +1,4 @@
-// One page's work: its shapes, what can be undone, the job that runs. Layer: studio.
+// Work of one page: its shapes, the undo history, the running job. Layer: studio.
 #pragma once
 
 #include <chrono>
@@ -20,16 +20,16 @@
 
 namespace rholm::studio {
 
-// How much of what happens a listener has been told.
+// Marks the changes of which a listener has been informed.
 struct EventMark {
   std::uint64_t state = 0, job = 0;
 };
 
-// All functions may be called by several threads at once. They throw Refusal, and what the library
-// throws.
+// All functions may be called by several threads at
+// once. They throw Refusal and the library's errors.
 class Session {
  public:
-  // `max_upload`: bytes of a file, for pages to know. `beginning`: what is there from the start.
+  // `max_upload`: limit of a file in bytes, shown by pages. `beginning`: initial content.
   Session(std::string id, int threads, std::size_t max_upload, Scratch& scratch,
           Document beginning = {});
   ~Session();  // cancels the job and waits for it
@@ -37,13 +37,13 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   const std::string& id() const { return id_; }
-  // Expires when the session is no more and its memory is free.
+  // Expires when the session is destroyed and its memory is free.
   std::weak_ptr<const bool> life() const { return life_; }
   Json state() const;
   Document document() const;
-  // A file of any kind that the program reads, or of a session, whose items are added. No step:
-  // undoing does not close it.
-  // `columns` are those of a text table, if they are said.
+  // Opens a file of any kind that the program reads, or adds the
+  // items of a session file. This is not a step, so undoing does not
+  // close it. `columns` are the columns of a text table, if known.
   Response open(const std::string& name, std::string_view bytes, const std::string& columns = {});
   Response step(const Json& request);
   Response live(const Json& request);
@@ -53,7 +53,7 @@ class Session {
   Response session_file() const;
   Response cancel(int job);
 
-  // What is new since the mark, which moves on; waits so long for it.
+  // Returns the changes since the mark and moves it; waits for a change up to `time`.
   std::vector<Event> wait(EventMark& mark, std::chrono::milliseconds time) const;
   // Ends all waiting.
   void close();
@@ -61,7 +61,7 @@ class Session {
 
  private:
   struct Moment {
-    std::string label;  // of the step between this document and the next one
+    std::string label;  // label of the step between this document and the next one
     Document document;
   };
 
@@ -75,15 +75,15 @@ class Session {
   void run(const Step& step, const std::shared_ptr<Job>& job, Document document);
   void tell_of_job();
 
-  const std::shared_ptr<const bool> life_ = std::make_shared<const bool>(true);  // goes last
+  const std::shared_ptr<const bool> life_ = std::make_shared<const bool>(true);  // destroyed last
   const std::string id_;
   const int threads_;
   const std::size_t max_upload_;
   Scratch& scratch_;
   Shared shared_;
   Live live_;
-  std::mutex steps_;          // held by whoever changes the document without a job
-  mutable std::mutex mutex_;  // of all that follows
+  std::mutex steps_;          // locked by threads that change the document without a job
+  mutable std::mutex mutex_;  // guards all fields below
   mutable std::condition_variable changed_;
   Document now_;
   std::vector<Moment> past_, future_;

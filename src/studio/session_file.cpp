@@ -16,15 +16,15 @@ namespace rholm::studio {
 namespace {
 
 constexpr std::string_view kMagic = "RHOLMSS1";
-constexpr std::size_t kHead = 24;          // bytes
-constexpr std::size_t kMaxItems = 10000;   // the sanity limit
-constexpr std::size_t kMaxSteps = 100000;  // the same
+constexpr std::size_t kHead = 24;          // size in bytes
+constexpr std::size_t kMaxItems = 10000;   // a sanity limit
+constexpr std::size_t kMaxSteps = 100000;  // a sanity limit
 
 [[noreturn]] void refuse(const std::string& what) {
   throw Error(ErrorCode::kInvalidInput, "the session file " + what);
 }
 
-// Takes a part of the file's end.
+// Takes consecutive parts of a file's remaining bytes.
 class Parts {
  public:
   explicit Parts(std::string_view bytes) : bytes_(bytes) {}
@@ -68,7 +68,7 @@ Json about(const Item& item, std::size_t shape, std::size_t model) {
           {"placed", item.placed}};
 }
 
-// Both files of an item together again.
+// Joins both files of an item.
 Item joined(std::string_view shape, std::string_view model, const Json& json, Scratch& scratch,
             const Context& context) {
   if (shape.empty()) return open_item("model.h5", model, scratch, context);
@@ -101,7 +101,7 @@ Item read_item(const Json& json, Parts& parts, Scratch& scratch, const Context& 
   return item;
 }
 
-// Where the recipe has it: what a step has made, or nothing.
+// Reads the item's names in the recipe: names that a step has made, or empty ones.
 void read_names(Item& item, const Json& json, const Recipe& recipe) {
   const auto name = [&](const char* field, const auto& is_there) {
     std::string text = string_of(json, field);
@@ -122,7 +122,7 @@ void read_names(Item& item, const Json& json, const Recipe& recipe) {
   }
 }
 
-// The names of an item of a file without steps: as if it had been saved, and read again.
+// Names an item of a file without steps, as if it had been saved and read again.
 void name_anew(Item& item, Recipe& recipe) {
   const std::shared_ptr<const Model> model = item.model;
   if (item.original) item.model = nullptr;
@@ -136,13 +136,13 @@ void name_anew(Item& item, Recipe& recipe) {
               {"series", true}});
 }
 
-// Its steps; their lines are made anew.
+// Adds the file's steps; their lines are made again.
 void join(Recipe& recipe, const Json& steps) {
   if (!steps.is_array() || steps.size() > kMaxSteps) refuse("has no list of steps");
   for (const Json& step : steps) recipe.add(step);
 }
 
-// The JSON and what follows it.
+// Returns the JSON; `parts` keeps what follows.
 Json checked_head(std::string_view bytes, Parts& parts) {
   std::uint64_t length = 0;
   std::uint32_t checksum = 0;
@@ -187,7 +187,7 @@ void open_session(std::string_view bytes, Scratch& scratch, Document& document, 
     if (items == json.end() || !items->is_array() || items->size() > kMaxItems) {
       refuse("has no list of items");
     }
-    // Files of earlier versions have lines, which nobody can check, and no steps.
+    // Files of earlier versions have lines, which cannot be checked, and no steps.
     const auto steps = json.find("steps");
     const bool has_steps = steps != json.end();
     if (has_steps) join(document.recipe, *steps);

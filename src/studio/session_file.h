@@ -1,8 +1,8 @@
-// A session as one file. Layer: studio.
+// Stores a session in one file. Layer: studio.
 //
-// "RHOLMSS1", a length (64 bits, little endian), a checksum (CRC-32) of what follows, 4 bytes 0;
-// JSON of that length that describes the items; their files one after the other: PLY of meshes and
-// points, model files of expansions and atlases.
+// The file has "RHOLMSS1", a length (64 bits, little endian), a checksum (CRC-32) of what follows,
+// and 4 bytes 0. Then come JSON of this length that describes the items, and their files in
+// sequence: PLY of meshes and points, model files of expansions and atlases.
 #pragma once
 
 #include <string>
@@ -13,12 +13,12 @@
 
 namespace rholm::studio {
 
-bool is_session_file(std::string_view bytes);  // by its first bytes
+bool is_session_file(std::string_view bytes);  // true if the first bytes match
 
 std::string session_bytes(const Document& document, Scratch& scratch);
 
-// Adds its items, and its recipe. Throws Error{kInvalidInput} for a file that is not whole, or says
-// what cannot be; no length in it is believed before it is compared with the bytes that are there.
+// Adds the items and the recipe of a file. Throws Error{kInvalidInput} for a file that is
+// incomplete or inconsistent. Every length is compared with the bytes present before use.
 void open_session(std::string_view bytes, Scratch& scratch, Document& document, Shared& shared,
                   const Context& context);
 

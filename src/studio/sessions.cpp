@@ -7,7 +7,7 @@
 namespace rholm::studio {
 namespace {
 
-// 64 bits of the system's randomness.
+// Returns 64 bits of the system's randomness.
 std::string random_name() {
   std::random_device device;
   return fmt::format("{:08x}{:08x}", device(), device());
@@ -15,7 +15,7 @@ std::string random_name() {
 
 }  // namespace
 
-// With mutex_ held.
+// Requires mutex_.
 std::shared_ptr<Session> Sessions::make() {
   if (places_.size() >= options_.max_sessions) {
     throw Refusal(503, "too_many_sessions",
@@ -48,11 +48,11 @@ std::shared_ptr<Session> Sessions::find(const std::string& id) {
   if (found == places_.end()) {
     throw Refusal(404, "no_session", "there is no such session; POST api/session begins one");
   }
-  if (found->second.left) found->second.left = Clock::now();  // the page is there after all
+  if (found->second.left) found->second.left = Clock::now();  // the page still exists
   return found->second.session;
 }
 
-// Whoever holds the session last waits for its job, which is cancelled.
+// The last holder of the session waits for its job, which is cancelled.
 void Sessions::end(const std::string& id) {
   const std::shared_ptr<Session> session = find(id);
   session->close();
@@ -71,7 +71,7 @@ void Sessions::end_all() {
 }
 
 void Sessions::drop_forgotten() {
-  std::vector<std::shared_ptr<Session>> dropped;  // outlives the lock
+  std::vector<std::shared_ptr<Session>> dropped;  // destroyed after the lock
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = Clock::now();
   for (auto place = places_.begin(); place != places_.end();) {

@@ -1,4 +1,4 @@
-// The sessions of a studio: who works on which, and which nobody does any more. Layer: studio.
+// Sessions of a studio: which pages use them, and which are abandoned. Layer: studio.
 #pragma once
 
 #include <chrono>
@@ -16,26 +16,26 @@
 
 namespace rholm::studio {
 
-// All functions may be called by several threads at once. Those that want a session throw Refusal
-// 404 where there is none of the name, and 503 where there are too many for a new one.
+// All functions may be called by several threads at once. Functions that need a session throw
+// Refusal 404 if the name is unknown, and 503 if there are too many sessions for a new one.
 class Sessions {
  public:
   Sessions(const StudioOptions& options, Scratch& scratch) : options_(options), scratch_(scratch) {}
 
-  // The session that has been offered, once; else a new one, with what was in that one when it was
-  // taken.
+  // Returns the offered session once. Otherwise makes a new one,
+  // with the content that the offered session had when it was taken.
   std::shared_ptr<Session> next();
-  // Its name; one that was offered before stays a session nobody has asked for.
+  // Makes a session and returns its name; an earlier offer stays as an unused session.
   std::string offer();
   std::shared_ptr<Session> find(const std::string& id);
   void end(const std::string& id);
   void end_all();
-  // Those whose pages have gone for longer than the patience.
+  // Drops sessions whose pages have been gone for longer than the patience.
   void drop_forgotten();
-  // How many have ended and been given up by all who held them, since this was asked last.
+  // Returns how many sessions have ended and been released by all holders since the last call.
   std::size_t gone();
 
-  // Who listens comes and goes; while one does, the session is not dropped.
+  // Register a listener's arrival and departure; a session with listeners is not dropped.
   void enter(const std::string& id);
   void leave(const std::string& id);
 
@@ -44,16 +44,16 @@ class Sessions {
   struct Place {
     std::shared_ptr<Session> session;
     int listeners = 0;
-    std::optional<Clock::time_point> left = {};  // when the last listener went
+    std::optional<Clock::time_point> left = {};  // departure of the last listener
   };
 
   std::shared_ptr<Session> make();
 
   const StudioOptions& options_;
   Scratch& scratch_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the fields below
   std::map<std::string, Place> places_;
-  std::vector<std::weak_ptr<const bool>> ended_;  // sessions; who answers in one may still hold it
+  std::vector<std::weak_ptr<const bool>> ended_;  // ended sessions; a request may still hold one
   std::string offered_;
   Document beginning_;
 };

@@ -18,7 +18,7 @@ namespace rholm {
 
 using studio::Refusal;
 
-// The order is that of building up: sessions use what stands above.
+// Members are in the order of construction: sessions use the members above.
 struct Studio::State {
   explicit State(StudioOptions wanted)
       : options(std::move(wanted)),
@@ -69,7 +69,7 @@ Refusal unknown_path(const StudioRequest& request) {
   return studio::not_found(fmt::format("there is no {} {}", request.method, request.path));
 }
 
-// "ID/surface", "ID/measures".
+// Answers "ID/surface" and "ID/measures".
 StudioResponse item_answer(studio::Session& session, const std::string& rest,
                            const StudioRequest& request) {
   const std::size_t slash = rest.find('/');

@@ -30,18 +30,18 @@
 namespace rholm {
 namespace {
 
-// Of a block: its values and tables, some 45 vertices with normals, 90 triangles, lists of caps
-// (measured on closed bodies).
+// Bytes of the surface per block: about 45 vertices with normals,
+// 90 triangles and the lists of caps (measured on closed bodies).
 constexpr std::size_t kSurfaceOfBlock = 45 * 56 + 90 * 12 + 32 * 4;
 
-// Of the mesh at a block meanwhile: planes, stars and lists of some 45 vertices (96 bytes each).
-// The values of the grid are gone by then.
+// Extra bytes per block while the mesh is simplified: planes, stars and lists of
+// about 45 vertices (96 bytes each). The values of the grid are released by then.
 constexpr std::size_t kSimplifyOfBlock = 45 * 96 - BlockGrid::kNodes * sizeof(float);
-// On clean bodies (scripts/constants) a sixth of the triangles, distances a tenth above those of
-// all.
+// Largest error of simplification in steps. On clean bodies (scripts/constants)
+// it leaves a sixth of the triangles, and distances grow by a tenth.
 constexpr double kSimplifyError = 0.02;
 
-constexpr double kDipoleSteps = 2;  // between dipoles; their winding is smooth over as much
+constexpr double kDipoleSteps = 2;  // steps between dipoles: enough for a smooth winding number
 
 std::size_t memory_of(std::size_t n_blocks, const AtlasSurfaceOptions& options) {
   const std::size_t surface = kSurfaceOfBlock + (options.simplify ? kSimplifyOfBlock : 0);
@@ -69,12 +69,12 @@ std::vector<BlockCoordinates> blocks_of(const Atlas& atlas, double step,
   return list_blocks(lowest_corner(discs), step, discs, blocks_within(options), context);
 }
 
-// Steps beyond the grid's coordinates are refused as input.
+// Returns true if the step is too small for the memory or for the range of block coordinates.
 bool is_too_fine(const Error& error) {
   return error.code() == ErrorCode::kOutOfMemory || error.code() == ErrorCode::kInvalidInput;
 }
 
-// Of the box around the caps.
+// Returns the longest side of the bounding box of the caps' seeds.
 double longest_side(const Atlas& atlas) {
   std::vector<Vec3> seeds;
   seeds.reserve(atlas.caps.size());
@@ -83,7 +83,7 @@ double longest_side(const Atlas& atlas) {
   return std::max({size.x, size.y, size.z});
 }
 
-// The finest of the steps of a power of two in the diagonal that fits; 0 if none does.
+// Returns the finest step diagonal / 2^k that fits into memory, or 0 if none does.
 double step_that_fits(const Atlas& atlas, const AtlasSurfaceOptions& options,
                       const Context& context) {
   double found = 0;
@@ -121,13 +121,15 @@ BlockGrid make_grid(const Atlas& atlas, const std::vector<Disc>& discs,
   }
 }
 
-// Many small caps that overlap by half, as points have; few large ones do not show where data end.
+// Returns true if all caps are small and overlap by half, as reconstruct() makes them. Large caps
+// do not show where the data end.
 bool are_small(const Atlas& atlas) {
   return std::all_of(atlas.caps.begin(), atlas.caps.end(),
                      [](const Cap& cap) { return cap.area > 0; });
 }
 
-// Small caps are one dipole each, of the area they were made for; large ones are spread.
+// Makes one dipole per small cap, with the area the cap was made for; spreads dipoles on large
+// ones.
 AtlasDipoles dipoles_of(const Atlas& atlas, double step, const Context& context) {
   if (!are_small(atlas))
     return spread_dipoles(atlas, kDipoleSteps * step, band_of(atlas, step), context);
@@ -141,12 +143,12 @@ AtlasDipoles dipoles_of(const Atlas& atlas, double step, const Context& context)
   return dipoles;
 }
 
-// The values of the caps, and of what lies between them.
+// Computes the values of the caps, and fills the nodes that no cap reaches.
 HoleFilling fill(const Atlas& atlas, const CapBands& bands, const CapLists& lists,
                  const AtlasSurfaceOptions& options, BlockGrid& grid, const Context& context) {
   AtlasDipoles dipoles;
   std::optional<WindingTree> winding;
-  // The tree is made on one thread, beside the values; these report progress.
+  // One thread makes the tree while the others compute values; only the values report progress.
   Context silent = context;
   silent.progress = {};
   const auto make_tree = [&] {
@@ -173,7 +175,7 @@ double median_support(const Atlas& atlas) {
   return *middle;
 }
 
-// Connected parts without support that are smaller than `least` are kept.
+// Marks connected parts without support as kept if their area is below `least`.
 void bridge_gaps(const Mesh& mesh, double least, std::vector<double>& support) {
   DisjointSets parts(support.size());
   for (const Triangle& t : mesh.triangles) {
@@ -195,7 +197,7 @@ void bridge_gaps(const Mesh& mesh, double least, std::vector<double>& support) {
   }
 }
 
-// Of the whole area, triangles with a vertex whose place follows from filled nodes.
+// Returns the share of the area in triangles with a vertex that depends on filled nodes.
 double guessed_share(const ExtractedSurface& surface, const Context& context) {
   if (surface.filled.empty()) return 0;
   const Mesh& mesh = surface.mesh;
@@ -221,8 +223,8 @@ double guessed_share(const ExtractedSurface& surface, const Context& context) {
   return whole > 0 ? guessed / whole : 0;
 }
 
-// Vertices in no cap's support have the normals of their triangles. They are few: only their
-// triangles are summed.
+// Sets the normals of vertices outside all supports from their triangles.
+// These vertices are rare, so only the triangles at them are summed.
 void complete_normals(Mesh& mesh, const Context& context) {
   const NormalAttributes normals = normal_attributes(mesh);
   const std::vector<std::uint32_t> missing = indices_where(
@@ -256,7 +258,7 @@ SimplifyOptions simplify_stops(SimplifyOptions options, double step) {
   return options;
 }
 
-// The disc of a typical cap.
+// Returns the area of the support of a typical cap.
 double least_hole(double support) { return std::numbers::pi * support * support; }
 
 AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& options,
@@ -275,7 +277,7 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   result.holes = filling.holes, result.smooth_holes = filling.smooth;
   return_free_memory();
   ExtractedSurface surface = extract_last_surface(grid, context);
-  // From here on only the places of blocks are asked for.
+  // The code below needs only the coordinates of blocks.
   release(grid.neighbours);
   project_vertices(atlas, bands, lists, grid, surface, context);
   result.guessed = guessed_share(surface, context);

@@ -24,7 +24,7 @@ namespace {
 MethodOptions method_options(const StarGeometry& geometry, const AnalyzeOptions& options) {
   const MeanAndNorm scale = mean_and_norm(geometry, function_of(options.method));
   const double c00 = std::abs(scale.mean) * std::sqrt(4 * std::numbers::pi);
-  // Below the rounding of c_00, of however exact a sum, there is nothing to gain.
+  // An error below the rounding of c_00 cannot be reached, however exact the sum is.
   constexpr double kRounding = rounding_of_sum(0);
   if (!std::isfinite(scale.norm) || !(c00 > 0)) {
     throw Error(ErrorCode::kInvalidInput,
@@ -46,7 +46,8 @@ void check_finite(const Coefficients& c) {
   }
 }
 
-// The mean is summed by cubature of its own, each triangle to the wanted precision.
+// The relative error of c_00 is the precision: a separate cubature sums each face to that
+// precision.
 void set_truncation_rms(double norm_squared, Analysis& analysis) {
   const Coefficients& c = analysis.expansion.coefficients;
   const CoefficientErrors errors =
@@ -65,7 +66,7 @@ EnumNames names_of(Method) {
 
 namespace {
 
-// Coefficients by a method of its own (direct sums, or the gauge's fast ones).
+// Computes coefficients by one of the methods: direct sums, or the gauge's fast sums.
 void by_method(MethodFunction method, const StarChart& chart, const AnalyzeOptions& options,
                const Context& context, Analysis& analysis) {
   const StarGeometry geometry = star_geometry(chart);
@@ -121,7 +122,7 @@ Analysis analysis_of(MeshPassResult pass, double precision) {
 
 double known_error(const Analysis& analysis) {
   if (!analysis.fast) return analysis.precision;
-  // The fast engine's is relative to the degrees found, which may hold next to nothing.
+  // The error of the fast engine is relative to the degrees found, which may hold next to nothing.
   const Coefficients& c = analysis.expansion.coefficients;
   const double mean = c.c(0, 0);
   const double varying = analysis.expansion.norm_squared.value_or(0) - mean * mean;

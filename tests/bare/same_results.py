@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A program without the libraries that can be left out gives what one with them gives.
+"""A program without the optional libraries gives the same results as a program with them.
 
     tests/bare/same_results.py PROGRAM BARE
 
@@ -18,11 +18,11 @@ import numpy as np
 
 PROGRAM, BARE = (str(Path(name).resolve()) for name in sys.argv[1:3])
 LIBRARIES = ("tbb", "embree", "png", "hdf5", "qhull")
-UNSUPPORTED = 3  # the exit code
+UNSUPPORTED = 3  # exit code of a refusal for a missing library
 
 
 def contents(path):
-    """Of each object in an HDF5 file: kind, type, shape, values and attributes, by name."""
+    """Returns kind, type, shape, values and attributes of each object in an HDF5 file, by name."""
     found = {}
 
     def value(array, dtype, shape):
@@ -45,7 +45,7 @@ def contents(path):
 
 
 def pixels(path):
-    """A PNG picture of 8 bits RGB as an array, by zlib."""
+    """Reads a PNG picture of 8 bits RGB into an array, with zlib alone."""
     data, at, stream = path.read_bytes(), 8, b""
     while at < len(data):
         size, name = int.from_bytes(data[at : at + 4]), data[at + 4 : at + 8]
@@ -79,7 +79,7 @@ class SameResults(unittest.TestCase):
         return run
 
     def run_both(self, words, name):
-        """Runs a command line with OUT in it by both programs; what each wrote."""
+        """Runs a command line with OUT in it by both programs; returns the paths that they wrote."""
         paths = []
         for folder, program in (("full", PROGRAM), ("bare", BARE)):
             (self.folder / folder).mkdir(exist_ok=True)
@@ -133,7 +133,7 @@ class SameResults(unittest.TestCase):
         one, other = pixels(full).astype(int), pixels(bare).astype(int)
         self.assertEqual(one.shape, (180, 240, 3))
         self.assertGreater(one.std(), 10)
-        # A ray that just touches an edge may meet it or not: one pixel in a thousand.
+        # A ray that touches an edge may count as a hit or as a miss: at most one pixel in a thousand.
         self.assertLess(np.mean(np.abs(one - other).max(axis=2) > 2), 1e-3)
 
     def test_what_needs_qhull_is_refused(self):

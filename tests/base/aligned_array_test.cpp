@@ -12,11 +12,11 @@
 namespace rholm {
 namespace {
 
-// Below and beyond what is placed on huge pages.
+// Numbers of values below and above the size from which huge pages are used.
 constexpr std::size_t kSizes[] = {1, 7, 1000, 700'000};
 
-// The programs of the tests differ from the library in this: else nothing would find a read of
-// memory that nobody has written.
+// Only programs of tests fill new arrays with NaN. A read of memory that was never written would
+// otherwise stay unnoticed.
 TEST(AlignedArray, is_full_of_nan_in_tests_until_it_is_written) {
   for (const std::size_t n : kSizes) {
     AlignedArray<double> doubles(n);

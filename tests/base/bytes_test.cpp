@@ -43,7 +43,7 @@ TEST(field_bytes, give_back_every_field) {
     write_fields(sent, writer);
     const std::string bytes = writer.take();
     ByteReader reader(bytes);
-    Outer got = all;  // what was not given is not left as it was
+    Outer got = all;  // fields that are not sent are reset
     read_fields(reader, got);
     EXPECT_EQ(text_of_fields(got), text_of_fields(sent));
     EXPECT_EQ(got.threads, sent.threads);

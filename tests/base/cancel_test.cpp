@@ -14,7 +14,7 @@
 namespace rholm {
 namespace {
 
-// Enough for any CancelPoll to ask.
+// Number of polls after which any CancelPoll has asked.
 constexpr int kMany = 1 << 20;
 
 bool is_cancelled(const std::function<void()>& run) {
@@ -61,7 +61,7 @@ TEST(CancelScope, is_of_one_thread) {
   EXPECT_FALSE(cancelled);
 }
 
-// Whether a loop without progress ends, and that nobody else asks.
+// A loop without progress ends, and only the calling thread asks.
 TEST(CancelScope, ends_loops_on_several_threads) {
   const std::thread::id here = std::this_thread::get_id();
   std::atomic<int> elsewhere = 0;
@@ -82,7 +82,7 @@ TEST(CancelScope, ends_loops_on_several_threads) {
   EXPECT_EQ(elsewhere, 0);
 }
 
-// The caller is done with its own chunk, the other chunk waits for a question to be answered.
+// The caller is done with its own chunk; the other chunk runs until the question is answered.
 TEST(CancelScope, is_asked_by_a_caller_that_waits_for_others) {
   const std::thread::id here = std::this_thread::get_id();
   std::atomic<bool> other_began = false, stop = false;
@@ -100,14 +100,14 @@ TEST(CancelScope, is_asked_by_a_caller_that_waits_for_others) {
       other_began = true;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the caller is done by now
       stop = true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));  // some intervals of the wait
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));  // several intervals of the wait
       for (;;) poll_many_times();
     });
   }));
-  EXPECT_EQ(refusals, 1);  // who has said no is not asked again
+  EXPECT_EQ(refusals, 1);  // after a refusal the scope is not asked again
 }
 
-// What one thread throws ends the chunks of all others, and is what the caller gets.
+// An exception of one thread ends the chunks of all others, and the caller receives it.
 TEST(CancelScope, of_a_loop_ends_with_its_first_exception) {
   std::atomic<int> begun = 0;
   try {
@@ -123,7 +123,7 @@ TEST(CancelScope, of_a_loop_ends_with_its_first_exception) {
   }
 }
 
-// Loops of several callers share threads that wait: none may be ended by another's scope.
+// Loops of several callers share waiting threads: no loop may be ended by the scope of another.
 TEST(CancelScope, does_not_end_loops_of_other_threads) {
   std::atomic<bool> go_on = true;
   std::thread cancelled([&] {

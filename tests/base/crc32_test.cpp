@@ -9,7 +9,7 @@
 namespace rholm {
 namespace {
 
-// A bit at a time: the remainder of a division of polynomials.
+// Returns the checksum bit by bit, as the remainder of a division of polynomials.
 std::uint32_t by_bits(std::string_view bytes) {
   std::uint32_t value = 0xffffffffU;
   for (const char c : bytes) {

@@ -8,7 +8,7 @@
 namespace rholm {
 namespace {
 
-// The values of the enum are counted here: one that is missing in the table is noticed.
+// The number of enum values is written here, so that a value without a line is noticed.
 TEST(error, has_a_line_of_the_table_for_every_code) {
   constexpr int kCodes = static_cast<int>(ErrorCode::kCancelled) + 1;
   ASSERT_EQ(error_infos().size(), std::size_t{kCodes});

@@ -8,7 +8,7 @@ namespace rholm {
 namespace {
 
 TEST(large_vector, is_zero_and_not_moved_while_it_has_room) {
-  // None, a part of a page, one huge page at most, some pieces.
+  // Sizes: empty, a part of a page, at most one huge page, and several parts.
   for (const std::size_t n : {0u, 10u, 500000u, 5000000u}) {
     for (const int threads : {1, 4}) {
       std::vector<double> v;

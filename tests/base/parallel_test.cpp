@@ -59,7 +59,7 @@ TEST(parallel_for, may_be_called_by_several_threads_at_once) {
   EXPECT_EQ(visits, 4 * 100 * 16);
 }
 
-// Each is in its loop while all others are in theirs.
+// Each caller is in its loop while all other callers are in their loops.
 TEST(parallel_for, does_not_wait_for_loops_of_other_callers) {
   constexpr int kCallers = 8;
   std::atomic<int> in_loops = 0;
@@ -79,7 +79,7 @@ TEST(parallel_for, does_not_wait_for_loops_of_other_callers) {
           if (std::chrono::steady_clock::now() > end) all = false;
         }
       });
-      // The other thread may have had both chunks.
+      // The other thread may have run both chunks.
       if (!counted.exchange(true)) ++in_loops;
     });
   }
@@ -87,7 +87,7 @@ TEST(parallel_for, does_not_wait_for_loops_of_other_callers) {
   EXPECT_TRUE(all);
 }
 
-// Pages of the program in use.
+// Returns the number of pages of the program that are in memory.
 long resident_pages() {
   std::ifstream file("/proc/self/statm");
   long all = 0, resident = 0;
@@ -177,7 +177,7 @@ TEST(parallel_for, exceptions_of_a_loop_in_its_body_reach_the_caller) {
   }
 }
 
-// Chunks that have not begun are left out: all others would take 20 s.
+// Chunks that have not begun are left out. All of them together would take 20 s.
 TEST(parallel_for, chunks_after_an_exception_are_left_out) {
   std::atomic<int> begun = 0;
   EXPECT_THROW(parallel_for(20000, 1, {.threads = 2}, {},

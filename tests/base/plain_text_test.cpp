@@ -12,8 +12,9 @@ TEST(plain_text, characters_are_read_as_utf8_says) {
   EXPECT_EQ(first_character("\xc3\xa4").code, U'\u00e4');
   EXPECT_EQ(first_character("\xe2\x82\xac rest").code, U'\u20ac');
   EXPECT_EQ(first_character("\xf0\x9f\x90\x87").code, U'\U0001f407');
-  EXPECT_EQ(first_character("\xf4\x8f\xbf\xbf").bytes.size(), 4u);  // the last one
-  // Alone, cut off, longer than needed, half a pair of UTF-16, beyond the last.
+  EXPECT_EQ(first_character("\xf4\x8f\xbf\xbf").bytes.size(), 4u);  // the last code point
+  // Invalid: a single continuation byte, a cut sequence, too long a form, half a surrogate pair,
+  // and values beyond the last code point.
   for (const std::string& wrong :
        {"\x80"s, "\xff"s, "\xc3"s, "\xe2\x82"s, "\xc3("s, "\xc0\xaf"s, "\xe0\x80\xaf"s,
         "\xf0\x80\x80\xaf"s, "\xed\xa0\x80"s, "\xf4\x90\x80\x80"s, "\xf8\x88\x80\x80\x80"s}) {
@@ -28,11 +29,11 @@ TEST(plain_text, what_commands_a_terminal_is_escaped) {
   EXPECT_EQ(escaped_text("x\0y"s), "x\\x00y");
   EXPECT_EQ(escaped_text("\xc2\x9b"
                          "31m"),
-            "\\u009b31m");  // C1
+            "\\u009b31m");  // control character C1
   EXPECT_EQ(escaped_text("\x9b"
                          "31m"),
-            "\\x9b31m");  // the same in Latin 1
-  // Right to left, from numbers: clang-tidy takes the text itself for an attack.
+            "\\x9b31m");  // the same character in Latin 1
+  // The mark for right to left is built from numbers: clang-tidy reports it in a literal.
   const std::string turned{static_cast<char>(0xe2), static_cast<char>(0x80),
                            static_cast<char>(0xae)};
   EXPECT_EQ(escaped_text(turned + "fdp"), "\\u202efdp");

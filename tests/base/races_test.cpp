@@ -1,5 +1,5 @@
-// Races that are here on purpose, each in a process of its own: were one of them not reported, then
-// silence about the loops of the library would say nothing. Only where ThreadSanitizer is.
+// Deliberate races, each in a process of its own. They show that ThreadSanitizer finds races in
+// loops of the library, so that its silence has a meaning. Built with ThreadSanitizer only.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,9 +16,9 @@ namespace rholm {
 namespace {
 
 constexpr std::size_t kN = 64;
-constexpr int kReported = 66;  // how ThreadSanitizer ends a process that had a race
+constexpr int kReported = 66;  // exit code of ThreadSanitizer after a race
 
-// Runs it and leaves, by 66 if a race was seen.
+// Calls run() and exits; ThreadSanitizer makes the exit code 66 if it saw a race.
 [[noreturn]] void leave_after(const std::function<void()>& run) {
   run();
   std::exit(0);
@@ -44,7 +44,7 @@ TEST_F(Race, of_chunks_that_add_to_one_number_is_reported) {
               testing::ExitedWithCode(kReported), "data race");
 }
 
-// The lock of the progress orders many chunks; not all.
+// The lock around progress puts many chunks in an order, but not all of them.
 TEST_F(Race, is_reported_with_progress_as_well) {
   double sum = 0;
   const auto add = [&](std::size_t begin, std::size_t) { sum += static_cast<double>(begin); };
@@ -61,7 +61,7 @@ TEST_F(Race, of_a_chunk_that_reads_what_its_neighbour_writes_is_reported) {
               testing::ExitedWithCode(kReported), "data race");
 }
 
-// All write the same: no test of results finds that.
+// All chunks write the same value, so that no comparison of results would find the race.
 TEST_F(Race, of_chunks_that_write_the_same_value_is_reported) {
   bool any = false;
   const auto note = [&](std::size_t, std::size_t) { any = true; };
@@ -88,7 +88,7 @@ TEST_F(Race, in_a_loop_within_a_loop_is_reported) {
               testing::ExitedWithCode(kReported), "data race");
 }
 
-// Loops within chunks put these in no order, nor do the notes of them (RHOLM_LOOPS).
+// Neither loops within chunks nor their records (RHOLM_LOOPS) put the chunks in an order.
 TEST_F(Race, of_chunks_before_and_after_loops_of_their_own_is_reported) {
   int calls = 0;
   const auto outer = [&](std::size_t k, std::size_t) {
@@ -101,7 +101,7 @@ TEST_F(Race, of_chunks_before_and_after_loops_of_their_own_is_reported) {
               testing::ExitedWithCode(kReported), "data race");
 }
 
-// Loops wait for their chunks: what these have written may be read after them.
+// A loop waits for its chunks: values that they wrote may be read after the loop.
 TEST_F(Race, of_loops_one_after_another_there_is_none) {
   const auto sound = [] {
     std::vector<double> values(kN), sums(kN / 4);

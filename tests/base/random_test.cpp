@@ -7,8 +7,8 @@
 namespace rholm {
 namespace {
 
-// n uniform numbers have mean 1/2 +- 1/sqrt(12 n) and correlation of neighbours 0 +- 1/(12 sqrt n);
-// six standard deviations.
+// n uniform numbers have the mean 1/2 +- 1/sqrt(12 n), and neighbours have the correlation 0 +-
+// 1/(12 sqrt n). The bounds are six standard deviations.
 TEST(random_uniform, mean_variance_and_correlation_are_those_of_the_uniform_distribution) {
   constexpr int n = 100000;
   for (const std::uint64_t seed : {0ULL, 1ULL, 2ULL, ~0ULL}) {

@@ -11,7 +11,7 @@
 namespace rholm {
 namespace {
 
-// 64 bits of mantissa and compensated besides: exact beside double precision.
+// A compensated sum with a mantissa of 64 bits: exact when compared with double precision.
 struct ExactSum {
   long double sum = 0, rest = 0, moduli = 0;
   void add(long double x) {
@@ -27,7 +27,7 @@ double error_of(double found, const ExactSum& exact) {
   return static_cast<double>(off / exact.moduli);
 }
 
-// Of either sign, of sizes over `decades`.
+// Returns a number of random sign; absolute values are spread over `decades` decades.
 double number(std::uint64_t stream, std::uint64_t i, double decades) {
   const double sign = random_uniform(stream, 2 * i) < 0.5 ? -1 : 1;
   return sign * std::pow(10.0, decades * (random_uniform(stream, 2 * i + 1) - 0.5));
@@ -49,9 +49,9 @@ TEST(Rounding, compensated_sums_of_any_number_of_terms_leave_what_they_may) {
         const double x = number(stream, i, decades), y = number(stream + 100, i, decades);
         exact_terms.add(x);
         of_terms.add(x);
-        rounded_terms.add(x * y * y);  // two roundings
+        rounded_terms.add(x * y * y);  // rounded twice
         const double product = x * y;
-        // What each of the two has lost, exactly.
+        // The rounding errors of both products are added exactly.
         of_products.add(static_cast<long double>(product * y) +
                         std::fma(product, y, -(product * y)) +
                         static_cast<long double>(std::fma(x, y, -product)) * y);
@@ -74,7 +74,7 @@ TEST(Rounding, whole_quanta_add_up_exactly) {
   EXPECT_EQ(sum, std::ldexp(static_cast<double>(quanta), -40));
 }
 
-// A plain sum is not what the bound is for: it loses more.
+// The bound does not hold for a plain sum, whose rounding error is larger.
 TEST(Rounding, plain_sums_leave_more) {
   double plain = 0;
   ExactSum exact;

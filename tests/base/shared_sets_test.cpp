@@ -13,7 +13,7 @@
 namespace rholm {
 namespace {
 
-// Oracle: the same pairs, one after the other.
+// Oracle: the same pairs are united one after the other.
 TEST(shared_sets, are_those_of_one_thread) {
   constexpr std::uint32_t kN = 20000;
   for (const std::size_t n_pairs : {0u, 1000u, 10000u, 40000u}) {
@@ -37,7 +37,7 @@ TEST(shared_sets, are_those_of_one_thread) {
   }
 }
 
-// All threads at the same few roots.
+// All threads unite sets with the same few roots.
 TEST(shared_sets, of_a_chain_have_its_first_member) {
   constexpr std::uint32_t kN = 100000;
   SharedSets sets(kN);

@@ -30,7 +30,8 @@ struct BumpyFile {
   BumpyFile() { write_shape(mesh, path); }
 };
 
-// The floor of spreading does what spreading does: windows of any width, 1 ... 33 sources.
+// The loop that measures the lower bound of spreading adds what spreading adds: windows of any
+// width, 1 ... 33 sources.
 TEST(bench_rows, add_the_products_of_the_taps) {
   test::for_each_target([](const char* target) {
     for (int width = 2; width <= kMaxSpreadWidth; ++width) {
@@ -160,7 +161,7 @@ TEST(bench_floors, all_take_time_and_the_grid_is_that_of_the_report) {
        {floors.file_read, floors.copy, floors.row_updates, floors.legendre}) {
     EXPECT_GT(timing.minimum.wall, 0);
   }
-  // Longitudes once, half as many colatitudes, and the margins.
+  // The grid has n longitudes, n / 2 colatitudes, and margins.
   const double n = fast.oversampling * 2 * 16;
   EXPECT_GE(static_cast<double>(floors.grid_bytes), n * n / 2 * sizeof(double));
 }
@@ -169,10 +170,10 @@ TEST(bench_rows, each_source_adds_both_products_to_each_of_its_cells) {
   const GridLayout layout = grid_layout(6, 40, 40);
   AlignedArray<double> grid(layout.cells()), taps(8 + 2 * 6);
   std::fill(grid.begin(), grid.end(), 0.0);
-  for (std::size_t k = 0; k < 8; ++k) taps[k] = static_cast<double>(k + 1);  // columns, sum 36
+  for (std::size_t k = 0; k < 8; ++k) taps[k] = static_cast<double>(k + 1);  // columns, with sum 36
   for (std::size_t i = 0; i < 6; ++i) {
-    taps[8 + i] = 2;   // value
-    taps[14 + i] = 3;  // slope
+    taps[8 + i] = 2;   // factors of the value
+    taps[14 + i] = 3;  // factors of the slope
   }
   const std::vector<std::uint32_t> cells = {0, static_cast<std::uint32_t>(layout.stride + 5)};
   update_rows(layout, cells, taps.data(), grid.data());
@@ -180,7 +181,7 @@ TEST(bench_rows, each_source_adds_both_products_to_each_of_its_cells) {
   for (const double value : grid) sum += value;
   EXPECT_EQ(sum, 2 * 6 * 36 * (2 + 3));
   EXPECT_EQ(grid[0], 5);
-  EXPECT_EQ(grid[layout.stride * 6 + 5 + 7], 40);  // last row and column of the second
+  EXPECT_EQ(grid[layout.stride * 6 + 5 + 7], 40);  // last row and column of the second source
 }
 
 TEST(compare_coefficients, is_relative_to_the_reference_without_its_mean) {
@@ -192,7 +193,7 @@ TEST(compare_coefficients, is_relative_to_the_reference_without_its_mean) {
   found.c(0, 0) *= 1 + 1e-6;
   const CoefficientsError error = compare_coefficients(found, reference);
   EXPECT_NEAR(error.error, 0.01, 1e-15);        // 0.05 / |(3, 4)|
-  EXPECT_NEAR(error.top_error, 0.0125, 1e-15);  // 0.05 / 4: of the degrees, only 2 is above 3L/4
+  EXPECT_NEAR(error.top_error, 0.0125, 1e-15);  // 0.05 / 4: only degree 2 is above 3L/4
   EXPECT_NEAR(error.mean, 1e-6, 1e-15);
   EXPECT_THROW(compare_coefficients(found, Coefficients(3)), Error);
 }
@@ -216,7 +217,7 @@ TEST(peak_memory, is_that_of_what_follows_its_restart) {
   if (!restart_peak_memory() || !peak_memory()) GTEST_SKIP() << "the system does not tell";
   constexpr std::size_t kBytes = std::size_t{1} << 26;
   const std::size_t before = *peak_memory();
-  // Not from the heap, which may keep what is freed.
+  // Memory is not taken from the heap, which may keep freed memory.
   void* const block =
       ::mmap(nullptr, kBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(block, MAP_FAILED);

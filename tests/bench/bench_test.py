@@ -1,4 +1,4 @@
-"""bench/rholm_bench: its figures, its temporary files, its refusals."""
+"""Tests the figures, the temporary files and the refusals of bench/rholm_bench."""
 
 import os
 import signal
@@ -44,7 +44,7 @@ class Bench(CliTest):
                                  for mesh, faces in (("smooth body", 1200), ("b.ply", 1280))
                                  for degree in (8, 16) for precision in (1e-3, 1e-6)])
         for case in report["cases"]:
-            # The promise of --precision.
+            # --precision promises these bounds.
             self.assertLessEqual(case["accuracy"]["error"], case["precision"])
             self.assertLessEqual(case["accuracy"]["error_of_mean"], case["precision"])
             self.assertIn("direct", case["accuracy"]["reference"])
@@ -78,7 +78,7 @@ class Bench(CliTest):
         self.assertEqual([run["threads"] for run in ordered["runs"]], [1, 2])
         self.assertEqual(ordered["runs"][0]["speedup"], 1)
         self.assertGreater(shuffled["ratios"]["random_to_file_order"], 0)
-        # The same triangles: the order changes rounding alone.
+        # The triangles are the same: their order changes rounding errors only.
         self.assertEqual(ordered["counts"]["faces"], shuffled["counts"]["faces"])
         self.assertLessEqual(shuffled["accuracy"]["error"], shuffled["precision"])
 

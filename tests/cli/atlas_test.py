@@ -16,7 +16,7 @@ V, F = OCTAHEDRON
 class Atlas(CliTest):
     @classmethod
     def setUpClass(cls):
-        cls.kept = None  # a folder with t.h5, once there is one, and its report
+        cls.kept = None  # a folder with t.h5 and the report, once they exist
 
     @classmethod
     def tearDownClass(cls):
@@ -32,7 +32,8 @@ class Atlas(CliTest):
                           "-o", name, "--json", *more).json()
 
     def make_model(self):
-        """t.h5, made once for all tests, on two threads, and its report."""
+        """Copies t.h5 into the folder and returns its report; the model is made once for all tests, on two
+        threads."""
         if self.kept:
             shutil.copy(os.path.join(self.kept[0], "t.h5"), self.folder)
         else:
@@ -51,7 +52,7 @@ class Atlas(CliTest):
             self.assertEqual(info[key], report[key])
         self.assertEqual(info["numbers"], info["coefficients"] + info["frame_numbers"])
         self.assertIn("atlas of caps", self.rholm("info", "t.h5").out)
-        # In a process of its own, which has the model alone.
+        # Another process reads the model from its file only.
         self.rholm("synthesize", "t.h5", "-o", "s.ply")
         surface = self.rholm("info", "s.ply", "--json").json()
         self.assertTrue(surface["closed"] and surface["manifold"] and surface["oriented"])
@@ -59,11 +60,11 @@ class Atlas(CliTest):
         self.assertEqual(surface["genus"], 1)
         found = self.rholm("compare", "t.ply", "s.ply", "--json").json()
         for way in ("a_to_b", "b_to_a"):
-            # Other samples than those the model was measured by: 1 % apart at 100000 of them.
+            # Samples are other than in the report: measured errors differ by 1 % at 100000 samples.
             self.assertLess(found["relative"][way]["rms"], 5.1e-3)
 
     def test_wrong_sides_are_turned_or_said(self):
-        """One face of an octahedron, all faces, points with normals inwards."""
+        """One face of an octahedron is flipped; all faces are flipped; points have normals inwards."""
         words = ["--atlas", "--tolerance", "0.1", "--max-degree", "4", "-o", "m.h5"]
         self.write("mixed.off", off(V, [F[0][::-1], *F[1:]]))
         self.assertIn("faces disagree about their sides at 3 edges",
@@ -78,7 +79,7 @@ class Atlas(CliTest):
 
     @nightly
     def test_a_model_of_more_numbers_than_the_shape_is_refused(self):
-        """An octahedron has 18 coordinates, and a cap nine numbers of a frame alone."""
+        """An octahedron has 18 coordinates; the frame of a single cap has nine numbers."""
         words = ["--atlas", "--tolerance", "0.05", "-o", "m.h5"]
         self.write("few.off", off(V, F))
         result = self.rholm("analyze", "few.off", *words, code=3)
@@ -99,7 +100,7 @@ class Atlas(CliTest):
             info = self.rholm("info", extension + ".h5", "--json").json()
             self.assertEqual(info["method"], f"integral, {extension} beyond")
             self.rholm("synthesize", extension + ".h5", "-o", extension + ".ply")
-        # The jump to zero is that of the whole radius.
+        # The jump to zero is as large as the radius.
         self.assertLess(2 * found["sphere"]["errors"]["rms_from_shape"],
                         found["zero"]["errors"]["rms_from_shape"])
         for words in (["--fit", "integral"], ["--fit", "integral", "--degree", "25"],
@@ -116,7 +117,7 @@ class Atlas(CliTest):
             counts[name] = self.rholm("synthesize", "t.h5", "-o", name + ".ply", "--json",
                                       *words).json()["counts"]["vertices"]
         self.assertGreater(counts["finer"], 3 * counts["own"])
-        # The refusal names a limit that will do, and none below does.
+        # The refusal names the smallest limit that works.
         refused = self.rholm("synthesize", "t.h5", "-o", "x.ply", "--degree-limit", "0", code=3)
         least = int(re.search(r"for this model is (\d+)$", refused.err).group(1))
         self.assertGreater(least, 1)

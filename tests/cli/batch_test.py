@@ -1,4 +1,4 @@
-"""rholm batch: what a row says is what the command says of the shape alone, however the batch was run."""
+"""rholm batch: a row has the results of the command for the shape alone, however the batch was run."""
 
 import contextlib
 import csv
@@ -12,13 +12,13 @@ import sys
 sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, OCTAHEDRON, RHOLM, NIGHTLY, Terminal, TIMEOUT, main, nightly_too, off, rows_done, until
 
-# Columns that the batch has of its own, and those of a run, which differ from one to the next.
+# Columns that only the batch has, and columns of a run, which differ from one run to the next.
 OWN = {"id", "path", "group", "exit_code", "message", "warnings", "seconds", "cpu_seconds"}
 OF_THE_RUN = {"seconds", "cpu_seconds", "wall_seconds", "times", "peak_memory_bytes"}
 
 
 def flattened(report, prefix=""):
-    """The report of --json as columns, written anew: {name: text}."""
+    """Converts the report of --json to columns, independently of the program: {name: text}."""
     columns = {}
     for key, value in report.items():
         name = prefix + key
@@ -44,8 +44,8 @@ def same(cell, value):
 
 class BatchTest(CliTest):
     def make_shapes(self, n):
-        """n star-shaped shapes, and some that are not or are no shapes; writes shapes.csv. Errors of few, long faces
-        would take longer."""
+        """Makes n star-shaped shapes, some other shapes, and files that are no shapes; writes shapes.csv.
+        Errors of shapes with few, long faces would take longer."""
         (self.folder / "s").mkdir()
         rows = []
         for i in range(n):
@@ -75,7 +75,7 @@ class BatchTest(CliTest):
             return list(csv.DictReader(file))
 
     def batch(self, out, *words, degree=4, **options):
-        """With the options of the command behind --."""
+        """Runs a batch; the options of its command come after --."""
         return self.rholm("batch", "shapes.csv", "-o", out, "--no-times", *words, "--", "--degree", degree,
                           **options)
 
@@ -108,7 +108,7 @@ class Rows(BatchTest):
             for name in ("volume", "area", "sphericity"):
                 self.assertTrue(same(row[name], measures[name]), f"{name}: {row[name]!r}, not {measures[name]!r}")
             self.assertLessEqual(float(row["sphericity"]), 1)
-            # Parseval: the energy of a degree is that of its coefficients.
+            # Parseval: the energy of a degree is the sum of its squared coefficients.
             for l in range(5):
                 energy = sum(float(row[f"coefficients.{l * l + k}"]) ** 2 for k in range(2 * l + 1))
                 self.assertTrue(math.isclose(energy, float(row[f"energy.{l}"]), rel_tol=1e-14, abs_tol=1e-300))
@@ -258,15 +258,15 @@ class SameBytes(BatchTest):
 
 
 class Interrupted(BatchTest):
-    """Runs that are ended while rows wait for a writer: all rows before these are done then, and the run lasts until
-    it is ended."""
+    """Runs that are ended while rows wait for a writer: all rows before them are done then, and the run
+    lasts until it is ended."""
 
     THREADS = 2
 
     @contextlib.contextmanager
     def started(self, rows, done, out="k.h5"):
-        """A run of which so many rows are done, and no other can be."""
-        waiting = [self.folder / path for _, path, _ in rows[done:]]  # also for a file that is not there
+        """Starts a run in which `done` rows are finished and no other row can finish."""
+        waiting = [self.folder / path for _, path, _ in rows[done:]]  # one of the files does not exist
         for path in waiting:
             if path.is_file():
                 path.rename(path.with_suffix(".kept"))

@@ -12,7 +12,7 @@
 namespace rholm::cli {
 namespace {
 
-// Threads that all talk at once: each capture has what its own thread said, in order.
+// All threads write at the same time: each capture has the output of its own thread, in order.
 TEST(capture, has_what_its_own_thread_said) {
   constexpr int kThreads = 4, kTimes = 1000;
   std::vector<std::jthread> threads;

@@ -1,6 +1,6 @@
-"""Clouds of points by formulas: bodies with exact normals, ways to spoil normals, points of no surface.
+"""Point clouds from formulas: bodies with exact normals, ways to spoil normals, points without a surface.
 
-Every function takes a random generator of NumPy first, and the number of points."""
+The first arguments of every function are a random generator of NumPy and the number of points."""
 
 import numpy as np
 
@@ -21,7 +21,8 @@ def sphere(rng, n, radius=1.0, middle=(0, 0, 0)):
 
 
 def ellipsoid(rng, n, axes=(1.3, 1.0, 0.7)):
-    """Uniform by area: a direction is kept with the area that it stands for."""
+    """Returns points that are uniform by area: a direction is kept with a probability proportional to its
+    area."""
     axes, kept = np.asarray(axes), []
     while sum(map(len, kept)) < n:
         d = directions(rng, 2 * n)
@@ -69,7 +70,7 @@ def cylinder(rng, n, radius=0.5, height=2.0):
 
 
 def bumps(rng, n, height=0.15, degree=4):
-    """A ball with waves: r = 1 + height sin(degree phi) sin(theta)^degree."""
+    """Returns a ball with waves: r = 1 + height sin(degree phi) sin(theta)^degree."""
     d = directions(rng, n)
     phi, s = np.arctan2(d[:, 1], d[:, 0]), np.hypot(d[:, 0], d[:, 1])
     wave, slope = np.sin(degree * phi), degree * np.cos(degree * phi)
@@ -82,12 +83,12 @@ def bumps(rng, n, height=0.15, degree=4):
 
 
 def touching(rng, n):
-    """Two balls that touch in a point."""
+    """Returns two balls that touch in a point."""
     return np.concatenate([sphere(rng, n // 2)[0], sphere(rng, n - n // 2, 1, (2, 0, 0))[0]])
 
 
 def tee(rng, n):
-    """A square, and half of one that ends at it."""
+    """Returns a square, and half of another square that ends at it."""
     p, up = 2 * rng.random((n, 3)) - 1, rng.random(n) < 0.5
     p[up, 0], p[up, 2] = 0, np.abs(p[up, 2])
     p[~up, 2] = 0
@@ -95,7 +96,7 @@ def tee(rng, n):
 
 
 def thin(rng, n):
-    """A plate whose walls are about as near to each other as the points."""
+    """Returns a plate whose walls are about as near to each other as the points."""
     return box(rng, n, (2.0, 2.0, 0.05))[0]
 
 
@@ -108,7 +109,7 @@ def turned(part):
 
 
 def shell(rng, n, inner=0.6):
-    """A ball with a hollow: the normals of the inner wall point to the middle."""
+    """Returns a ball with a cavity: normals of the inner wall point to the middle."""
     k = int(n / (1 + inner ** 2))
     return joined(sphere(rng, k), turned(sphere(rng, n - k, inner)))
 
@@ -119,7 +120,7 @@ def two_balls(rng, n, size=0.6, gap=0.3):
 
 
 def bowl(rng, n, wall=0.25):
-    """Half of a shell with a flat rim."""
+    """Returns half of a shell with a flat rim."""
     inner = 1 - wall
     areas = np.array([2 * np.pi, 2 * np.pi * inner ** 2, np.pi * (1 - inner ** 2)])
     part = rng.choice(3, n, p=areas / areas.sum())
@@ -134,7 +135,7 @@ def bowl(rng, n, wall=0.25):
             np.where(at == 0, d, np.where(at == 1, -d, up)))
 
 
-# Of each: volume, genus.
+# Function, volume and genus of each body.
 BODIES = {
     "sphere": (sphere, 4 / 3 * np.pi, 0),
     "ellipsoid": (ellipsoid, 4 / 3 * np.pi * 1.3 * 0.7, 0),
@@ -156,13 +157,13 @@ def at_random(rng, points, share):
 
 
 def in_patch(rng, points, share):
-    """The points nearest to one of them."""
+    """Chooses the points nearest to one of them."""
     far = np.linalg.norm(points - points[rng.integers(len(points))], axis=1)
     return far <= np.quantile(far, share)
 
 
 def in_caps(rng, points, share, n=5):
-    """Several patches of as many points."""
+    """Chooses several patches of equally many points."""
     chosen = np.zeros(len(points), bool)
     for _ in range(n):
         chosen |= in_patch(rng, points, share / n)
@@ -170,19 +171,19 @@ def in_caps(rng, points, share, n=5):
 
 
 def in_half(rng, points, share):
-    """What a plane cuts off."""
+    """Chooses the points on one side of a plane."""
     height = points @ directions(rng, 1)[0]
     return height >= np.quantile(height, 1 - share)
 
 
 def in_band(rng, points, share):
-    """What lies between two planes."""
+    """Chooses the points between two planes."""
     height = points @ directions(rng, 1)[0]
     return (height >= np.quantile(height, 0.5 - share / 2)) & (height <= np.quantile(height, 0.5 + share / 2))
 
 
 def in_clumps(rng, points, share):
-    """At random, but alike within small balls."""
+    """Chooses points at random, but all points of a small cell alike."""
     cell = 0.15 * np.ptp(points, axis=0).max()
     keys = np.floor(points / cell).astype(int) @ [73856093, 19349663, 83492791] % 9973
     return (np.random.default_rng(int(rng.integers(1 << 30))).random(9973) < share)[keys]
@@ -203,7 +204,7 @@ def cube(rng, n):
 
 
 def lattice(rng, n, size=(1, 1, 1)):
-    """Of voxels of a box."""
+    """Returns the voxels of a box."""
     size = np.asarray(size, float)
     step = (size.prod() / n) ** (1 / 3)
     axes = [np.arange(max(1, round(s / step))) * step for s in size]
@@ -246,7 +247,7 @@ def thin_slab(rng, n):
 
 
 def layers(rng, n):
-    """A lattice of three layers."""
+    """Returns a lattice of three layers."""
     k = round((n / 3) ** 0.5)
     return np.stack(np.meshgrid(range(k), range(k), range(3)), -1).reshape(-1, 3).astype(float)
 
@@ -257,7 +258,7 @@ def jittered_layers(rng, n):
 
 
 def bar(rng, n):
-    """Voxels of a bar of 3 x 3."""
+    """Returns the voxels of a bar of 3 x 3."""
     return np.stack(np.meshgrid(range(max(4, n // 9)), range(3), range(3)), -1).reshape(-1, 3).astype(float)
 
 
@@ -267,7 +268,7 @@ def round_rod(rng, n, radius=0.05):
 
 
 def wall_of_shell(rng, n):
-    """Fills a shell of 0.85 ... 1 with several layers from 2000 points on."""
+    """Returns points that fill a shell of 0.85 ... 1; from 2000 points on they form several layers."""
     return thick_shell(rng, n, 0.85)
 
 
@@ -292,7 +293,7 @@ def knot(rng, n, noise=0.0):
 
 
 def wires(rng, n):
-    """The edges of a cube."""
+    """Returns the edges of a cube."""
     axis, t = rng.integers(3, size=n), rng.random(n)
     p = rng.integers(2, size=(n, 3)).astype(float)
     p[np.arange(n), axis] = t

@@ -1,13 +1,13 @@
-"""Points by formulas: normals that contradict each other, and points that lie on no surface.
+"""Point clouds from formulas: normals that contradict each other, and points that do not lie on a surface.
 
-Every cloud must give the right surface, or exit code 3 or 4 with a message. As a test it takes a few
-small clouds. With options it takes many:
+Every cloud must give the right surface, or exit code 3 or 4 with a message. Without options a few small
+clouds are tested. Options test many:
   clouds_test.py --normals [N]   N clouds (40) with 0 to 50 % of turned normals
-  clouds_test.py --shapes        points of no surface, of three sizes
-  clouds_test.py --thresholds    what local_shape.cpp measures, of both
-  clouds_test.py --crossings     crossing_length of bodies and of sheets that cross
-  clouds_test.py --walls [SEED]  points_off_surface of noisy bodies and plates, of points of no surface, and of
-                                 the real shapes in RHOLM_SHAPES (with trimesh)"""
+  clouds_test.py --shapes        points without a surface, of three sizes
+  clouds_test.py --thresholds    measures of local_shape.cpp for both
+  clouds_test.py --crossings     crossing_length of bodies and of intersecting sheets
+  clouds_test.py --walls [SEED]  points_off_surface of noisy bodies and plates, of points without a surface, and
+                                 of the real shapes in RHOLM_SHAPES (with trimesh)"""
 
 import os
 import sys
@@ -21,15 +21,15 @@ from harness import CliTest, main, nightly
 try:
     import numpy as np
     import clouds
-except ImportError:  # no NumPy
+except ImportError:  # NumPy is missing
     np = None
 
-# Of volume: caps on a thousand points are as good as that.
+# Relative error allowed for volumes: caps on a thousand points are as accurate as this.
 CLOSE = 0.06
 
 
 def spoiled(body, way, share, n, noise=0.0):
-    """Points, normals, and how many of these are turned."""
+    """Returns points, normals, and the number of turned normals."""
     rng = np.random.default_rng(zlib.crc32(f"{body} {way} {share} {n} {noise}".encode()))
     points, normals = clouds.BODIES[body][0](rng, n)
     turned = clouds.SPOILED[way](rng, points, share)
@@ -38,7 +38,7 @@ def spoiled(body, way, share, n, noise=0.0):
 
 
 def with_noise(rng, make, n, noise):
-    """Noise in diagonals."""
+    """Returns points with noise, given in units of the diagonal."""
     points = make(rng, n)
     return points + noise * np.linalg.norm(np.ptp(points, axis=0)) * rng.normal(size=points.shape)
 
@@ -46,7 +46,7 @@ def with_noise(rng, make, n, noise):
 @unittest.skipIf(np is None, "no NumPy")
 class Clouds(CliTest):
     def reconstruct(self, points, normals=None, *words):
-        """The result of the run, and what info says of the surface."""
+        """Returns the finished run, and the report of info about the surface."""
         self.write("p.xyz", clouds.text(points, normals))
         done = self.run_rholm("reconstruct", "p.xyz", "-o", "s.ply", "--json", "--threads", "1", *words)
         self.check_decent(done)
@@ -55,7 +55,7 @@ class Clouds(CliTest):
         return done, shape
 
     def fault(self, body, done, shape):
-        """What is wrong, unsaid."""
+        """Returns the fault of a surface for which the program did not warn."""
         volume, genus = clouds.BODIES[body][1:]
         if done.code != 0:
             return ""
@@ -258,7 +258,8 @@ def many_shapes():
 
 
 def crossings():
-    """crossing_length as `rholm reconstruct` has it: kMostCrossing is between bodies and sheets that cross."""
+    """Prints crossing_length as `rholm reconstruct` computes it: kMostCrossing lies between bodies and
+    intersecting sheets."""
     bodies = {name: lambda rng, n, make=make: make(rng, n)[0] for name, (make, _, _) in clouds.BODIES.items()}
     bodies |= {"thin": clouds.thin, "tee": clouds.tee, "touching": clouds.touching}
     crossing = {name: make for name, (make, _) in clouds.NO_SURFACE.items() if "crossing" in name}
@@ -282,7 +283,7 @@ def crossings():
 
 
 def real_shapes():
-    """Meshes of RHOLM_SHAPES, by name."""
+    """Returns the meshes in RHOLM_SHAPES by name."""
     folder = os.environ.get("RHOLM_SHAPES")
     try:
         import trimesh
@@ -297,7 +298,8 @@ def real_shapes():
 
 
 def walls(seed):
-    """points_off_surface as `rholm reconstruct` has it: kMostOffSurface is between bodies and points of no surface."""
+    """Prints points_off_surface as `rholm reconstruct` computes it: kMostOffSurface lies between bodies and
+    points without a surface."""
     plates = {thin: lambda rng, n, thin=thin: clouds.box(rng, n, (2, 2, thin)) for thin in (0.6, 0.3)}
     bodies = {name: make for name, (make, _, _) in clouds.BODIES.items() if name != "plate"} | plates
     for name, mesh in real_shapes().items():
@@ -342,7 +344,8 @@ def walls(seed):
 
 
 def thresholds():
-    """Median thickness and kurtosis of the flattest neighbourhoods, as local_shape.cpp has them."""
+    """Prints the median thickness and kurtosis of the flattest neighbourhoods, as local_shape.cpp computes
+    them."""
     def look(points):
         best = (2.0, 3.0, 0)
         seeds = points[:: max(1, len(points) // 100)]

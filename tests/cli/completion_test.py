@@ -10,7 +10,7 @@ import unittest
 sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, RHOLM, Terminal, main
 
-CASES = [  # what is typed, what the shell must add or offer
+CASES = [  # typed text, and text that the shell must add or offer
     ("rholm ana", ["analyze"]),
     ("rholm analyze --m", ["--method"]),
     ("rholm analyze --method ", ["edge", "gauge", "curl", "area"]),
@@ -35,7 +35,7 @@ class Completion(CliTest):
         return self.write(name, self.rholm("completion", shell).bytes)
 
     def check_on_terminal(self, words, prepare):
-        """Types each case and two tabs; the completion or the list of them must appear."""
+        """Types each case and two tabs; the completion or a list with it must appear."""
         for typed, wanted in CASES:
             with self.subTest(typed):
                 terminal = Terminal(words, self.folder, self.environment)

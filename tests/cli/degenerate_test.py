@@ -1,5 +1,5 @@
-"""The list of degenerate inputs through every command: the right exit code, no NaN, no crash, no
-litter. What is star-shaped must work; the rest must be refused in words."""
+"""The list of degenerate inputs through every command: the right exit code, no NaN, no crash, no temporary
+files. Star-shaped shapes must work; other shapes must be refused with a message."""
 
 import math
 import os
@@ -19,7 +19,7 @@ TETRAHEDRON = ([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)],
 
 
 def ply(mesh, kind="double"):
-    """Binary little-endian PLY."""
+    """Returns a binary little-endian PLY file."""
     code = {"double": "d", "float": "f"}[kind]
     text = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(mesh[0])}\n"
             + "".join(f"property {kind} {x}\n" for x in "xyz")
@@ -88,7 +88,8 @@ class Degenerate(CliTest):
     every_way = False
 
     def variants(self, name, *ways):
-        """The first for what cannot be read; one of them for what can, another for the next shape, or all."""
+        """Returns ways to run a command: the first for unreadable shapes, another way for each readable
+        shape, or all."""
         if SHAPES[name][1] == REFUSED:
             return ways[:1]
         if self.every_way:
@@ -104,8 +105,8 @@ class Degenerate(CliTest):
         self.write("good.sh", "0 0 1 0\n1 0 0.1 0\n1 1 0 0\n")
 
     def check(self, codes, *words, output=None):
-        """Runs; the exit code must be allowed, a refusal must leave nothing behind. With 4 there is
-        an output that is not to be trusted."""
+        """Runs a command; its exit code must be allowed, and a refusal must leave no file behind. Exit code
+        4 means an output that is not reliable."""
         before = self.files()
         result = self.run_rholm(*words, *(["-o", output] if output else []))
         self.assertIn(result.code, codes, str(result))
@@ -133,13 +134,13 @@ class Degenerate(CliTest):
         for name, (_, _, codes, _) in SHAPES.items():
             for kind in self.variants(name, "auto", "slope", "cosine", "none", "centroid", "volume"):
                 with self.subTest(f"{name} {kind}"):
-                    # "none" may miss the shape.
+                    # "none" may be a centre outside the shape.
                     allowed = codes | EITHER if kind == "none" and codes == FINE else codes
                     self.check(allowed, "center", name, "--rays", "500", "--center", kind)
 
     def test_analyze(self):
         for name, (_, _, codes, _) in SHAPES.items():
-            # Of the same function errors are the same.
+            # Methods of the same function have the same errors.
             for method in self.variants(name, ["edge"], ["gauge"], ["curl", "--no-errors"],
                                    ["area", "--no-errors"]):
                 with self.subTest(f"{name} {method[0]}"):
@@ -159,7 +160,7 @@ class Degenerate(CliTest):
                                     "--json")
                 if result.code == 0:
                     result.json()
-                # A picture of nothing visible is allowed, a crash is not.
+                # A picture without anything visible is allowed, a crash is not.
                 self.check(codes | EITHER, "render", name, "--size", "64x48", output="out.png")
 
     def test_report(self):
@@ -173,7 +174,7 @@ class Degenerate(CliTest):
         for name, (_, codes, _, _) in SHAPES.items():
             for output in self.variants(name, "out.off", "out.obj", "out.ply", "out.stl"):
                 with self.subTest(f"{name} to {output}"):
-                    # STL is float and has no room for large numbers, nor for points.
+                    # STL has single precision, and holds neither large numbers nor points.
                     before = self.files()
                     result = self.check(codes | EITHER, "convert", name, output)
                     if result.code == 0:
@@ -181,7 +182,7 @@ class Degenerate(CliTest):
                     self.assertEqual(self.files(), before)
 
     def test_sample_and_orient(self):
-        # A surface with area has points; what has three places that are not on a line has normals.
+        # A surface with area has points; three places that are not on a line have normals.
         for name, (_, codes, _, sampled) in SHAPES.items():
             with self.subTest(name):
                 self.check(sampled, "make", "sample", name, "--points", "50", output="out.ply")
@@ -205,7 +206,7 @@ class Degenerate(CliTest):
                                    output="out.ply")
 
     def test_reconstruct(self):
-        # None has points enough.
+        # No shape has enough points.
         for name in SHAPES:
             with self.subTest(name):
                 self.check(REFUSED, "reconstruct", name, output="out.ply")
@@ -224,7 +225,7 @@ class Degenerate(CliTest):
                    output="out.sh")
 
     def test_pole_on_edge_through_every_method(self):
-        # The first box's top face has its diagonal through the pole.
+        # The top face of the first box has its diagonal through the pole.
         self.rholm("make", "box", "-o", "box.ply")
         for method in ("edge", "gauge", "curl", "area"):
             self.check(FINE, "analyze", "box.ply", "--degree", "6", "--method", method,
@@ -246,14 +247,14 @@ class Degenerate(CliTest):
 
 @nightly
 class EveryWay(Degenerate):
-    """Each shape by every way of a command."""
+    """Runs each shape through all ways of a command."""
 
     every_way = True
 
 
 
 class DegenerateCoefficients(CliTest):
-    """Files of coefficients that are cut off, lie, or have no surface."""
+    """Files of coefficients that are truncated, inconsistent, or without a surface."""
 
     def setUp(self):
         super().setUp()

@@ -1,4 +1,4 @@
-"""Edits of regions: smooth, transfer."""
+"""Edits of regions: the commands smooth and transfer."""
 
 import math
 import os
@@ -10,7 +10,7 @@ from harness import CliTest, main
 
 
 def vertices(path):
-    """Bytes of each vertex of a binary PLY of meshes without attributes."""
+    """Returns the bytes of each vertex of a binary PLY file of a mesh without attributes."""
     data = path.read_bytes()
     end = data.index(b"end_header\n") + len(b"end_header\n")
     header = data[:end].decode()
@@ -32,7 +32,7 @@ class Smooth(CliTest):
         self.assertEqual(len(before), len(after))
         self.assertTrue(0 < len(changed) <= report["vertices"] < len(before) / 2)
         form = "3d" if len(before[0]) == 24 else "3f"
-        for i in changed:  # ball and transition
+        for i in changed:  # within ball and transition
             x, y, z = struct.unpack("<" + form, before[i])
             self.assertLess(x * x + y * y + (z - 1) ** 2, 0.6001 ** 2)
 
@@ -42,7 +42,7 @@ class Smooth(CliTest):
                          (self.folder / "b.ply").read_bytes())
 
     def test_a_painted_scratch_is_bridged(self):
-        # A spike of one vertex, painted red.
+        # One vertex is moved out as a spike and painted red.
         self.rholm("make", "sphere", "--ascii", "-o", "s.ply")
         lines = (self.folder / "s.ply").read_text().splitlines()
         start = lines.index("end_header") + 1
@@ -60,7 +60,7 @@ class Smooth(CliTest):
                       ["--region", "vertex:100,0.3", "--repair"]):
             self.rholm("smooth", "spike.ply", *words, "--wavelength", "0.3", "-o", "mended.ply")
             compared = self.rholm("compare", "mended.ply", "s.ply", "--json").json()
-            self.assertLess(compared["hausdorff"], 2e-3)  # facets of the sphere are 6e-4 deep
+            self.assertLess(compared["hausdorff"], 2e-3)  # facets lie 6e-4 inside the sphere
 
     def test_threads_do_not_change_a_byte(self):
         for threads in (1, 2):
@@ -99,7 +99,7 @@ class Transfer(CliTest):
         self.assertTrue(0 < len(changed) <= report["vertices"] < len(before) / 4)
         self.assertEqual(report["angle"], report["best_angle"])
         form = "3d" if len(before[0]) == 24 else "3f"
-        for i in changed:  # ball and transition
+        for i in changed:  # within ball and transition
             self.assertLess(math.dist(struct.unpack("<" + form, before[i]), (0, 0, 1)),
                             0.5001 + report["target_wavelength"])
 

@@ -1,8 +1,9 @@
-"""What the documents and the help texts tell people to type works as it stands.
+"""Commands in documents and help texts work as they stand.
 
-Runs every ```sh block of README.md and docs/*.md, block after block of one document in one folder (but
-those of docs/start.md, which python/tests/test_guides.py runs with what is between them), and the examples of every --help. Blocks that install, build or run scripts/ are for a fresh machine or a
-clone of the project and are recognised by the words below."""
+Runs every ```sh block of README.md and docs/*.md; all blocks of a document run in one folder. Blocks of
+docs/start.md are run by python/tests/test_guides.py, together with the code between them. Also runs the
+examples of every --help. Blocks that install, build or run scripts/ need a fresh machine or a clone of the
+project; they are recognised by the words below and left out."""
 
 import os
 import re
@@ -44,7 +45,7 @@ class Examples(CliTest):
         self.assertGreater(ran, 0, "no document has an example")
 
     def test_help_texts(self):
-        # The examples of one command may use what those of earlier ones made.
+        # Examples of one command may use files that earlier examples made.
         listed = self.rholm("help").out.split("Commands:\n")[1].split("\n\n")[0]
         self.write("shapes.csv", "path\nbumpy.ply\nellipsoid.ply\n")  # for batch
         first = ["make", "info", "center", "analyze", "synthesize"]
@@ -63,7 +64,7 @@ class Examples(CliTest):
                            "rholm make sample bumpy.ply --points 3000 -o points.ply --quiet", "preparation")
 
     def start_and_end(self, line):
-        """A command that goes on until it is told to end."""
+        """Runs a command that continues until it is told to end."""
         process = subprocess.Popen([*line.split(), "--no-open"], cwd=self.folder, env=self.environment,
                                    stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.stderr.close)

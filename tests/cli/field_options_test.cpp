@@ -128,7 +128,7 @@ TEST(scale_lengths, turns_parts_of_the_diagonal_into_lengths) {
   EXPECT_TRUE(has_lengths(values));
   scale_lengths(values, 8);
   EXPECT_EQ(values.size, 2);
-  EXPECT_EQ(*values.share, 0.5);  // is no length
+  EXPECT_EQ(*values.share, 0.5);  // a share has no length
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// The program rholm with the instruction set that RHOLM_TEST_TARGET names, and with scratch memory
-// full of NaN: for the tests alone. It is interrupted at question RHOLM_TEST_INTERRUPT_AT whether
-// to go on, and writes the number of questions to the file RHOLM_TEST_QUESTIONS.
+// The program rholm for tests: with the instruction set that RHOLM_TEST_TARGET names, and with
+// scratch memory full of NaN. The answer to question RHOLM_TEST_INTERRUPT_AT, whether to continue,
+// is no. The number of questions is written to the file RHOLM_TEST_QUESTIONS.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   const std::string wrong = rholm::test::force_target_of_environment();
   if (!wrong.empty()) {
     std::fprintf(stderr, "%s\n", wrong.c_str());
-    return 99;  // none of rholm's own
+    return 99;  // not an exit code of rholm
   }
   rholm::cli::install_signal_handlers();
   rholm::cli::install_bus_error_handler();

@@ -1,5 +1,5 @@
-"""Formats of files, which every face of the program takes from two tables: a program with a made-up format in each
-table has them in its help, choices, completions, messages, files and studio.
+"""Formats of files, which all parts of the program take from two tables. A program with a made-up format in
+each table shows the formats in its help, choices, completions, messages, files and studio.
 """
 
 import json
@@ -9,7 +9,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-# The program with the two formats, whatever the instruction set is: its own main() does not look.
+# The program with the two formats ignores the instruction set, because it has its own main().
 os.environ["RHOLM"] = os.environ["RHOLM_MADE_UP"]
 os.environ.pop("RHOLM_TEST_TARGET", None)
 from harness import STUDIO, CliTest, main
@@ -22,13 +22,13 @@ COEFFICIENTS = ("align", "analyze", "convert", "filter", "recenter", "rotate")
 
 class Formats(CliTest):
     def choices(self, command):
-        """The choices of --format in the help of a command."""
+        """Returns the choices of --format in the help of a command."""
         return re.search(r"--format ([\w|]+)", self.rholm(command, "--help").out)[1].split("|")
 
     def test_choices_of_commands(self):
         for command in MESHES:
             self.assertIn("made", self.choices(command), command)
-        for command in POINTS:  # it holds no points
+        for command in POINTS:  # the format holds no points
             self.assertNotIn("made", self.choices(command), command)
         for command in COEFFICIENTS:
             self.assertIn("fancy", self.choices(command), command)
@@ -52,7 +52,7 @@ class Formats(CliTest):
         self.assertTrue((self.folder / "a.mad").read_bytes().startswith(b"MADE\nOFF\n4 4 0\n"))
         self.rholm("convert", "a.off", "--format", "made", "b")
         self.assertEqual((self.folder / "a.mad").read_bytes(), (self.folder / "b").read_bytes())
-        # Its content tells what it is, whatever its name.
+        # The format is recognised by the content, whatever the name.
         self.assertEqual(self.rholm("info", "b", "--json").json()["format"], "made")
         self.rholm("convert", "b", "c.off")
         self.rholm("convert", "a.off", "d.off")
@@ -106,7 +106,7 @@ class Formats(CliTest):
         state = studio.step(op="analyze", item=state["items"][0]["id"], degree=3)
         saved = {one["format"]: one for one in state["items"][0]["saved_as"]}
         self.assertEqual(saved["fancy"]["extension"], "fcy")
-        for one in saved.values():  # what is offered is given
+        for one in saved.values():  # every offered format works
             status, headers, _ = studio.ask("GET", f"api/save?item={state['items'][0]['id']}&format={one['format']}")
             self.assertEqual(status, 200, one)
             self.assertIn("." + one["extension"], headers["Content-Disposition"])

@@ -1,4 +1,4 @@
-"""Runs the program rholm as a user does: real processes, real files, a folder of its own."""
+"""Runs the program rholm as a user does: real processes and real files, each test in its own folder."""
 
 import json
 import os
@@ -18,8 +18,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 import times
 
-# RHOLM_TEST_TARGET names a set of instructions, which the program itself would not look at: a
-# program of the tests does.
+# RHOLM_TEST_TARGET names an instruction set. The program itself ignores the variable; a program built for
+# the tests reads it.
 if "RHOLM_TEST_TARGET" in os.environ:
     if "RHOLM_FORCED" not in os.environ:
         sys.exit("RHOLM_TEST_TARGET is set, and RHOLM_FORCED does not name the program of the tests "
@@ -28,20 +28,20 @@ if "RHOLM_TEST_TARGET" in os.environ:
 RHOLM = os.environ.get("RHOLM", "rholm")
 SOURCE = Path(__file__).resolve().parents[2]
 
-# Whether the program was built with `rholm studio` (RHOLM_BUILD_STUDIO).
+# True if the program was built with `rholm studio` (RHOLM_BUILD_STUDIO).
 STUDIO = os.environ.get("RHOLM_TEST_STUDIO", "1") == "1"
-# Whether it has the paper's patches (RHOLM_QHULL).
+# True if the program has the paper's patches (RHOLM_QHULL).
 QHULL = os.environ.get("RHOLM_TEST_QHULL", "1") == "1"
 
-# What hangs is ended after this time. Nothing else depends on it: machines and builds that are slow say how slow
-# they are.
+# Seconds after which a run that hangs is ended. No result depends on the value; slow machines and builds set
+# the factor.
 SLOWNESS = float(os.environ.get("RHOLM_TEST_SLOWNESS", "1"))
 TIMEOUT = 120 * SLOWNESS
 HELD_RENAME = os.environ.get("HELD_RENAME", "held_rename.so")
 
 
 class Result:
-    """Exit code, standard output and standard error (text) of a finished run."""
+    """Exit code, standard output and standard error (as text) of a finished run."""
 
     def __init__(self, process, words, name="rholm"):
         self.words = [name, *words]
@@ -51,7 +51,7 @@ class Result:
         self.err = process.stderr.decode("utf-8", "replace")
 
     def json(self):
-        # NaN and Infinity are not JSON, though Python would take them.
+        # NaN and Infinity are not JSON, although Python accepts them.
         def refuse(name):
             raise ValueError(f"{name} in the report of {self}")
         return json.loads(self.out, parse_constant=refuse)
@@ -61,7 +61,7 @@ class Result:
 
 
 def until(is_true, what, process=None):
-    """Waits for a state; `process`, if given, may not end before it is reached."""
+    """Waits for a state. If `process` is given, it must not end earlier."""
     end = time.monotonic() + TIMEOUT
     while not is_true():
         if process is not None and process.poll() is not None:
@@ -72,31 +72,32 @@ def until(is_true, what, process=None):
 
 
 def status_of(pid, name):
-    """A line of /proc/pid/status: what stands behind its name."""
+    """Returns the text after a name in /proc/pid/status."""
     text = Path(f"/proc/{pid}/status").read_text()
     return re.search(rf"^{name}:\s*(.*)$", text, re.M)[1]
 
 
 def answers_signals(pid, number=signal.SIGINT):
-    """Whether a program has got so far that it answers this signal itself."""
+    """Returns true once a program handles this signal itself."""
     return int(status_of(pid, "SigCgt"), 16) >> (number - 1) & 1 == 1
 
 
 def seconds_worked(pid):
-    """Processor time of a program, which waits for nothing when this grows."""
+    """Returns the processor time of a program, in seconds; it grows only while the program does not wait."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def until_working(process, number=signal.SIGINT):
-    """Until a program answers the signal, and computes."""
+    """Waits until a program handles the signal and computes."""
     until(lambda: answers_signals(process.pid, number), "it answers signals", process)
     begin = seconds_worked(process.pid)
     until(lambda: seconds_worked(process.pid) > begin + 0.1, "it computes", process)
 
 
 def rows_done(path):
-    """Rows in the journal of a batch: a head, and for each its number of bytes, a sum and that many bytes."""
+    """Returns the number of rows in the journal of a batch: a head, then for each row its size, a checksum,
+    the bytes."""
     data, at, n = path.read_bytes() if path.exists() else b"", 28, 0
     while at + 16 <= len(data):
         at += 8 + int.from_bytes(data[at:at + 4], "little")
@@ -105,8 +106,9 @@ def rows_done(path):
 
 
 def held(mark, letters, after=0):
-    """The environment of a program that waits for ever as soon as a file with these letters in its path (at its
-    end, if '$' follows them) is to get its name, in a folder of so many entries; it makes the file `mark` first."""
+    """Returns an environment in which a program waits for ever before it gives a file its name. The path of
+    the file contains `letters` (at its end, if '$' follows them), and its folder has `after` entries.
+    The program makes the file `mark` first."""
     return {"LD_PRELOAD": HELD_RENAME, "ASAN_OPTIONS": "verify_asan_link_order=0", "RHOLM_TEST_HELD": str(mark),
             "RHOLM_TEST_HOLD": letters, "RHOLM_TEST_AFTER": str(after)}
 
@@ -126,16 +128,16 @@ class CliTest(unittest.TestCase):
         return Result(process, words)
 
     def rholm(self, *words, code=0, **options):
-        """Runs and insists on the exit code, and on one clear message if it is not 0."""
+        """Runs the program; checks the exit code, and that there is one clear message if it is not 0."""
         result = self.run_rholm(*words, **options)
         self.assertEqual(result.code, code, f"wanted exit code {code}:\n{result}")
         self.check_decent(result)
         return result
 
     def check_decent(self, result):
-        """What holds for every run: no NaN, no crash, one error and a clear one."""
-        # An error may quote the NaN of the input; nothing else may have one. Binary files may hold
-        # those bytes by chance.
+        """Checks properties of every run: no NaN, no crash, exactly one clear error."""
+        # An error may quote the NaN of the input; no other output may contain one. Binary files may contain
+        # these bytes by chance.
         out = "" if b"\0" in result.bytes else result.out
         said = out + (result.err if result.code == 0 else "")
         self.assertNotRegex(said, re.compile(r"\bnan\b", re.I), str(result))
@@ -172,13 +174,13 @@ class Terminal:
         os.write(self.master, text.encode())
 
     def read_raw(self, wanted=("\0",), seconds=TIMEOUT):
-        """Output until it holds all of `wanted`, the program ends, or the time is over."""
+        """Returns output until it contains all of `wanted`, the program ends, or the time is over."""
         text, end = "", time.monotonic() + seconds
         while time.monotonic() < end and not all(word in plain(text) for word in wanted):
             if select.select([self.master], [], [], 0.1)[0]:
                 try:
                     text += os.read(self.master, 65536).decode("utf-8", "replace")
-                except OSError:  # its end has been closed
+                except OSError:  # the program has closed its end
                     break
         return text
 
@@ -192,12 +194,12 @@ class Terminal:
 
 
 def plain(text):
-    """Without the escape sequences of a terminal."""
+    """Returns text without the escape sequences of a terminal."""
     return re.sub(r"\x1b\[[0-9;?]*[A-Za-z]|\x07|\x08", "", text)
 
 
 def off(vertices, faces):
-    """An OFF file."""
+    """Returns an OFF file."""
     lines = ["OFF", f"{len(vertices)} {len(faces)} 0"]
     lines += [" ".join(str(x) for x in v) for v in vertices]
     lines += [f"{len(f)} " + " ".join(str(i) for i in f) for f in faces]
@@ -214,7 +216,7 @@ def scaled(mesh, factor):
 
 
 def binary_stl(mesh):
-    """Every triangle has its own corners: nothing is shared until it is welded."""
+    """Returns an STL file: every triangle has its own corners, which are shared only after welding."""
     vertices, faces = mesh
     text = b"\0" * 80 + struct.pack("<I", len(faces))
     for face in faces:
@@ -223,8 +225,8 @@ def binary_stl(mesh):
 
 
 def nightly(case):
-    """Marks a case, or a class of them, that is for nightly runs alone: CMake makes a test cli.NAME_nightly of those
-    of a script (docs/testing.md)."""
+    """Marks a case, or a class of cases, for nightly runs only. CMake makes a test cli.NAME_nightly of the
+    marked cases of a script (docs/testing.md)."""
     case.nightly = True
     return case
 
@@ -240,7 +242,7 @@ def nightly_too(case):
 
 
 class Loader(unittest.TestLoader):
-    """Cases that are (not) nightly, or all (None); whoever names a case gets it in any way."""
+    """Loads cases that are (not) nightly, or all (None). A case given by name is always loaded."""
 
     def __init__(self, wanted):
         super().__init__()
@@ -255,7 +257,8 @@ class Loader(unittest.TestLoader):
 
 
 def main():
-    """Runs the cases of a script: with --nightly those that are marked so, with --every all, else the others."""
+    """Runs the cases of a script: marked cases with --nightly, all with --every, otherwise the unmarked
+    cases."""
     wanted = False
     for option, cases in (("--nightly", True), ("--every", None)):
         if option in sys.argv:

@@ -1,4 +1,4 @@
-"""Ctrl-C in the middle of every long command: exit code 130, the old file whole, no litter."""
+"""Ctrl-C during every long command: exit code 130, the old file unchanged, no temporary files."""
 
 import os
 import re
@@ -14,7 +14,7 @@ OLD = b"what was here before\n"
 
 
 def bytes_written(pid):
-    """By all its calls; what has ended has written all."""
+    """Returns the number of bytes written by all calls; infinity after the process has ended."""
     try:
         with open(f"/proc/{pid}/io") as counts:
             return next(int(line.split()[1]) for line in counts if line.startswith("wchar:"))
@@ -24,7 +24,8 @@ def bytes_written(pid):
 
 class Interrupt(CliTest):
     def interrupted(self, *words, sign=signal.SIGINT, times=1, stdin=None):
-        """Starts rholm, sends the signal once it computes (or waits for its input), returns the finished process."""
+        """Starts rholm, sends the signal once it computes (or waits for its input), returns the finished
+        process."""
         process = subprocess.Popen([RHOLM, *map(str, words)], cwd=self.folder, stdin=stdin,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
@@ -33,7 +34,7 @@ class Interrupt(CliTest):
         else:
             until(lambda: answers_signals(process.pid, sign), "it answers the signal", process)
         for _ in range(times):
-            process.send_signal(sign)  # nothing, if the one before has ended it
+            process.send_signal(sign)  # without effect if the first signal has ended it
             until(lambda: process.poll() is not None or self.has_taken(process, sign), "it has got the signal")
         process.out, process.err = process.communicate(timeout=TIMEOUT)
         return process
@@ -57,7 +58,7 @@ class Interrupt(CliTest):
 
     def test_analyze(self):
         self.rholm("make", "bumpy", "--subdivisions", "6", "-o", "b.ply")
-        # 82 000 faces at degree 1000 by direct sums: minutes of a processor.
+        # 82 000 faces at degree 1000 by direct sums take minutes of processor time.
         self.check_interrupted("b.h5", "analyze", "b.ply", "--degree", "1000", "--engine", "direct")
 
     def test_synthesize_and_render(self):
@@ -94,8 +95,8 @@ class Interrupt(CliTest):
         self.check_old_file_is_whole("b.png")
 
     def test_killed_while_it_writes_leaves_a_whole_file(self):
-        # SIGKILL cannot be answered: a temporary file may stay, and what has the name is the old
-        # file or, if it had just been replaced, the new one.
+        # SIGKILL cannot be handled: a temporary file may remain. The name belongs to the old file, or to the
+        # new one if it had just been replaced.
         self.write("s.obj", OLD)
         mark = self.folder / "mark"
         process = subprocess.Popen([RHOLM, "make", "sphere", "--subdivisions", "6", "-o", "s.obj"], cwd=self.folder,
@@ -125,8 +126,8 @@ class Interrupt(CliTest):
         self.assertNotIn(b"error", process.stderr)
 
 
-# What commands do in the test of questions: words, in which {} is "small" or "large" and {n} a number, and the output
-# (none: a report). The large one is 16 times the work of the small one, or more.
+# Commands of the test of questions: words, where {} is "small" or "large" and {n} a number; and the output
+# (none for a report). The large input has at least 16 times the work of the small one.
 LONG = (
     ("info {}.ply", None),
     ("repair {}.ply -o out.ply", "out.ply"),
@@ -158,17 +159,18 @@ LONG = (
 )
 SIZES = {"small": {"subdivisions": 4, "degree": 32, "points": 2000, "n": 20000, "side": 128, "lines": 32},
          "large": {"subdivisions": 6, "degree": 256, "points": 40000, "n": 640000, "side": 1024, "lines": 700}}
-# What is left on purpose: the rows of a batch that were done, from which it goes on.
+# Files that are left intentionally: finished rows of a batch, from which it can be continued.
 LEFT = {"out.csv.journal"}
-# These compute nothing, or ask for each request (tests of the studio).
+# These commands compute nothing, or ask for each request (tests of the studio).
 NO_WORK = {"completion", "studio"}
 
 
 class Questions(CliTest):
-    """Every command asks again and again whether to stop, the more often the more it does."""
+    """Every command asks repeatedly whether to stop; the number of questions grows with the work."""
 
     def questions(self, words, at=None):
-        """A run on one thread, interrupted at that question if one is named: the result, and how many it asked."""
+        """Runs on one thread, interrupted at question `at` if given; returns the result and the number of
+        questions."""
         environment = {"RHOLM_TEST_QUESTIONS": str(self.folder / "questions")}
         if at is not None:
             environment["RHOLM_TEST_INTERRUPT_AT"] = str(at)
@@ -208,7 +210,7 @@ class Questions(CliTest):
             run, n = self.questions(full)
             self.assertEqual(run.returncode, 0, run.stderr)
             counts.append(n)
-        # A command that asks between its steps only asks as often of a large input.
+        # A command that asks only between its steps would ask as often for a large input.
         self.assertGreaterEqual(counts[1], 1.25 * counts[0], "questions of little and of much work")
         if output:
             self.write(output, OLD)
@@ -218,7 +220,7 @@ class Questions(CliTest):
             self.assertEqual(run.returncode, 130, (at, counts, run.stderr))
             self.assertIn(b"interrupted", run.stderr)
             self.assertEqual(run.stdout, b"")
-            # Others that were on their way may still have asked.
+            # Other threads may have asked before they noticed.
             self.assertLessEqual(n, at + 2, (at, counts))
             for name in LEFT & set(self.files()):
                 (self.folder / name).unlink()

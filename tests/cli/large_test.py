@@ -11,13 +11,13 @@ GIB = 1 << 30
 
 class Large(CliTest):
     def numbers(self, name):
-        """All C and S of an SHTOOLS text but those of degree 0."""
+        """Returns all C and S of an SHTOOLS text, except for degree 0."""
         rows = [line.split() for line in (self.folder / name).read_text().splitlines()
                 if line[:1] != "#"]
         return [float(x) for row in rows if row[0] != "0" for x in row[2:4]]
 
-    # A box is the same body whatever its faces are cut into: that of twelve triangles, term by term, is
-    # the oracle.
+    # A box is the same body however its faces are cut. The coefficients of the box with twelve triangles are
+    # the oracle, term by term.
     def test_a_hundred_million_triangles_have_the_coefficients_of_twelve(self):
         harness.TIMEOUT = 1800
         place = ["--size", "2,1.6,1.2", "--translate", "0.1,-0.05,0.08"]

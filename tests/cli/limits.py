@@ -1,5 +1,5 @@
-"""A program run within limits: of processor time, which other work on the machine does not change,
-and of memory in use."""
+"""Runs a program within limits of memory in use and of processor time, which other work on the machine does
+not change."""
 
 import os
 import resource
@@ -13,23 +13,23 @@ BYTES = 4 << 30
 
 
 class Run:
-    """code (negative: the signal it died of), out and err (bytes), seconds, memory (bytes), and
-    exceeded: the limit it went beyond, if any."""
+    """A finished run. `code` is the exit code, or the negative number of the signal. `out` and `err` are
+    bytes, `memory` is in bytes. `exceeded` is the name of the exceeded limit, if any."""
 
     def __init__(self, words, folder):
         with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
             process = subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=out,
                                        stderr=err)
             try:
-                # The soft limit ends it by a signal. Address space is mapped generously and not
-                # used: twice the memory, so that a program that runs wild leaves the machine alive.
-                # AddressSanitizer needs all of it.
+                # The soft limit ends the program by a signal. The limit of address space is twice the
+                # memory, because programs map more than they use. It protects the machine if a program uses
+                # memory without bound. AddressSanitizer needs all address space.
                 resource.prlimit(process.pid, resource.RLIMIT_CPU, (SECONDS, SECONDS + 1))
                 if "ASAN_OPTIONS" not in os.environ:
                     resource.prlimit(process.pid, resource.RLIMIT_AS, (2 * BYTES, 2 * BYTES))
             except ProcessLookupError:
-                pass  # it is done already
-            # One that waits for something uses no processor.
+                pass  # the process has already ended
+            # A process that waits uses no processor time.
             watch = threading.Timer(20 * SECONDS, process.kill)
             watch.start()
             _, status, usage = os.wait4(process.pid, 0)

@@ -1,5 +1,5 @@
-"""The tests of the program where numbers have commas (German) and I is not the capital of i
-(Turkish): the same words, numbers and files."""
+"""Runs the tests of the program in locales where numbers have commas (German), and where I is not the
+capital of i (Turkish). Texts, numbers and files must be the same."""
 
 import locale
 import os
@@ -11,21 +11,21 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 LOCALES = ("de_DE", "tr_TR")
-# Those that a run of all tests can wait for.
+# Tests that are fast enough for a run of all tests.
 FAST = {"de_DE": ("meaning", "usage"), "tr_TR": ("usage",)}
 
 
 def made(folder):
-    """Makes the locales in a folder, as the system need not have them."""
+    """Makes the locales in a folder, because the system may not have them."""
     for name in LOCALES:
         subprocess.run(["localedef", "-i", name, "-f", "UTF-8", str(folder / f"{name}.UTF-8")],
                        check=True, capture_output=True)
     os.environ["LOCPATH"] = str(folder)
-    # A library that HDF5 loads (p11-kit) keeps a locale until the end. The same tests look for leaks
-    # in the C locale.
+    # A library loaded by HDF5 (p11-kit) keeps a locale until the end. In the C locale these tests do search
+    # for leaks.
     if "ASAN_OPTIONS" in os.environ:
         os.environ["ASAN_OPTIONS"] += ":detect_leaks=0"
-    # So that it is no test of the C locale.
+    # Checks that the locale is in effect.
     locale.setlocale(locale.LC_ALL, "de_DE.UTF-8")
     if locale.localeconv()["decimal_point"] != ",":
         raise OSError("the locale de_DE.UTF-8 does not come into force")
@@ -40,7 +40,7 @@ def main():
         except (OSError, subprocess.CalledProcessError, locale.Error) as error:
             print(f"SKIPPED: no German and Turkish locale ({error}); 'scripts/setup test' installs "
                   "what they are made of")
-            return 77  # which CTest takes for skipped
+            return 77  # CTest reports the test as skipped
         failed = 0
         for name in LOCALES:
             for script in scripts or FAST[name]:

@@ -1,9 +1,9 @@
-// The program rholm with a format of shapes and a format of coefficients that are made up here: a
-// reader, a writer and a line of a table each. formats_test.py looks for both in every face of the
-// program.
+// The program rholm with a made-up format of shapes and a made-up format of coefficients. Each has
+// a reader, a writer and a line of a table. formats_test.py checks that all parts of the program
+// have both formats.
 //
-// This program is linked without the sources of the two tables. They are taken in below, with a
-// line more in each.
+// This program is linked without the sources of the two tables. These sources are included below,
+// with one more line in each table.
 #include "cli/program.h"
 #include "cli/terminal/interrupt.h"
 #include "io/coefficients/coefficients_formats.h"
@@ -12,7 +12,7 @@
 namespace rholm {
 namespace {
 
-// MADE: OFF behind a line of its own.
+// MADE: an OFF file after a first line.
 constexpr std::string_view kMade = "MADE\n";
 
 bool looks_like_made(std::span<const char> bytes) {
@@ -33,7 +33,7 @@ std::vector<std::string> format_made(const ShapeView& shape, const ShapeWriting&
   return format_off(shape, how, out);
 }
 
-// FANCY: SHTOOLS text behind a line of its own.
+// FANCY: an SHTOOLS text after a first line.
 constexpr std::string_view kFancy = "FANCY\n";
 
 bool looks_like_fancy(std::string_view bytes) { return bytes.starts_with(kFancy); }

@@ -1,5 +1,5 @@
-"""What files mean and what is said of it: conventions, units, what is no shape, what is lost; and
-what --quiet leaves."""
+"""The meaning of files and messages about it: conventions, units, files that are no shapes, losses, and the
+output that --quiet leaves."""
 
 import json
 import os
@@ -21,12 +21,12 @@ gfc 2 0 -4.8D-04 0.0
 gfc 2 2 2.4e-06 -1.4e-06
 """
 
-# An ellipsoid-like body: (l, m, C, S), 4-pi normalised.
+# A body like an ellipsoid: (l, m, C, S), 4-pi normalised.
 BARE = "0 0 1 0\n1 0 0 0\n1 1 0 0\n2 0 -0.1 0\n2 1 0.02 0.01\n2 2 0.05 -0.03\n"
 
 
 def commands_that_read(model):
-    """Each command that reads coefficients, with a file of them."""
+    """Returns each command that reads coefficients, with the file of a model."""
     return {
         "info": ["info", model],
         "synthesize": ["synthesize", model, "-o", "o.ply"],
@@ -81,8 +81,8 @@ class Conventions(Meaning):
                 self.assertNotIn("csphase", said)
 
     def test_what_is_told_counts(self):
-        # C_20 of Schmidt's functions is that of 4-pi normalised ones times sqrt 5; a phase changes
-        # the sign of odd orders.
+        # C_20 in Schmidt's normalisation is the 4-pi normalised one times sqrt 5. The phase changes the sign
+        # of odd orders.
         self.write("bare.sh", BARE)
         energy = {}
         for normalization in ("4pi", "schmidt"):
@@ -147,7 +147,7 @@ class NoShape(Meaning):
             lines = (self.folder / name).read_text().split("end_of_head")[0].splitlines()
             return dict(line.split(None, 1) for line in lines if len(line.split()) > 1)
         self.write("g.gfc", GRAVITY)
-        # Through every command that keeps what the numbers mean, and every format with room for it.
+        # Uses every command that keeps the meaning of the numbers, and every format that can store it.
         for step, source in enumerate(("g.gfc", "0.h5", "1.json", "2.sh")):
             ending = ("h5", "json", "sh", "gfc")[step]
             words = (["convert"], ["filter", "--low-pass", "2"],
@@ -163,12 +163,12 @@ class NoShape(Meaning):
                    .replace("gravity_constant", "a").replace("reference_radius", "b"))
         self.write("bare.sh", BARE)
         given = ("--gravity-constant", "4.9e12", "--reference-radius", "1738000")
-        for source in ("1.json", "plain.json", "bare.sh"):  # one says that it is no surface, one says nothing
+        for source in ("1.json", "plain.json", "bare.sh"):  # these say that they are no surface, or nothing
             self.rholm("convert", source, "p.gfc", *given)
             self.assertEqual(header("p.gfc")["product_type"], "gravity_field")
             self.assertEqual(float(header("p.gfc")["earth_gravity_constant"]), 4.9e12)
             self.assertEqual(float(header("p.gfc")["radius"]), 1738000)
-        self.rholm("convert", "s.h5", "p.gfc", *given, code=3)  # a surface
+        self.rholm("convert", "s.h5", "p.gfc", *given, code=3)  # is a surface
         for words in (["1.json", "p.gfc", *given[:2]], ["1.json", "p.npy", *given],
                       ["1.json", "p.gfc", *given[:2], "--reference-radius", "0"]):
             with self.subTest(words):
@@ -213,7 +213,7 @@ class Precision(Meaning):
         report = self.rholm("info", "old.json", "--json").json()
         self.assertIsNone(report["precision"])
         self.assertRegex(self.rholm("info", "old.json").out, r"(?m)^  precision +not said")
-        # What exceeds the coefficients is made less than they tell.
+        # The norm beyond the coefficients is made smaller than their precision can determine.
         norm = sum(self.rholm("spectrum", "old.json", "--json").json()["energy"])
         self.write("old.json", re.sub(r'"norm_squared":[^,]+', f'"norm_squared":{norm * (1 + 1e-9)!r}',
                                       (self.folder / "old.json").read_text()))
@@ -231,7 +231,7 @@ class Units(Meaning):
             result = self.rholm(*words, "--samples", "1000", "--json")
             self.assertRegex(result.err, r"m.h5 is in \w+ and k?m.h5 in \w+")
             report = result.json()
-            # The same vertices but for the rounding of text and float to the file.
+            # The vertices are the same except for the rounding of text and of floats.
             self.assertLess(report["relative"]["hausdorff"], 1e-5)
         report = self.rholm("align", "km.h5", "m.h5", "--json", "-o", "o.h5").json()
         self.assertLess(report["distance"], 1e-5)
@@ -250,7 +250,7 @@ class Units(Meaning):
         self.model("a.h5", "m")
         for words in (["compare", "a.h5", "s.h5", "--samples", "100"], ["align", "s.h5", "a.h5"]):
             self.assertIn("s.h5 says no unit of length and a.h5 says m", self.rholm(*words).err)
-        # Files of meshes have no place for one.
+        # Files of meshes cannot store a unit.
         self.assertEqual(self.rholm("compare", "a.h5", "s.ply", "--samples", "100").err, "")
 
     def test_pictures_at_one_scale_are_in_one_unit(self):
@@ -405,7 +405,7 @@ class Names(Meaning):
         self.assertEqual(self.files(), before)
 
     def test_a_level_whose_name_would_be_too_long_is_refused_before_the_work(self):
-        name = "x" * 249 + ".ply"  # 253 bytes; with -L1 it is beyond the 255 of file systems
+        name = "x" * 249 + ".ply"  # 253 bytes; with -L1 it exceeds the 255 of file systems
         said = self.rholm("synthesize", "s.h5", "--degree", "1,2", "-o", name, code=1).err
         self.assertIn("too long", said)
         self.assertIn("-L1.ply", said)

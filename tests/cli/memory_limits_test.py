@@ -1,5 +1,5 @@
-"""--max-memory is kept, or refused with a limit that is: over all commands that have it, formats
-and sizes. With `--large` meshes of millions of faces."""
+"""--max-memory is kept, or refused with a larger limit that is kept, for all commands with the option,
+formats and sizes. The option `--large` uses meshes of millions of faces."""
 
 import os
 import re
@@ -12,22 +12,22 @@ from harness import CliTest, NIGHTLY, RHOLM, TIMEOUT, main, nightly_too
 
 MIB = 1 << 20
 GIB = 1 << 30
-BESIDE = 32 * MIB  # what the program and its libraries may have beside the limit
+BESIDE = 32 * MIB  # allowance for the program and its libraries beyond the limit
 LARGE = "--large" in sys.argv
 if LARGE:
     sys.argv.remove("--large")
 
 
 def anonymous(pid):
-    """Memory of a process that is no page of a file, bytes."""
+    """Returns the memory of a process in bytes, without pages of files."""
     try:
         with open(f"/proc/{pid}/status", encoding="ascii") as status:
             return 1024 * int(re.search(r"RssAnon:\s+(\d+)", status.read())[1])
     except (OSError, TypeError):
-        return 0  # it has ended
+        return 0  # the process has ended
 
 
-# Commands that have --max-memory: what they take of a mesh and of points.
+# Commands that have --max-memory, for a mesh and for points.
 OF_MESHES = ("info {}", "convert {} out.ply", "convert {} out.obj", "compare {} {} --samples 1000",
              "analyze {} --degree 8 -o out.h5", "analyze {} --degree 8 --weld 1e-9 -o out.h5")
 OF_POINTS = ("info {}", "convert {} out.xyz", "convert {} out.off", "reconstruct {} -o out.ply",
@@ -38,7 +38,7 @@ OF_POINTS = ("info {}", "convert {} out.xyz", "convert {} out.off", "reconstruct
                  "sanitizers have memory of their own")
 class Limits(CliTest):
     def peak(self, words, limit):
-        """Exit code, message and the most memory of a run with that limit (GiB)."""
+        """Runs with that limit (GiB); returns exit code, message and the largest memory."""
         with open(self.folder / "err", "wb") as err:
             process = subprocess.Popen([RHOLM, *words, "--threads", "2", "--max-memory", str(limit)],
                                        cwd=self.folder, stdout=subprocess.DEVNULL, stderr=err)
@@ -52,29 +52,29 @@ class Limits(CliTest):
         return process.returncode, (self.folder / "err").read_text(), most
 
     def check(self, line, limit):
-        """Returns whether it was done within the limit."""
+        """Returns true if the command succeeded within the limit."""
         with self.subTest(line, limit=limit):
             code, said, most = self.peak(line.split(), limit)
             self.assertLessEqual(most, limit * GIB + BESIDE, (line, limit, said))
             self.assertIn(code, (0, 1), said)
             if code == 0:
                 return True
-            # What is foreseen is refused with the limit that would do; and it does.
+            # A refused command names the limit that suffices, and this limit does suffice.
             wanted = re.search(r"max-memory: ([\d.e+-]+) would do", said)
             if wanted:
                 enough = float(wanted[1])
                 self.assertGreater(enough, limit)
                 code, said, most = self.peak(line.split(), enough)
                 again = re.search(r"max-memory: ([\d.e+-]+) would do", said)
-                if again:  # reading has its limit, and what follows another
+                if again:  # reading has its own limit, and later steps another
                     enough = float(again[1])
                     code, said, most = self.peak(line.split(), enough)
                 self.assertEqual(code, 0, (line, enough, said))
                 self.assertLessEqual(most, enough * GIB + BESIDE)
             elif fits := re.search(r"--tile-points (\d+)", said):
-                if wanted := re.search(r"need some ([\d.e+-]+) GiB", said):  # of tiles
+                if wanted := re.search(r"need some ([\d.e+-]+) GiB", said):  # the limit for tiles
                     self.assertEqual(self.peak(line.split(), float(wanted[1]))[0], 0, (line, said))
-                # The tiles that are named fit, into the limit that is named with them if there is one.
+                # The named tiles fit into the limit, or into the limit named with them.
                 words = re.sub(r" --tile-points \d+", "", line).split() + ["--tile-points", fits[1]]
                 wanted = re.search(r"([\d.e+-]+) GiB would do for tiles", said)
                 enough = float(wanted[1]) if wanted else limit
@@ -92,7 +92,7 @@ class Limits(CliTest):
                 for name in names:
                     for limit in limits:
                         done[self.check(line.format(name, name), limit)] += 1
-        # Otherwise the limits say nothing.
+        # Both outcomes must occur, or the limits test nothing.
         self.assertGreater(done[True], 0)
         self.assertGreater(done[False], 0)
 
@@ -110,11 +110,11 @@ class Limits(CliTest):
     def test_what_would_go_far_beyond_is_refused(self):
         self.rholm("make", "sphere", "--subdivisions", "7", "-o", "mesh.ply")
         self.rholm("convert", "mesh.ply", "mesh.stl")
-        # 110, 55 and 70 MiB.
+        # The commands need 110, 55 and 70 MiB.
         self.assertFalse(self.check("compare mesh.stl mesh.stl --samples 1000", 0.02))
         self.assertFalse(self.check("info mesh.stl", 0.003))
         self.assertFalse(self.check("analyze mesh.stl --degree 8 -o out.h5", 0.01))
-        self.assertTrue(self.check("info mesh.ply", 0.003))  # where it lies
+        self.assertTrue(self.check("info mesh.ply", 0.003))  # mapped in place
         self.assertTrue(self.check("info mesh.stl", 0.1))
 
     @nightly_too
@@ -126,7 +126,7 @@ class Limits(CliTest):
         vertices, faces = rows[:n], rows[n:]
         self.assertTrue(vertices[-1].startswith("v ") and faces[0].startswith("f "))
         texts = {"plain.obj": vertices + faces,
-                 # All faces before all vertices, and one by one.
+                 # Files with all faces before all vertices, and with both alternating.
                  "faces.obj": faces + vertices,
                  "mixed.obj": [line for i in range(len(faces)) for line in
                                vertices[i:i + 1] + faces[i:i + 1]],
@@ -138,8 +138,7 @@ class Limits(CliTest):
             self.rholm("convert", "mesh.ply", name, *["--ascii"] * (name != "mesh.off"))
         for name in (*texts, "mesh.off", "text.ply", "text.stl"):
             line = f"convert {name} out.ply"
-            # The most is looked at now and then, and a look may come too late: what is not enough then is looked
-            # at again.
+            # Memory is sampled, and a sample may come too late: a case that fails is measured again.
             most = 0
             for _ in range(5):
                 most = max(most, self.peak(line.split(), 4)[2])
@@ -164,7 +163,7 @@ class Limits(CliTest):
         refused = self.peak(line.split(), 0.006)
         self.assertRegex(refused[1], r"need some [\d.]+ GiB")
         for limit in limits_of_tiles:
-            self.assertFalse(self.check(line, limit))  # which tries what is named
+            self.assertFalse(self.check(line, limit))  # also tries the limit that is named
         for limit in limits:
             self.assertFalse(self.check("reconstruct points.ply -o out.ply", limit))
         self.assertTrue(self.check("reconstruct points.ply -o out.ply", 0.1))

@@ -1,4 +1,4 @@
-"""Meshes larger than memory: the same results as of those that fit."""
+"""Meshes larger than memory give the same results as meshes that fit."""
 
 import os
 import struct
@@ -34,7 +34,7 @@ class Memory(CliTest):
         result = self.rholm("analyze", "-", "--degree", "4", *TINY, "--work-dir", "nowhere", "-o",
                             "x.sh", code=1, stdin=content)
         self.assertIn("--work-dir", result.err)
-        # A shorter one needs no room (the work on it takes some 60 MiB).
+        # A smaller mesh needs no space on disk (its work takes some 60 MiB).
         self.rholm("make", "box", *PLACE, "-o", "small.ply")
         self.rholm("analyze", "-", "--degree", "4", "--max-memory", "0.1", "--work-dir", "nowhere",
                    "-o", "x.sh", stdin=(self.folder / "small.ply").read_bytes())
@@ -55,7 +55,7 @@ class Memory(CliTest):
             self.rholm("analyze", "-", "--degree", "4", "--max-memory", "0.01", "--work-dir", ".",
                        "-o", "x.sh", code=3, stdin=some)
 
-    # Standard input is read, a file stays where it lies.
+    # Standard input is read into memory; a file is mapped.
     def test_convert_writes_what_it_writes_of_a_mesh_in_memory(self):
         content = self.box()
         for name, options in (("a.ply", []), ("b.ply", ["--ascii"]), ("c.obj", []), ("d.off", []),
@@ -64,11 +64,12 @@ class Memory(CliTest):
             self.rholm("convert", "-", f"read-{name}", *options, stdin=content)
             self.assertEqual((self.folder / name).read_bytes(),
                              (self.folder / f"read-{name}").read_bytes(), name)
-        self.rholm("convert", "box.ply", "box.ply")  # in its own place
+        self.rholm("convert", "box.ply", "box.ply")  # replaces its own input
         self.assertEqual((self.folder / "box.ply").read_bytes(), content)
 
     def both_ways(self, source, target, *options):
-        """Bytes and messages of a conversion from where it lies, and of standard input, read."""
+        """Returns bytes and messages of a conversion in place, and of the same data read from standard
+        input."""
         out = []
         for words, content in (([source, *TINY], None), (["-"], (self.folder / source).read_bytes())):
             done = self.rholm("convert", words[0], target, *words[1:], *options, stdin=content)
@@ -101,12 +102,12 @@ class Memory(CliTest):
             for target, options in (("a.ply", []), ("b.ply", ["--ascii"]), ("c.xyz", [])):
                 lying, read = self.both_ways(source, target, *options)
                 self.assertEqual(lying, read, (source, target))
-                # A stream that waits in a file.
+                # A stream that is stored in a temporary file.
                 content = (self.folder / source).read_bytes()
                 self.rholm("convert", "-", "spooled", "--format", target[2:], *options, *TINY,
                            "--work-dir", ".", stdin=content)
                 self.assertEqual((self.folder / "spooled").read_bytes(), read[0])
-        # To formats that need more than one pass, and in its own place.
+        # Formats that need more than one pass, and replacement of the input.
         self.assertEqual(*self.both_ways("points.ply", "d.obj"))
         before = (self.folder / "points.ply").read_bytes()
         self.rholm("convert", "points.ply", "points.ply", *TINY)
@@ -190,7 +191,7 @@ class Memory(CliTest):
                      ("box.ply", "ball.obj"), ("ball.h5", "box.ply")):
             for options in (["--json"], ["--threshold", "0.1"]):
                 whole = self.compared(a, b, *options)
-                # An OBJ is read, and must have room.
+                # An OBJ file is read, and needs memory.
                 for memory in ("1e-6", "0.005", "0.02") if b != "ball.obj" else ("0.05",):
                     large = self.compared(a, b, *options, "--max-memory", memory)
                     self.assertEqual(large, whole, (a, b, memory))

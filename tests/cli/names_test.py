@@ -1,4 +1,4 @@
-"""Names that would command a terminal, or a shell: in files, and of files."""
+"""Names that contain commands for a terminal or a shell: names in files, and names of files."""
 
 import json
 import os
@@ -9,21 +9,21 @@ import sys
 sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, OCTAHEDRON, RHOLM, TIMEOUT, main, off
 
-# Escape, bell, C1 as a character, a turn of the direction of writing, delete, carriage return.
+# Escape, bell, a C1 character, a change of the direction of writing, delete, carriage return.
 WILD = "a\x1b]0;x\x07b\x9b31mc\u202ed\x7fe\rf"
 ALLOWED = "\n\t"
 
 
 def commands_a_terminal(text):
-    """Characters of `text` that a terminal would not just show."""
-    shown = text.decode("utf-8")  # which it has to be
+    """Returns characters of `text` that a terminal would not simply show."""
+    shown = text.decode("utf-8")  # it must be UTF-8
     return [c for c in shown if c not in ALLOWED and
             (ord(c) < 32 or 127 <= ord(c) < 160 or c in "\u061c\u200e\u200f\u2028\u2029\ufeff" or
              "\u202a" <= c <= "\u202e" or "\u2066" <= c <= "\u2069")]
 
 
 def ply(names):
-    """Four corners of a tetrahedron with attributes of these names (bytes)."""
+    """Returns the corners of a tetrahedron with attributes of these names (bytes)."""
     lines = [b"ply", b"format ascii 1.0", b"element vertex 4"]
     lines += [b"property float " + name for name in (b"x", b"y", b"z", *names)]
     lines += [b"element face 4", b"property list uchar int vertex_indices", b"end_header"]
@@ -43,11 +43,11 @@ class Names(CliTest):
         return process
 
     def test_attributes_of_files(self):
-        name = WILD.replace("\r", "")  # which ends a line
+        name = WILD.replace("\r", "")  # a carriage return ends a line
         self.write("w.ply", ply([name.encode()]))
         text = self.said("info", "w.ply").stdout.decode()
         self.assertIn(r"a\x1b]0;x\x07b\u009b31mc\u202ed\x7fe", text)
-        # Programs get the name itself.
+        # Programs get the exact name.
         report = json.loads(self.said("info", "w.ply", "--json").stdout)
         self.assertEqual([a["name"] for a in report["attributes"]], [name])
         self.assertIn(rb"\x1b]0", self.said("convert", "w.ply", "w.obj").stderr)
@@ -56,7 +56,7 @@ class Names(CliTest):
 
     def test_words_of_files_in_messages(self):
         wild = WILD.replace("\r", "").encode()
-        # Blanks, which words do not have, are left out of them.
+        # Words have no blanks, so that blanks are left out.
         for text in (b"ply\nformat " + wild + b" 1.0\n", b"ply\nformat ascii 1.0\nelement " + wild +
                      b" -1\n", ply([]).replace(b"1 1 1", b"1 1 " + wild), b"OFF\n4 " + wild):
             self.write("bad.ply" if text.startswith(b"ply") else "bad.off", text)
@@ -81,7 +81,7 @@ class Names(CliTest):
             self.write(os.fsdecode(path), off(*OCTAHEDRON))
             self.assertIn(b"mesh", self.said("info", path).stdout.splitlines()[0])
             report = self.said("info", path, "--json").stdout
-            # Bytes that are no text cannot be in JSON.
+            # Bytes that are not UTF-8 cannot be in JSON.
             self.assertEqual(json.loads(report)["file"], path.decode("utf-8", "replace"))
             self.said("spectrum", path, code=3)
             self.said("info", b"no such " + path, code=1)
@@ -99,7 +99,7 @@ class Names(CliTest):
             self.write(name, off(*OCTAHEDRON))
             message = self.said("spectrum", "--", path, code=3).stderr.decode()
             command = re.search(r"make them with '(rholm analyze .*) --degree L", message, re.S)[1]
-            # The shell takes it apart as it was meant.
+            # The shell splits the line as intended.
             words = subprocess.run(["bash", "-c", f'rholm() {{ printf "%s\\0" "$@"; }}; {command}'],
                                    capture_output=True, check=True).stdout.decode().split("\0")
             self.assertEqual(words[0], "analyze")

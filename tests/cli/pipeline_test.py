@@ -1,4 +1,4 @@
-"""The commands one after the other, on shapes whose answer is known."""
+"""The commands one after the other, on shapes with a known answer."""
 
 import json
 import math
@@ -92,7 +92,7 @@ class Analyze(CliTest):
         self.write("a.off", off(*OCTAHEDRON))
 
     def numbers(self, name):
-        """All C and S of an SHTOOLS text."""
+        """Returns all C and S of an SHTOOLS text."""
         rows = [line.split() for line in (self.folder / name).read_text().splitlines()
                 if line[:1] != "#"]
         return [float(x) for row in rows for x in row[2:4]]
@@ -112,7 +112,7 @@ class Analyze(CliTest):
         self.assertEqual(report["engine"], "fast")
         self.assertIsNone(report["closure_residual"])
         self.assertLess(report["fast"]["error"], 1e-8)
-        # What each figure of an error is worth.
+        # Each figure of an error states its kind.
         self.assertEqual(report["fast"]["kinds"]["error"], "measured")
         self.assertEqual(report["fast"]["measured_share"], 1)
         self.assertEqual(report["errors"]["kinds"]["rms"], "exact")
@@ -174,7 +174,7 @@ class Analyze(CliTest):
             self.rholm("analyze", "a.off", "--tolerance", "4", "--method", method, "-o", "a.json",
                        code=2)
         self.rholm("analyze", "a.off", "--degree", "4", "--samples", "4", "-o", "a.json", code=2)
-        # Distance of the origin from x + y + z = 1; a corner is seen at the angle of the normal.
+        # This is the distance of the origin from x + y + z = 1; a corner is seen at the angle of the normal.
         self.assertAlmostEqual(report["min_d"], 1 / math.sqrt(3), 9)
         self.assertAlmostEqual(report["min_cos_gamma"], 1 / math.sqrt(3), 9)
 
@@ -196,8 +196,8 @@ class Analyze(CliTest):
         first = [line for line in (self.folder / "s.sh").read_text().splitlines()
                  if line[:1] != "#"][0].split()
         self.assertEqual(first[:2], ["0", "0"])
-        # An edge of the icosahedron spans 1.107, a part of it about 1.107 / 2^5, certainly less
-        # than twice that; a face centre is at most edge / sqrt 3 from its corners.
+        # An edge of the icosahedron spans 1.107, a part of it about 1.107 / 2^5, and less than twice that. A
+        # face centre is at most edge / sqrt 3 from its corners.
         self.assertLess(float(first[2]), 1)
         self.assertGreater(float(first[2]), math.cos(2 * 1.107 / 32 / math.sqrt(3)))
 
@@ -229,7 +229,7 @@ class Analyze(CliTest):
         self.assertIn("--atlas", refusal)
         self.assertNotIn("--signed", refusal)
         self.assertNotIn("t.h5", self.files())
-        # The torus's best centre lies in the hole, off the surface.
+        # The best centre of the torus lies in the hole, off the surface.
         result = self.rholm(*words, "--signed", "--center", "none", "--json")
         self.assertFalse(result.json()["star_shaped"])
         self.assertTrue(result.json()["signed_sum"])
@@ -254,14 +254,14 @@ class Analyze(CliTest):
         self.assertIn("signed sum", self.rholm("recenter", "t.h5", "-o", "v.h5", code=3).err)
         self.rholm("report", "t.h5", "-o", "t.html")
         self.assertIn("not known", (self.folder / "t.html").read_text())
-        # What is star-shaped is none, though one may have been allowed.
+        # A star-shaped shape gives no signed sum, even if one is allowed.
         self.rholm("make", "bumpy", "-o", "b.ply")
         self.rholm("analyze", "b.ply", "--degree", "4", "--signed", "-o", "b.h5")
         info = self.rholm("info", "b.h5", "--json").json()
         self.assertFalse(info["signed_sum"])
         self.assertGreater(info["volume"], 0)
 
-    # Faces of an ellipsoid leave less than what coefficients of the precision 1e-8 tell.
+    # The truncation error of an ellipsoid's faces is below what coefficients of precision 1e-8 determine.
     def test_truncation_error_below_the_precision_is_not_known(self):
         self.rholm("make", "ellipsoid", "--axes", "3,2,1", "--subdivisions", "5", "-o", "e.ply")
         for more, measured in (([], True), (["--no-errors"], False)):
@@ -272,7 +272,7 @@ class Analyze(CliTest):
             self.assertIsNone(rms[40])
             self.assertIsNone(report["tolerance_degree"])
             self.assertIsNone(self.rholm("info", "e.h5", "--json").json()["truncation_rms"])
-            # Figures end where the bound begins.
+            # Known figures end where the bound begins.
             self.assertTrue(all(x is None or x > 0.8 * report["rms_beyond_bound"] for x in rms))
             self.assertTrue(all(x is not None for x in rms[:8]))
             text = self.rholm("spectrum", "e.h5", "--tolerance", "1e-9").out
@@ -323,7 +323,7 @@ class Synthesize(CliTest):
         self.assertEqual(self.vertices("o.ply"), 10 * 20 + 2)
         self.rholm("synthesize", "b.h5", "--like", "b.ply", "-o", "o.ply")
         self.assertEqual(self.vertices("o.ply"), 10 * 4**4 + 2)
-        # 2 (24 + 1)^2 = 1250 vertices are enough for 4 subdivisions, the least there is.
+        # 2 (24 + 1)^2 = 1250 vertices would suffice; 4 subdivisions are the minimum.
         self.rholm("synthesize", "b.h5", "-o", "o.ply")
         self.assertEqual(self.vertices("o.ply"), 10 * 4**4 + 2)
 
@@ -368,7 +368,7 @@ class Compare(CliTest):
         for key in ("rms", "mean", "max"):
             self.assertAlmostEqual(report["a_to_b"][key], 1, 12)
             self.assertAlmostEqual(report["relative"]["a_to_b"][key], 1 / diagonal, 12)
-        # Back: faces are 1 away in the middle, sqrt 3 at the corners.
+        # In the other direction, faces are at 1 in the middle and at sqrt 3 at the corners.
         self.assertLessEqual(report["b_to_a"]["max"], math.sqrt(3))
         self.assertAlmostEqual(report["hausdorff"], report["b_to_a"]["max"], 15)
         self.assertAlmostEqual(report["relative"]["hausdorff"], report["hausdorff"] / diagonal, 15)
@@ -390,7 +390,7 @@ class Spectrum(CliTest):
         self.assertTrue(report["rms_beyond_includes_tail"])
         beyond = report["norm_squared"] - report["cumulative"][16]
         self.assertAlmostEqual(report["rms_beyond"][16], math.sqrt(beyond / (4 * math.pi)), 12)
-        # Point symmetric: no odd degree.
+        # The body is symmetric about a point: it has no odd degrees.
         self.assertLess(max(report["energy"][1::2]), 1e-20)
 
     def test_plots_are_written(self):
@@ -403,14 +403,14 @@ class Spectrum(CliTest):
         self.assertIn("rms beyond", self.rholm("spectrum", "a.h5").out)
 
     def test_a_tolerance_is_answered_with_its_degree(self):
-        # Degrees 0 and 2 alone: what is beyond degree l is known.
+        # Only degrees 0 and 2 exist: the error beyond degree l is known.
         self.write("a.sh", "0 0 1 0\n2 1 0.3 0.4\n")
         for tolerance, degree in ((1, 0), (0.05, 2)):
             self.assertIn(f"from degree {degree} on",
                           self.rholm("spectrum", "a.sh", "--tolerance", tolerance).out)
             report = self.rholm("spectrum", "a.sh", "--tolerance", tolerance, "--json").json()
             self.assertEqual(report["tolerance_degree"], degree)
-        # Where more is known than the file has, the answer may be: at no degree.
+        # The error beyond the file's coefficients is known, so that the answer may be: at no degree.
         self.write("a.off", off(*OCTAHEDRON))
         self.rholm("analyze", "a.off", "--degree", "4", "-o", "a.h5")
         self.assertIn("never within", self.rholm("spectrum", "a.h5", "--tolerance", "1e-9").out)
@@ -426,7 +426,7 @@ class Convert(CliTest):
                    "-o", "a.h5")
 
     def orthonormal(self, name):
-        """The coefficients of a file through JSON."""
+        """Returns the coefficients of a file, converted through JSON."""
         self.rholm("convert", name, "probe.json", "--normalization", "orthonormal")
         return json.loads((self.folder / "probe.json").read_text())
 

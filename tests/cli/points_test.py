@@ -1,4 +1,4 @@
-"""Points: sampled from meshes, oriented."""
+"""Points: sampling of meshes, and orientation of normals."""
 
 import os
 import re
@@ -192,7 +192,7 @@ class Orient(CliTest):
         self.assertEqual(result.bytes, (self.folder / "o.ply").read_bytes())
 
     def test_what_the_reader_says_and_a_mesh_s_own_normals_are_heard(self):
-        """Vertices of a mesh are points; its normals are left out, other attributes stay."""
+        """Vertices of a mesh are used as points; its normals are ignored, other attributes are kept."""
         rows = [line.split() for line in (self.folder / "true.xyz").read_text().splitlines()]
         names = ["x", "y", "z", "nx", "ny", "nz", "quality"]
         self.write("m.ply", "ply\nformat ascii 1.0\nelement extra 1\nproperty int a\n"
@@ -233,7 +233,7 @@ class Orient(CliTest):
 
 
 class Tables(CliTest):
-    """What columns of text tables are taken for, in every command that reads points."""
+    """Meaning of columns of text tables, in every command that reads points."""
 
     def setUp(self):
         super().setUp()

@@ -1,7 +1,7 @@
-"""Closed meshes that nobody would choose: a shape for each number, the same one every time.
+"""Unusual closed meshes: one shape for each number, always the same.
 
-Closed means that an even number of triangles meet at each edge once identical corners are joined:
-thin, flat, touching, crossing, doubled, turned inside out, far away, of any size."""
+Closed means that an even number of triangles meet at each edge once identical corners are joined. Meshes are
+thin, flat, touching, crossing, doubled, inside out, far away, and of any size."""
 
 import struct
 
@@ -11,7 +11,7 @@ MOST_FACES = 2000
 
 
 class Shape:
-    """name says the number and what it is; vertices (n, 3), faces (m, 3), kind of the file."""
+    """A shape. name: its number and kind; vertices (n, 3); faces (m, 3); kind: format of its file."""
 
     def __init__(self, number, name, vertices, faces, kind):
         self.number, self.name, self.kind = number, f"{number}-{name}", kind
@@ -29,7 +29,7 @@ class Shape:
 # ---- parts ---------------------------------------------------------------------------------------
 
 def joined(*parts):
-    """One mesh of all parts, which share nothing."""
+    """Joins all parts into one mesh, without common vertices."""
     vertices, faces, n = [], [], 0
     for v, f in parts:
         vertices.append(v)
@@ -39,7 +39,7 @@ def joined(*parts):
 
 
 def welded(mesh):
-    """Identical corners joined, and what has no area by that left out."""
+    """Joins identical corners, and leaves out triangles that lose their area by this."""
     vertices, index = np.unique(mesh[0], axis=0, return_inverse=True)
     faces = index.reshape(-1)[mesh[1]]
     keep = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
@@ -55,13 +55,13 @@ def moved(mesh, by=(0, 0, 0), size=1):
 
 
 def turned(rng, mesh):
-    """By a random rotation."""
+    """Applies a random rotation."""
     matrix, _ = np.linalg.qr(rng.normal(size=(3, 3)))
     return mesh[0] @ (matrix * np.sign(np.linalg.det(matrix))), mesh[1]
 
 
 def rings(rows, columns):
-    """Faces of a net closed in both directions: vertex i, j has the index i columns + j."""
+    """Returns faces of a net that is closed in both directions: vertex i, j has the index i columns + j."""
     i, j = np.meshgrid(np.arange(rows), np.arange(columns), indexing="ij")
     at = lambda di, dj: ((i + di) % rows * columns + (j + dj) % columns).ravel()
     return np.concatenate([np.stack([at(0, 0), at(1, 0), at(1, 1)], 1),
@@ -69,7 +69,7 @@ def rings(rows, columns):
 
 
 def sphere(faces):
-    """Of meridians and parallels, about so many faces (8 at least)."""
+    """Returns a sphere of meridians and parallels, with about `faces` faces (8 at least)."""
     rows = max(2, round((faces / 4)**0.5))
     columns = max(3, round(faces / (2 * (rows - 1))))
     theta = np.pi * np.arange(rows + 1) / rows
@@ -79,7 +79,7 @@ def sphere(faces):
     net[0], net[-1] = (0, 0, 1), (0, 0, -1)
     net = net.reshape(-1, 3)
     inner = rings(rows + 1, columns)
-    inner = inner[(np.ptp(inner // columns, axis=1) <= 1)]  # not from pole to pole
+    inner = inner[(np.ptp(inner // columns, axis=1) <= 1)]  # without triangles from pole to pole
     return welded((net, inner))
 
 
@@ -92,7 +92,7 @@ def torus(rows, columns, radius, tube):
 
 
 def box(size, cells=1):
-    """cells squares along each edge, two triangles each."""
+    """Returns a box with `cells` squares along each edge, of two triangles each."""
     i, j = (x.ravel() for x in np.meshgrid(np.arange(cells), np.arange(cells), indexing="ij"))
     corners = np.array([(0, 0), (1, 0), (1, 1), (0, 0), (1, 1), (0, 1)])
     flat = (np.stack([i, j], 1)[:, None] + corners).reshape(-1, 2)
@@ -120,7 +120,7 @@ def prism(corners, length, width):
 
 
 def tetrahedra(corners):
-    """Of corners (n, 4, 3), each outwards."""
+    """Returns tetrahedra from corners (n, 4, 3), all oriented outwards."""
     a, b, c, d = corners.transpose(1, 0, 2)
     inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) < 0
     corners = corners.copy()
@@ -138,7 +138,7 @@ def bumpy(rng, faces):
 
 
 def small_or_large(rng, least, most):
-    """Evenly over the decades."""
+    """Returns a random number, uniform over decades."""
     return float(np.exp(rng.uniform(np.log(least), np.log(most))))
 
 
@@ -149,13 +149,13 @@ def some_faces(rng, most=MOST_FACES):
 # ---- kinds: each makes a mesh of random numbers --------------------------------------------------
 
 def boxes(rng):
-    """All ratios of edges to 1e9."""
+    """Boxes with ratios of edges up to 1e9."""
     edges = [1, small_or_large(rng, 1e-9, 1), small_or_large(rng, 1e-9, 1)]
     return box(rng.permutation(edges), int(rng.integers(1, 13)))
 
 
 def plates(rng):
-    """Boxes as thin as can be, down to no thickness at all."""
+    """Very thin boxes, down to no thickness at all."""
     thickness = rng.choice([0, 1e-9, 1e-6, 1e-3, 2e-3, 1e-2])
     return box((1, rng.uniform(0.2, 1), thickness), int(rng.integers(1, 13)))
 
@@ -187,7 +187,7 @@ def soups(rng):
 
 
 def solid(rng, faces):
-    """A small part for others: round, bumpy, with corners or with a hole."""
+    """A small part for other shapes: round, bumpy, with corners or with a hole."""
     which = rng.integers(4)
     if which == 0:
         return sphere(faces)
@@ -200,7 +200,7 @@ def solid(rng, faces):
 
 
 def nested(rng):
-    """Shells in shells: cavities, or all outwards."""
+    """Shells in shells: cavities, or all oriented outwards."""
     n = int(rng.integers(2, 6))
     shell = bumpy(rng, some_faces(rng, MOST_FACES // n))
     parts = [moved(shell, size=0.3 + 0.7 * (n - k) / n) for k in range(n)]
@@ -210,14 +210,14 @@ def nested(rng):
 
 
 def crossing(rng):
-    """Parts that go through each other."""
+    """Parts that intersect each other."""
     n = int(rng.integers(2, 5))
     return joined(*[moved(turned(rng, solid(rng, some_faces(rng, MOST_FACES // n))),
                           rng.uniform(-0.7, 0.7, 3)) for _ in range(n)])
 
 
 def touching(rng):
-    """Boxes that have a corner, an edge or a whole face in common."""
+    """Boxes that share a corner, an edge or a whole face."""
     steps = np.array([(1, 1, 1), (1, 1, 0), (1, 0, 0)])
     place, parts = np.zeros(3), []
     cells = int(rng.integers(1, 6))
@@ -228,11 +228,11 @@ def touching(rng):
 
 
 def pinched(rng):
-    """A surface that meets itself at a point: two corners of it are one."""
+    """A surface that touches itself at a point: two of its vertices are joined."""
     vertices, faces = solid(rng, max(60, some_faces(rng)))
     a = int(rng.integers(len(vertices)))
     near = set(faces[(faces == a).any(1)].ravel())
-    near |= set(faces[np.isin(faces, list(near)).any(1)].ravel())  # would fold a triangle
+    near |= set(faces[np.isin(faces, list(near)).any(1)].ravel())  # joining these would fold a triangle
     others = [k for k in range(len(vertices)) if k not in near]
     faces = faces.copy()
     if others:
@@ -241,21 +241,21 @@ def pinched(rng):
 
 
 def mixed(rng):
-    """Some triangles turn their back."""
+    """Some triangles are flipped."""
     vertices, faces = solid(rng, some_faces(rng))
     back = rng.random(len(faces)) < rng.choice([0.01, 0.1, 0.5])
     return vertices, np.where(back[:, None], faces[:, ::-1], faces)
 
 
 def one_triangle_doubled(rng):
-    """Twice, so that an even number meets at each of its edges: as it is, and turned."""
+    """Repeats a triangle twice, as it is and flipped, so that an even number meets at each of its edges."""
     vertices, faces = solid(rng, some_faces(rng))
     one = faces[rng.integers(len(faces))]
     return vertices, np.concatenate([faces, [one, one[::-1]]])
 
 
 def doubled(rng):
-    """All of it twice in the same place."""
+    """The whole body twice in the same place."""
     once = solid(rng, some_faces(rng, MOST_FACES // 2))
     return joined(once, turned_inside_out(once) if rng.random() < 0.5 else once)
 
@@ -271,7 +271,7 @@ def far_away(rng):
 
 
 def different_sizes(rng):
-    """One body and its dust."""
+    """One body and many tiny ones."""
     n = int(rng.integers(1, 12))
     parts = [solid(rng, 500)]
     for _ in range(n):
@@ -281,31 +281,31 @@ def different_sizes(rng):
 
 
 def tori(rng):
-    """From rings of wire to those that go through themselves."""
+    """Tori from thin rings to tori that intersect themselves."""
     side = max(3, round((some_faces(rng) / 4)**0.5))
     return torus(2 * side, side, 1, small_or_large(rng, 1e-3, 1.5))
 
 
 def unwelded(rng):
-    """Every triangle has corners of its own, as in STL."""
+    """Every triangle has its own corners, as in STL."""
     vertices, faces = solid(rng, some_faces(rng))
     return vertices[faces].reshape(-1, 3), np.arange(faces.size).reshape(-1, 3)
 
 
 def stars(rng):
-    """Steep and coarse: neighbours' radii are orders apart."""
+    """Steep and coarse: radii of neighbours differ by orders of magnitude."""
     vertices, faces = sphere(some_faces(rng, 300))
     steepness = rng.uniform(0.1, 3)
     return vertices * np.exp(steepness * rng.normal(size=(len(vertices), 1))), faces
 
 
 def tetrahedron(rng):
-    """The least there is."""
+    """The smallest closed mesh."""
     return tetrahedra(rng.normal(size=(1, 4, 3)))
 
 
 def squashed(rng):
-    """A solid pressed flat, by up to 1e9."""
+    """A solid flattened by up to 1e9."""
     vertices, faces = solid(rng, some_faces(rng))
     return vertices * (1, 1, small_or_large(rng, 1e-9, 1e-1)), faces
 
@@ -316,13 +316,13 @@ KINDS = (boxes, stars, soups, nested, needles, mixed, touching, one_triangle_dou
 
 
 def random_shape(number, seed=1):
-    """The shape of that number: kinds in turn, everything else of it random."""
+    """Returns the shape of that number: kinds in turn, everything else random."""
     rng = np.random.default_rng([seed, number])
     make = KINDS[number % len(KINDS)]
     mesh = make(rng)
     if rng.random() < 0.5:
         mesh = turned(rng, mesh)
-    # Single precision, which STL has, makes another shape of what is thin or far away.
+    # Single precision, as in STL, changes thin or distant shapes.
     formats = ["stl"] if make is unwelded else ["off", "ply", "obj"]
     return Shape(number, make.__name__, *mesh, formats[rng.integers(len(formats))])
 
@@ -330,7 +330,7 @@ def random_shape(number, seed=1):
 # ---- files ---------------------------------------------------------------------------------------
 
 def content(shape):
-    """The file of it, in its format."""
+    """Returns the file of a shape in its format."""
     v, f = shape.vertices, shape.faces
     if shape.kind == "stl":
         records = np.zeros(len(f), dtype=[("floats", "<f4", 12), ("none", "<u2")])

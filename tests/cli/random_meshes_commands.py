@@ -1,5 +1,6 @@
-"""What a mesh goes through: every command of the program, and what comes out through those that
-take it. trial.do(name, words, out=..., codes=...) runs one, checks it, and says whether it was done."""
+"""Every command of the program for a mesh, and for the results of commands.
+
+trial.do(name, words, out=..., codes=...) runs a command, checks it, and returns true if it succeeded."""
 
 import json
 
@@ -7,11 +8,11 @@ from harness import RHOLM
 from limits import Run
 
 DONE = {0}
-REFUSED = {3}  # the shape is not one that this command can take
+REFUSED = {3}  # the command cannot use this shape
 DONE_OR_REFUSED = DONE | REFUSED
-ANY = DONE | REFUSED | {4}  # or a tolerance is not kept, or the sides of normals are unsure
+ANY = DONE | REFUSED | {4}  # also: a tolerance is not kept, or normal orientations are unsure
 
-# What costs little and reads, writes or refuses in a way of its own.
+# Cheap commands that read, write or refuse each in a different way.
 CHEAP = {"info --json", "center", "compare", "render error", "convert .off", "convert .ply",
          "make sample", "orient MESH", "reconstruct MESH", "smooth", "transfer", "analyze edge",
          "analyze --signed", "analyze --norm max", "synthesize", "spectrum", "filter", "rotate",
@@ -57,18 +58,19 @@ def looked_at(trial):
 
 
 def converted(trial):
-    """Through all formats, each made of the one before; those of full precision keep every bit."""
+    """Converts through all formats, each file made from the one before; formats of full precision keep
+    every bit."""
     before = trial.mesh
     for kind in ("off", "ply", "obj", "stl"):
         after = f"converted.{kind}"
-        # Single precision ends at 3e38, and at 1e-38.
+        # The range of single precision ends at 3e38 and at 1e-38.
         codes = DONE_OR_REFUSED if kind == "stl" else DONE
         if trial.do(f"convert .{kind}", "convert", before, after, made=after, codes=codes):
             before = after
     if trial.has("converted.obj"):
         trial.do("convert back", "convert", "converted.obj", "back.off", made="back.off", codes=DONE)
         trial.same("converted.off", "back.off")
-    # Triangles have no place there.
+    # The format cannot store triangles.
     trial.do("convert .xyz", "convert", trial.mesh, "corners.xyz", codes=REFUSED)
 
 
@@ -97,7 +99,7 @@ def points(trial):
 def edited(trial):
     m, d = trial.mesh, trial.diagonal
     near, far = f"vertex:0,{d / 4!r}", f"vertex:{trial.vertices // 2},{d / 4!r}"
-    # Shorter waves than those of two edges are refused.
+    # Wavelengths below two edges are refused.
     wavelength = ("--wavelength", repr(max(d / 8, 4 * trial.edge)))
     trial.do("smooth", m, "--region", near, *wavelength, out="smooth.off")
     trial.do("smooth --repair", "smooth", m, "--region", near, *wavelength, "--repair", "--json",
@@ -179,7 +181,7 @@ def star_model(trial):
 
 
 def patches(trial):
-    """Models and pictures of the paper's patches."""
+    """Makes models and pictures of the paper's patches."""
     m = trial.mesh
     for view in ("patches", "triangles", "spheres"):
         trial.do(f"partition {view}", "partition", m, "--show", view, out=f"{view}.ply")
@@ -191,7 +193,7 @@ def patches(trial):
 
 
 def caps(trial):
-    """Models of caps fitted at two tolerances."""
+    """Makes models of caps fitted at two tolerances."""
     m = trial.mesh
     trial.do("partition", m, "--tolerance", "2e-2", "--json", out="caps.ply")
     for tolerance in ("2e-2", "5e-3"):
@@ -205,7 +207,7 @@ def caps(trial):
 
 
 def check_handles(trial, name, reported):
-    """What was reported of the surface is what its file has, and wrong handles are warned of."""
+    """Checks that the reported topology is the one of the file, and that wrong handles cause a warning."""
     found = json.loads(reported.out)
     surface = json.loads(Run([RHOLM, "info", f"{name}.off", "--json"], trial.folder).out)
     if (found["components"], found["genus"]) != (surface["components"], surface["genus"]):
@@ -228,7 +230,7 @@ def atlas_model(trial, name):
         return True
     trial.do("report atlas", "report", a, "--shape", trial.mesh, "--size", "32", out="atlas.html",
              codes=DONE)
-    # These take coefficients of one function only.
+    # These commands take coefficients of a single function only.
     trial.do("compare atlas", "compare", trial.mesh, a, "--samples", "300", codes=REFUSED)
     trial.do("render atlas", "render", a, "--size", "64x48", out="r.png", codes=REFUSED)
     trial.do("spectrum atlas", "spectrum", a, codes=REFUSED)

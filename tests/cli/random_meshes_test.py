@@ -1,10 +1,11 @@
-"""Random closed meshes through every command, within 60 s and 4 GiB each: a documented exit code, a
-clear word where something is refused, outputs that can be read and hold numbers only.
+"""Random closed meshes through every command, within 60 s and 4 GiB each. Exit codes must be documented,
+refusals must have a clear message, and outputs must be readable and contain finite numbers only.
 
-As a test it takes a few meshes and what is cheap. With options it takes all:
+Without options a few meshes and cheap commands are tested. Options test all:
   random_meshes_test.py --count 500 [--first N] [--seed S] [--jobs J] [--table FILE] [--keep DIR]
     [--steps everything|all_but_caps|caps|patches|cheap]
-and prints how often each command ended with which exit code, and the slowest ten."""
+
+The output lists how often each command ended with which exit code, and the ten slowest commands."""
 
 import argparse
 import collections
@@ -24,7 +25,7 @@ from limits import Run
 import random_meshes_commands as commands
 try:
     from random_meshes import KINDS, content, random_shape
-except ImportError:  # no NumPy
+except ImportError:  # NumPy is missing
     KINDS = ()
 
 NOT_A_NUMBER = re.compile(rb"(?<![\w.#-])-?(nan|inf|infinity)(?![\w-])", re.I)
@@ -34,8 +35,8 @@ MODELS = (".h5", ".sh", ".gfc", ".json", ".npy")
 
 
 class Trial:
-    """One mesh in a folder of its own, and what became of each command: runs has (name, command line,
-    exit code, seconds, memory), faults has (command line, what)."""
+    """One mesh in its own folder, and the results of its commands: runs has (name, command line, exit code,
+    seconds, memory), faults has (command line, fault)."""
 
     def __init__(self, shape, folder):
         self.folder, self.name, self.number = Path(folder), shape.name, shape.number
@@ -43,12 +44,12 @@ class Trial:
         self.diagonal, self.edge = shape.diagonal(), shape.mean_edge()
         self.vertices, self.farthest = len(shape.vertices), float(abs(shape.vertices).max())
         (self.folder / self.mesh).write_bytes(content(shape))
-        self.names = None  # of the commands to run: all of them
-        self.last = None  # run
+        self.names = None  # names of commands to run; None means all
+        self.last = None  # last run
         self.runs, self.faults, self.check = [], [], CliTest()
 
     def one_of(self, *choices):
-        """Another one for each mesh of a kind."""
+        """Returns another choice for each mesh of a kind."""
         return choices[self.number // len(KINDS) % len(choices)]
 
     def has(self, name):
@@ -59,9 +60,9 @@ class Trial:
             self.faults.append((f"info {other}", f"differs from {one}, of which it was made"))
 
     def do(self, name, *words, out=None, made=None, codes=commands.DONE_OR_REFUSED):
-        """Runs words (the name itself is the command where words begin with none) and checks what
-        holds for every run; says whether it was done. out is written by -o, made is the file to
-        look at."""
+        """Runs words, with name as the command if words begin with no command, and checks the properties of
+        every run. Returns true if it succeeded. `out` is the file written by -o, `made` is the file to
+        examine."""
         if self.names and name not in self.names:
             return False
         if name.split()[0] != words[0]:
@@ -95,7 +96,7 @@ class Trial:
                 result.json()
         except (AssertionError, ValueError) as error:
             return [str(error)]
-        # center tells what it found as its answer, on standard output.
+        # center reports its finding as its answer, on standard output.
         if run.code != 0 and not said and words[0] != "center":
             return [f"exit code {run.code} without a word"]
         return []
@@ -127,7 +128,7 @@ def try_shape(number, options, steps):
 
 
 def table(trials):
-    """How often each command ended with which exit code, most seconds and memory, as Markdown."""
+    """Returns the exit codes of each command with their numbers, most seconds and memory, as Markdown."""
     counts, most = collections.defaultdict(collections.Counter), {}
     for trial in trials:
         for name, _, code, seconds, memory in trial.runs:
@@ -185,7 +186,7 @@ class RandomMeshes(CliTest):
 
     def test_meshes_of_some_kinds_through_what_is_cheap(self):
         options = argparse.Namespace(seed=1, keep=None)
-        # One kind in six: nightly runs have 500 meshes of all.
+        # Every sixth kind is tested; nightly runs test 500 meshes of all kinds.
         for number in range(0, len(KINDS), 6):
             trial = try_shape(number, options, commands.cheap)
             with self.subTest(trial.name):

@@ -1,4 +1,4 @@
-"""Surfaces from points: every option, what is reported, what is refused."""
+"""Surfaces from points: every option, reports and refusals."""
 
 import json
 import math
@@ -149,7 +149,7 @@ class Reconstruct(CliTest):
         found = json.loads(done.out)
         self.assertAlmostEqual(found["area"] - found["closed_area"], found["points_area"],
                                delta=0.12 * found["points_area"])
-        # Scans that are off by four spacings, and left so: most caps see two walls.
+        # Scans are misaligned by four spacings and not aligned: most caps contain two walls.
         self.rholm("make", "sample", "t.ply", "--points", "8000", "--scans", "6", "--misalignment",
                    ".032", "-o", "scans.ply")
         self.reconstruct("scans.ply")
@@ -229,7 +229,7 @@ class Reconstruct(CliTest):
         count = int(re.search(r"element vertex (\d+)", header)[1])
         for line in body.splitlines()[:count]:
             values = dict(zip(names, line.split()))
-            if abs(float(values["x"])) > 0.3:  # beyond the reach of points of the other side
+            if abs(float(values["x"])) > 0.3:  # beyond the reach of points on the other side
                 self.assertEqual(values["red"], "200" if float(values["x"]) > 0 else "50")
 
     def test_vertices_of_a_mesh_are_points(self):
@@ -242,7 +242,7 @@ class Reconstruct(CliTest):
                             "-o", "s.ply", code=1)
         self.assertRegex(result.err, r"102 MiB allowed: take steps of [0-9.e-]+ ")
         self.assertNotIn("s.ply", self.files())
-        # What it says in the option's own words does.
+        # The value that the message suggests for the option works.
         fits = re.search(r"(\d+) along the longest side", result.err)[1]
         self.assertLess(int(fits), 4000)
         self.rholm("reconstruct", "p.xyz", "--resolution", fits, "--max-memory", "0.1",
@@ -269,7 +269,7 @@ class Reconstruct(CliTest):
         self.assertNotIn("o.ply", self.files())
 
     def test_the_surface_can_be_made_again_from_the_model_alone(self):
-        # A half of it: most of what closes it is far from all points.
+        # Half of the points: most of the closed part is far from all points.
         half = [line for line in (self.folder / "p.xyz").read_text().splitlines(True)
                 if line.startswith("#") or float(line.split()[0]) > 0]
         self.write("half.xyz", "".join(half))
@@ -281,7 +281,7 @@ class Reconstruct(CliTest):
                 self.assertNotIn("warning", made.err)
                 self.assertEqual((self.folder / "again.ply").read_bytes(),
                                  (self.folder / "s.ply").read_bytes(), (points, words))
-        # What is asked for goes before what the model says.
+        # Options take precedence over the model.
         self.rholm("synthesize", "m.h5", "-o", "whole.ply", "--simplify", "none")
         self.assertGreater(os.path.getsize(self.folder / "whole.ply"),
                            5 * os.path.getsize(self.folder / "again.ply"))
@@ -298,7 +298,7 @@ class Reconstruct(CliTest):
 
 
 class Tiles(CliTest):
-    """More points than --tile-points: the surface of all is made of parts."""
+    """With more points than --tile-points the surface is made in parts."""
 
     def setUp(self):
         super().setUp()
@@ -319,8 +319,8 @@ class Tiles(CliTest):
         counts = [self.rholm("info", name, "--json").json()["counts"] for name in ("s.ply", "again.ply")]
         self.assertEqual(*counts)
         relative = self.rholm("compare", "s.ply", "again.ply", "--json").json()["relative"]
-        # Tiles sum winding numbers in another order, which close small gaps between caps. Far below
-        # a step, 1e-2 (chosen).
+        # Tiles sum winding numbers in another order, and these close small gaps between caps. The bound is
+        # far below a step of 1e-2 (chosen).
         for way in ("a_to_b", "b_to_a"):
             self.assertLess(relative[way]["max"], 1e-5)
 
@@ -338,7 +338,7 @@ class Tiles(CliTest):
         self.assertNotIn("tiles", one)
         self.assertAlmostEqual(report["area"] / one["area"], 1, delta=1e-3)
         self.assertAlmostEqual(report["diagonal"], one["diagonal"], delta=1e-6)
-        # As many as there are make no tiles.
+        # If the limit is the number of points, there are no tiles.
         self.tiles("p.ply", n=5000, output="same.ply")
         self.assertEqual(self.bytes("same.ply"), self.bytes("one.ply"))
 
@@ -362,7 +362,7 @@ class Tiles(CliTest):
         points = 40000 if NIGHTLY else 8000
         self.rholm("make", "sample", "t.ply", "--points", points, "-o", "p.ply")
         self.rholm("reconstruct", "p.ply", "-o", "one.ply")
-        # Enough changes nothing.
+        # A sufficient limit changes nothing.
         self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", "0.1")
         self.assertEqual(self.bytes("s.ply"), self.bytes("one.ply"))
         refused = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", "0.006", code=1)
@@ -375,7 +375,7 @@ class Tiles(CliTest):
                 made = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", limit, "--tile-points", fits)
                 self.assertIn(f"{points} points in", made.err)
                 self.assertEqual(self.rholm("info", "s.ply", "--json").json()["genus"], 1)
-                # Memory does not change what these tiles give.
+                # The limit of memory does not change the result of these tiles.
                 self.rholm("reconstruct", "p.ply", "-o", "wide.ply", "--tile-points", fits)
                 self.assertEqual(self.bytes("s.ply"), self.bytes("wide.ply"))
 
@@ -393,11 +393,11 @@ class Tiles(CliTest):
         words = ("p.ply", "--resume", "--work-dir", "work")
         (self.folder / "work").mkdir()
         folder = self.folder / "work" / "r.ply.tiles"
-        for stage in ("caps", "mesh", "output"):  # the last one is a file
+        for stage in ("caps", "mesh", "output"):  # the last stage writes a file
             def begun():
                 piece = folder / "pieces" / stage
                 return any(piece.glob("[0-9]")) if piece.is_dir() else piece.is_file()
-            # It waits where the second file of the stage, or the result, is to get its name.
+            # The run waits when the second file of the stage, or the result, is about to get its name.
             letters, after = ("r.ply$", 0) if stage == "output" else (f"pieces/{stage}/", 1)
             mark = self.folder / "mark"
             with subprocess.Popen([RHOLM, "reconstruct", *words, "--tile-points", "1250", "-o", "r.ply",

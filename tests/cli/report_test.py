@@ -1,4 +1,4 @@
-"""The page of rholm report, read as a browser reads it: elements, references, words."""
+"""The page of rholm report, as a browser reads it: elements, references, texts."""
 
 import base64
 import json
@@ -14,13 +14,14 @@ sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, OCTAHEDRON, RHOLM, main, off
 
 VOID = {"meta", "img", "br", "link", "hr", "input"}
-# Elements that a page without needs of its own does not have, attributes that load something.
+# Elements that a self-contained page does not have, and attributes that load something.
 FOREIGN = {"script", "link", "iframe", "object", "embed", "base", "form"}
 LOADING = {"href", "xlink:href", "srcset", "action", "data", "poster", "background"}
 
 
 class Page(HTMLParser):
-    """Balanced elements, nothing from elsewhere, names for what is not text; collects words."""
+    """Checks that elements are balanced, nothing is loaded, and pictures have descriptions; collects
+    words."""
 
     def __init__(self, text):
         super().__init__()
@@ -88,7 +89,7 @@ class Report(CliTest):
 
     def test_a_shape_has_pictures_plots_tables_and_commands(self):
         page = self.page("a.ply", "--degree", "16", "--length-unit", "km")
-        self.assertEqual(len(page.images), 6)  # degrees 1, 4, 16, the shape, the errors twice
+        self.assertEqual(len(page.images), 6)  # degrees 1, 4, 16, the shape, two pictures of errors
         text = page.text()
         for words in ("a.ply", "degree 16", "289", "km", "Parseval", "Conventions", "orthonormal",
                       "642", "1280"):  # coefficients, vertices and faces
@@ -198,7 +199,7 @@ class Report(CliTest):
         self.check_decent(result)
 
     def installed(self, with_viewer):
-        """The program as it is installed, in a folder of its own."""
+        """Installs the program in a separate folder."""
         (self.folder / "bin").mkdir()
         program = shutil.copy(RHOLM, self.folder / "bin")
         if with_viewer:
@@ -218,7 +219,7 @@ class Report(CliTest):
         self.assertEqual(run.returncode, 0, run)
         text = (self.folder / "o.html").read_text()
         self.assertIn(r"const end = '<\x2fscript>';", text)
-        self.assertIn("--interactive", text)  # among the commands
+        self.assertIn("--interactive", text)  # in the list of commands
         data = base64.b64decode(re.search(r'id="rholm-data">([^<]+)<', text)[1])
         self.assertEqual(data[:8], b"RHOLM1\0\0")
         meta = json.loads(data[12:12 + int.from_bytes(data[8:12], "little")])["meta"]

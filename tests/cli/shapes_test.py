@@ -1,4 +1,4 @@
-"""What a shape is and what becomes of it: turned, mended, thinned out, drawn, of any size."""
+"""Operations on shapes: rotation, repair, simplification, rendering, at any size."""
 
 import json
 import math
@@ -37,8 +37,8 @@ class Turning(CliTest):
         report = self.rholm("align", "image.h5", "body.h5", "--mirror", "--json").json()
         self.assertTrue(report["mirrored"])
         self.assertEqual(report["reflection"], {"point": report["from"], "normal": [1, 0, 0]})
-        # By the reflection, the rotation and the shift of the report a point of the image, y turned
-        # round, comes back to where it was.
+        # The reflection, rotation and shift of the report take a point of the image, with y reversed, back
+        # to its place.
         place = [5.5, 6.2, 7.1]
         image = [place[0], -place[1], place[2]]
         offset = [p - q for p, q in zip(image, report["from"])]
@@ -55,7 +55,7 @@ class Turning(CliTest):
         self.assertEqual(self.rholm("align", "sphere.h5", "sphere.h5").out.count("free to turn"), 3)
 
     def test_a_matrix_turns_about_the_point_that_is_said(self):
-        """A quarter of a turn about a line along z: where the centre goes is known."""
+        """A quarter turn about a line along z: the new centre is known."""
         self.model("body.h5", "bumpy", "--subdivisions", 3, "--translate", "5,6,7")
         self.rholm("convert", "body.h5", "before.json")
         before = json.loads((self.folder / "before.json").read_text())["center"]
@@ -75,7 +75,7 @@ class Repair(CliTest):
         return self.rholm("repair", *words, "--json", "-o", "repaired.off").json()
 
     def test_every_fault_at_once(self):
-        """Soup, a duplicate, faces turned round, a stray vertex and a hole."""
+        """Separate triangles, a duplicate, flipped faces, an unused vertex and a hole."""
         vertices = [V[i] for f in F[:-1] for i in f] + [(9, 9, 9)]
         faces = [(3 * k, 3 * k + 1, 3 * k + 2) for k in range(len(F) - 1)]
         faces[1] = faces[1][::-1]
@@ -98,7 +98,7 @@ class Repair(CliTest):
         result = self.rholm("repair", "open.off", "--max-hole", 2, "-o", "same.off")
         self.assertIn("--max-hole 2", result.err)
         self.assertIn("open, 3 boundary edges", result.out)
-        # A strip with half a twist: five triangles that share an edge each, around.
+        # A strip with half a twist: a closed chain of five triangles.
         ring = [(math.cos(a), math.sin(a), 0.1 * k)
                 for k, a in enumerate(2 * math.pi * i / 5 for i in range(5))]
         self.write("strip.off", off(ring, [(i, (i + 1) % 5, (i + 2) % 5) for i in range(5)]))
@@ -113,7 +113,7 @@ class Repair(CliTest):
         self.write("nested.off", off(V + small, F + inner))
         result = self.rholm("repair", "nested.off", "-o", "hollow.off")
         self.assertRegex(result.out, r"cavities +1 part within others")
-        # Two octahedra that share the corner at x = 1.
+        # Two octahedra share the corner at x = 1.
         beside = [(2 - x, y, z) for x, y, z in V[1:]]
         other = [tuple(0 if i == 0 else i + 5 for i in f[::-1]) for f in F]
         self.write("corner.off", off(V + beside, F + other))
@@ -121,7 +121,7 @@ class Repair(CliTest):
         self.assertRegex(result.out, r"split +1 vertex between sheets")
 
     def test_a_seam_is_told_with_the_tolerance_that_closes_it(self):
-        """Two halves, 1e-5 of the diagonal apart."""
+        """Two halves are 1e-5 of the diagonal apart."""
         self.rholm("make", "sphere", "--subdivisions", 3, "-o", "sphere.off", "--quiet")
         words = (self.folder / "sphere.off").read_text().split()
         n, m = int(words[1]), int(words[2])
@@ -276,7 +276,7 @@ class Render(CliTest):
 
 
 class Size(CliTest):
-    """The same shape in any unit: the same figures times powers of it, or a refusal in words."""
+    """A shape in any unit has the same figures, times powers of the unit, or a clear refusal."""
 
     def octahedron(self, size):
         self.write("shape.off", off(*scaled(OCTAHEDRON, size)))

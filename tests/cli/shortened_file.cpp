@@ -1,5 +1,5 @@
-// What happens when a mapped input is made shorter while it is read: maps the PLY file `input`,
-// begins to write `output`, cuts the file off itself, and reads on. Ends as the program rholm does.
+// Shortens a mapped input during reading: maps the PLY file `input`, begins to write `output`,
+// truncates `input` itself, and reads on. Ends as the program rholm does.
 #include <unistd.h>
 
 #include <cstdio>

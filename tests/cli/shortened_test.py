@@ -1,4 +1,4 @@
-"""An input that another program makes shorter while it is mapped."""
+"""An input that another program shortens while it is mapped."""
 
 import os
 import subprocess
@@ -10,7 +10,7 @@ from harness import CliTest, TIMEOUT, main
 
 class Shortened(CliTest):
     def test_is_told_from_a_crash_and_leaves_no_litter(self):
-        # 1.4 MB: its last page lies far behind the end that is left.
+        # The file has 1.4 MB: its last page lies far beyond the remaining part.
         self.rholm("make", "sphere", "--subdivisions", "6", "-o", "s.ply")
         self.write("out.txt", b"what was here before\n")
         process = subprocess.run([os.environ["SHORTENED_FILE"], "s.ply", "out.txt"],

@@ -1,4 +1,4 @@
-"""Signals and limits of the system: exit codes of the table, old files whole, nothing left."""
+"""Signals and limits of the system: documented exit codes, old files unchanged, no temporary files."""
 
 import os
 import resource
@@ -14,18 +14,18 @@ OLD = b"what was here before\n"
 
 class Signals(CliTest):
     def started(self, *words, environment=None, **options):
-        """A rholm that waits for its input, the named pipe in.ply."""
+        """Starts a rholm that waits for its input, the named pipe in.ply."""
         if not (self.folder / "in.ply").exists():
             os.mkfifo(self.folder / "in.ply")
         process = subprocess.Popen([RHOLM, *words], cwd=self.folder, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE,
                                    env={**os.environ, **(environment or {})}, **options)
-        # Returns when the program has opened the other end: its handlers are there.
+        # Returns when the program has opened the other end: its signal handlers exist then.
         writer = os.open(self.folder / "in.ply", os.O_WRONLY)
         return process, writer
 
     def ended(self, process, writer):
-        os.close(writer)  # should it not have noticed the signal before it began to read
+        os.close(writer)  # the program may not have seen the signal before it reads
         out, err = process.communicate(timeout=TIMEOUT)
         return process.returncode, out, err
 
@@ -47,7 +47,7 @@ class Signals(CliTest):
             "info", "in.ply", preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
         process.send_signal(signal.SIGHUP)
         code, _, err = self.ended(process, writer)
-        self.assertEqual(code, 3, err)  # an empty file
+        self.assertEqual(code, 3, err)  # the file is empty
 
     def limited(self, *words, limit, size):
         return subprocess.run([RHOLM, *words], cwd=self.folder, capture_output=True,
@@ -71,7 +71,7 @@ class Signals(CliTest):
                 self.assertIn(b"cannot write", process.stderr)
                 self.assertEqual(self.files(), before)
                 self.assertEqual((self.folder / name).read_bytes(), OLD)
-        # A batch keeps its journal, to go on with.
+        # A batch keeps its journal, so that it can be continued.
         process = self.limited("batch", "rows.csv", "--command", "info", "-o", "rows.h5",
                                limit=resource.RLIMIT_FSIZE, size=2048)
         self.assertEqual(process.returncode, 1, process.stderr)
@@ -79,7 +79,7 @@ class Signals(CliTest):
     def test_a_limit_of_processor_time_stops_the_work(self):
         self.rholm("make", "bumpy", "--subdivisions", "6", "-o", "b.ply")
         before = self.files()
-        # Minutes, by direct sums.
+        # Direct sums take minutes.
         process = self.limited("analyze", "b.ply", "--degree", "1000", "--engine", "direct", "-o",
                                "b.h5", limit=resource.RLIMIT_CPU, size=1)
         self.assertEqual(process.returncode, 128 + signal.SIGXCPU, process.stderr)
@@ -92,13 +92,13 @@ class Signals(CliTest):
         place = {"TMPDIR": str(temporary)}
         self.rholm("make", "box", "-o", "box.ply")
         self.write("rows.csv", "path\nbox.ply\nin.ply\n")
-        # The second row waits in the pipe.
+        # The second row waits for the pipe.
         process, writer = self.started("batch", "rows.csv", "--command", "info", "-o", "rows.csv2.csv",
                                        "--threads", "1", environment=place)
         process.kill()
         self.ended(process, writer)
         self.assertEqual(len(list(temporary.glob("rholm-batch-*"))), 1)
-        # One that somebody else has called so stays.
+        # A folder of another program whose name begins alike is kept.
         (temporary / "rholm-batch-shapes").mkdir()
         self.write("box.csv", "path\nbox.ply\n")
         self.rholm("batch", "box.csv", "--command", "info", "-o", "done.csv", environment=place)

@@ -1,4 +1,4 @@
-"""Standard descriptors that are closed, outputs that are pipes, and what --quiet leaves."""
+"""Closed standard descriptors, outputs that are pipes, and the output that --quiet leaves."""
 
 import os
 import re
@@ -9,7 +9,7 @@ import threading
 sys.path.insert(0, os.path.dirname(__file__))
 from harness import NIGHTLY, CliTest, RHOLM, TIMEOUT, Result, main, nightly_too
 
-# One of every command that ends by itself, on the files that prepare() makes. %o is an output.
+# One line of every command that ends by itself, with the files of prepare(). %o is an output.
 COMMANDS = [
     "info e.ply", "info e.ply --json", "info e.json --json", "center e.ply --json",
     "analyze e.ply --degree 4 -o %o.h5 --json", "analyze e.ply --degree 4 -o %o.json",
@@ -43,7 +43,7 @@ class Streams(CliTest):
         return Result(process, words)
 
     def outputs(self, begin):
-        """Names and bytes of the files whose names begin so; they are removed."""
+        """Returns names and bytes of the files whose names begin with `begin`, and removes them."""
         found = {}
         for path in sorted(self.folder.glob(begin + "*")):
             found[path.name[len(begin):]] = path.read_bytes()
@@ -69,12 +69,13 @@ class Closed(Streams):
                 self.assertEqual(self.outputs("out"), made, str(result))
                 self.check_decent(result) if closed != 2 else None
                 if closed == 1 and plain.bytes:
-                    # As with an output that cannot be written; an error before that counts.
+                    # As for any output that cannot be written, the exit code is 1; an earlier error takes
+                    # precedence.
                     self.assertEqual(result.code, plain.code or 1, str(result))
                     self.assertIn("standard output", result.err)
                 else:
                     self.assertEqual(result.code, plain.code, str(result))
-                if closed != 1:  # but for times
+                if closed != 1:  # except for times
                     self.assertEqual(re.sub(rb"[0-9.e+-]+", b"", result.bytes),
                                      re.sub(rb"[0-9.e+-]+", b"", plain.bytes))
 
@@ -92,7 +93,7 @@ class Closed(Streams):
                          (self.folder / "plain.h5").read_bytes())
 
 
-# Commands with an output, its format, and what it is called where the extension says it.
+# Commands with an output, and the extension of its format.
 WRITERS = [("make box", "off"), ("convert e.ply", "stl"), ("analyze e.ply --degree 4", "json"),
            ("synthesize e.json --subdivisions 1", "ply"), ("filter e.json --low-pass 2", "npy"),
            ("render e.ply --size 32x32", "png"), ("spectrum e.json", "csv"),
@@ -105,7 +106,7 @@ def output_words(line, name):
 
 
 def without_command(data):
-    """A report says by which command it was made, with the name of the output."""
+    """A report contains its command with the name of the output, which is removed here."""
     return re.sub(rb"<code>rholm [^<]*</code>", b"", data)
 
 
@@ -144,7 +145,7 @@ class Pipes(Streams):
             dash = self.rholm("convert", "e.ply", "--format", "off", "-")
             self.assertEqual(self.rholm("convert", "e.ply", "--format", "off", name).bytes,
                              dash.bytes)
-            # No report in the data.
+            # The report is not mixed with the data.
             both = self.rholm("simplify", "e.ply", "--faces", "100", "--format", "off", "-o", name)
             self.assertTrue(both.bytes.startswith(b"OFF") and b"simplified" not in both.bytes)
             self.rholm("analyze", "e.ply", "--degree", "2", "--format", "json", "-o", name,
@@ -172,7 +173,7 @@ class Pipes(Streams):
 
     def test_model_files_are_refused_before_the_work(self):
         os.mkfifo(self.folder / "pipe.h5")
-        # There is no such input: it has not been looked for yet.
+        # The input does not exist: the program has not searched for it yet.
         for words in (["analyze", "none.ply", "--degree", "4"], ["filter", "none.h5", "--low-pass", "2"],
                       ["analyze", "none.ply", "--atlas", "--tolerance", ".1"]):
             self.rholm(*words, "-o", "pipe.h5", code=2)

@@ -1,4 +1,4 @@
-"""The program rholm studio as it runs, and what a page would ask of it."""
+"""A running program rholm studio, and the requests of a page."""
 
 import http.client
 import json
@@ -10,18 +10,18 @@ import time
 
 from harness import RHOLM, TIMEOUT
 
-# Where tests are run in the background it is ignored, and programs that they start would inherit that.
+# In background runs of tests the signal is ignored, and started programs would inherit this.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 TETRAHEDRON = b"OFF\n4 4 0\n1 1 1\n1 -1 -1\n-1 1 -1\n-1 -1 1\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n"
 
 
-# Lasts until it is ended: minutes of a processor for caps of degree 2 and a small error.
+# Runs until it is cancelled: caps of degree 2 with a small error take minutes of processor time.
 LONG_JOB = {"op": "compress", "item": 1, "tolerance": 1e-4, "max_degree": 2}
 
 
 class Studio:
-    """A running program, and what it is asked."""
+    """A running program and its connection."""
 
     def __init__(self, test, *words, **environment):
         self.process = subprocess.Popen([RHOLM, "studio", "--no-open", *map(str, words)], cwd=test.folder,
@@ -39,7 +39,7 @@ class Studio:
         self.session = None
 
     def ask(self, method, path, body=None, where=None, **headers):
-        """Status, headers and bytes of an answer; `where` instead of the path below the token."""
+        """Returns status, headers and bytes of an answer. `where` replaces the path below the token."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=TIMEOUT)
         headers = {name.replace("_", "-"): value for name, value in headers.items()}
         if self.session:
@@ -64,7 +64,7 @@ class Studio:
         return status, json.loads(data)
 
     def step(self, **step):
-        """The state when it is done."""
+        """Returns the state when the step is done."""
         status, answer = self.post(**step)
         assert status in (200, 202), answer
         while status == 202:

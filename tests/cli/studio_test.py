@@ -1,5 +1,5 @@
-"""rholm studio, as a browser sees it: who may ask, what is answered, how it ends; and that its recipes
-make the files that it saves."""
+"""rholm studio, as a browser sees it: permissions, answers, and its end. Recipes must make the files that
+the studio saves."""
 
 import http.client
 import json
@@ -44,7 +44,7 @@ class Access(CliTest):
             self.assertEqual(studio.ask("POST", "api/session", Origin=origin)[0], 403, origin)
         for site, status in (("same-origin", 200), ("none", 200), ("cross-site", 403), ("same-site", 403)):
             self.assertEqual(studio.ask("POST", "api/session", Sec_Fetch_Site=site)[0], status, site)
-        # A link to the page itself may be followed; the page is not to be in a frame.
+        # Links to the page are allowed; the page in a frame is not.
         link = {"Sec_Fetch_Site": "cross-site", "Sec_Fetch_Mode": "navigate"}
         self.assertEqual(studio.ask("GET", "", Sec_Fetch_Dest="document", **link)[0], 200)
         self.assertEqual(studio.ask("GET", "", Sec_Fetch_Dest="iframe", **link)[0], 403)
@@ -65,7 +65,7 @@ class Access(CliTest):
         try:
             found = socket.getaddrinfo(socket.gethostname(), None)
         except socket.gaierror:
-            found = []  # a machine that does not know itself by name
+            found = []  # the machine cannot resolve its own name
         others = {address[4][0] for address in found}
         others = {a for a in others if not a.startswith("127.") and a != "::1"}
         if not others:
@@ -91,7 +91,7 @@ class Access(CliTest):
             status, _, data = studio.ask("GET", path)
             self.assertEqual(status, 404, path)
             self.assertNotIn(b"secret", data)
-        # Read once: what comes later is not there.
+        # The folder is read once: later files do not appear.
         (page / "late.js").write_text("let b;")
         self.assertEqual(studio.ask("GET", "late.js")[0], 404)
         result = self.rholm("studio", "--no-open", "--page", self.folder, code=1)
@@ -103,7 +103,7 @@ class Work(CliTest):
         self.rholm("make", "bumpy", "-o", "a.ply")
         self.rholm("analyze", "a.ply", "--degree", "4", "-o", "a.h5")
         studio = Studio(self, "a.ply", "a.h5")
-        for _ in range(2):  # in every page
+        for _ in range(2):  # the same for every page
             self.assertEqual([(i["name"], i["kind"]) for i in studio.begin()["items"]],
                              [("a.ply", "mesh"), ("a.h5", "expansion")])
 
@@ -235,12 +235,12 @@ class Work(CliTest):
         studio = Studio(self, "--max-upload", 1000)
         studio.begin()
         self.assertEqual(studio.ask("POST", "api/file?name=a.off", TETRAHEDRON)[0], 200)
-        # Refused by what it says, before it comes.
+        # The request is refused by its stated size, before its data arrives.
         with socket.create_connection(("127.0.0.1", studio.port), timeout=TIMEOUT) as connection:
             connection.sendall(f"POST /{studio.token}/api/file?name=a.ply HTTP/1.1\r\nHost: 127.0.0.1:"
                                f"{studio.port}\r\nContent-Length: 999999999999\r\n\r\n".encode())
             self.assertIn(b" 413 ", connection.recv(1000).split(b"\r\n")[0])
-        # And where nothing is said of how much will come.
+        # The request does not state its size.
         def chunks():
             for _ in range(100):
                 yield b"x" * 100
@@ -248,7 +248,7 @@ class Work(CliTest):
             status, _, data = studio.ask("POST", "api/file?name=a.ply", chunks())
             self.assertEqual(status, 413, data)
         except (BrokenPipeError, ConnectionResetError):
-            pass  # it has hung up before all was sent, and its answer is lost with that
+            pass  # the program closed the connection early; its answer is lost
         self.assertEqual(len(studio.json("GET", "api/state")["items"]), 1)
 
     def test_requests_that_are_none(self):
@@ -279,7 +279,7 @@ class End(CliTest):
             self.assertEqual(studio.ask("GET", "api/save?item=1&format=ply")[0], 200)
             self.assertEqual(studio.end(number), 0)
             self.assertEqual(studio.process.stdout.read(), "")
-            self.assertEqual(self.files(), [])  # nor temporary ones
+            self.assertEqual(self.files(), [])  # no temporary files either
         studio = Studio(self)
         self.assertEqual(studio.json("POST", "api/quit"), {"quit": True})
         self.assertEqual(studio.process.wait(TIMEOUT), 0)

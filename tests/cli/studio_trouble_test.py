@@ -1,5 +1,5 @@
-"""rholm studio where things go wrong: more than it takes, all at once, pages that go while it works. What
-is asked is answered, nothing is lost, and memory comes back."""
+"""rholm studio under difficult conditions: too large requests, many at the same time, pages that close
+during work. Requests are answered, nothing is lost, and memory is returned."""
 
 import json
 import os
@@ -13,44 +13,44 @@ sys.path.insert(0, os.path.dirname(__file__))
 from harness import NIGHTLY, TIMEOUT, CliTest, main, nightly_too, until
 from studio_program import LONG_JOB, TETRAHEDRON, Studio
 
-LONG = os.environ.get("RHOLM_LONG") == "1"  # whether to wait for what takes minutes
+LONG = os.environ.get("RHOLM_LONG") == "1"  # True where tests of minutes are wanted
 MIB = 1 << 20
 SANITIZED = os.environ.get("RHOLM_TEST_SANITIZED") == "1"
 
 
 def is_compared(test):
-    """Whether memory can be compared: not with a sanitizer's allocator, which keeps what is freed."""
+    """Returns true if memory can be compared; a sanitizer's allocator keeps freed memory."""
     if SANITIZED:
         print(f"{test.id()}: memory is not compared, as a sanitizer keeps it", file=sys.stderr)
     return not SANITIZED
 
 
 def gives_back(test, studio, most):
-    """That the program comes to have fewer bytes than that (memory goes back some times a second)."""
+    """Waits until the program has fewer bytes than `most` (memory is returned several times a second)."""
     if is_compared(test):
         until(lambda: resident(studio) < most, f"less than {most} bytes", studio.process)
 
 
 def has_taken_less(test, studio, most):
-    """That the program has never had so many bytes."""
+    """Checks that the program has never had `most` bytes."""
     if is_compared(test):
         test.assertLess(highest(studio), most)
 
 
 def resident(studio):
-    """Bytes of memory that the program has."""
+    """Returns the bytes of memory that the program has."""
     with open(f"/proc/{studio.process.pid}/status") as status:
         return next(1024 * int(line.split()[1]) for line in status if line.startswith("VmRSS:"))
 
 
 def highest(studio):
-    """The most that it has ever had."""
+    """Returns the largest number of bytes that the program has had."""
     with open(f"/proc/{studio.process.pid}/status") as status:
         return next(1024 * int(line.split()[1]) for line in status if line.startswith("VmHWM:"))
 
 
 def listener(studio):
-    """An open stream of events, as a page has one."""
+    """Opens a stream of events, as a page does."""
     connection = socket.create_connection(("127.0.0.1", studio.port), timeout=TIMEOUT)
     connection.sendall(f"GET /{studio.token}/api/events?session={studio.session} HTTP/1.1\r\n"
                        f"Host: 127.0.0.1:{studio.port}\r\n\r\n".encode())
@@ -75,7 +75,7 @@ class Large(CliTest):
         sparse = self.folder / "huge.ply"
         with open(sparse, "wb") as file:
             file.truncate(1 << 31)
-        # As by curl, which waits for leave to send, and as by a browser, which does not.
+        # Like curl, which waits for permission to send, and like a browser, which does not.
         for expect in ("Expect: 100-continue\r\n", ""):
             with socket.create_connection(("127.0.0.1", studio.port), timeout=TIMEOUT) as connection:
                 connection.sendall(f"POST /{studio.token}/api/file?name=huge.ply HTTP/1.1\r\nHost: 127.0.0.1:"
@@ -86,11 +86,11 @@ class Large(CliTest):
                         try:
                             connection.sendfile(file, count=64 * MIB)
                         except ConnectionError:
-                            pass  # it has hung up
+                            pass  # the program has closed the connection
                 try:
                     self.assertIn(b" 413 ", connection.recv(1000).split(b"\r\n")[0])
                 except ConnectionError:
-                    self.assertFalse(expect)  # who sends on regardless may lose the answer
+                    self.assertFalse(expect)  # clients that send on regardless may lose the answer
         has_taken_less(self, studio, before + 32 * MIB)
         self.assertEqual(self.files(), ["huge.ply"])
         self.assertEqual(len(studio.json("GET", "api/state")["items"]), 1)
@@ -138,7 +138,7 @@ class Many(CliTest):
         for _ in range(2):
             in_threads(1000, ask)
         self.assertEqual(wrong, [])
-        self.assertTrue(done)  # not all looks were taken over by later ones
+        self.assertTrue(done)  # some live requests were not replaced by later ones
         self.assertEqual(len(studio.json("GET", "api/state")["items"]), 1)
         gives_back(self, studio, after_one + 32 * MIB)
 
@@ -157,7 +157,7 @@ class Many(CliTest):
 
 
 class Slow(CliTest):
-    """Connections that take their time, and keep nobody else waiting."""
+    """Slow connections that must not delay others."""
 
     def connect(self, studio, text):
         connection = socket.create_connection(("127.0.0.1", studio.port), timeout=TIMEOUT)
@@ -166,13 +166,13 @@ class Slow(CliTest):
         return connection
 
     def trickle(self, connections, done):
-        """A byte of a header that does not end, for each, again and again."""
+        """Repeatedly sends a byte of an endless header on each connection."""
         while not done.wait(0.2):
             for connection in connections:
                 try:
                     connection.sendall(b"a")
                 except OSError:
-                    pass  # the studio has hung up
+                    pass  # the studio has closed the connection
 
     def test_without_the_token_they_take_nothing_from_those_with_it(self):
         studio = Studio(self)
@@ -184,12 +184,13 @@ class Slow(CliTest):
         try:
             for _ in range(20):
                 self.assertEqual(studio.ask("GET", "api/state")[0], 200)
-            # Nor do they stay: there is a time for all of a head, and the oldest go where there are too many.
+            # The connections do not stay: the time for a header is limited, and the oldest are closed if
+            # there are too many.
             for connection in slow:
                 try:
                     self.assertEqual(connection.recv(10), b"")
                 except ConnectionError:
-                    pass  # with a byte on its way
+                    pass  # a byte was on its way
         finally:
             done.set()
             sender.join()
@@ -219,7 +220,7 @@ class Slow(CliTest):
             sender.start()
             try:
                 self.assertEqual(studio.ask("GET", "api/state")[0], 200)
-                self.assertEqual(studio.end(number), 0)  # all of them still send
+                self.assertEqual(studio.end(number), 0)  # all connections still send
             finally:
                 done.set()
                 sender.join()
@@ -238,7 +239,7 @@ class Bodies(CliTest):
             self.assertIn(self.refused(studio, method, "api/session", 1), (413, 404), method)
         status, answer = studio.post(op="make", shape="x" * (most - 100))
         self.assertEqual(status, 400, answer)
-        # A number takes more memory than its text: many large bodies at once are read one by one.
+        # A number takes more memory than its text: many large bodies at the same time are read one by one.
         large = b'{"op": "look", "item": 1, "gains": [' + b"0," * (most // 2 - 100) + b"0]}"
 
         def ask(_):
@@ -250,14 +251,14 @@ class Bodies(CliTest):
         self.assertEqual(studio.ask("GET", "api/state")[0], 200)
 
     def refused(self, studio, method, path, length):
-        """The answer to a body that says its length, of which nothing is sent."""
+        """Returns the status of the answer to a body of stated length, of which nothing is sent."""
         with socket.create_connection(("127.0.0.1", studio.port), timeout=TIMEOUT) as connection:
             connection.sendall(f"{method} /{studio.token}/{path} HTTP/1.1\r\nHost: 127.0.0.1:{studio.port}\r\n"
                                f"Content-Length: {length}\r\nX-Session: {studio.session}\r\n\r\n".encode())
             return int(connection.recv(1000).split()[1])
 
     def pieces(self, studio, path, piece, n):
-        """Sends a body in pieces, until it is refused; its status, none if the answer was lost."""
+        """Sends a body in chunks until it is refused; returns its status, or None if the answer was lost."""
         with socket.create_connection(("127.0.0.1", studio.port), timeout=TIMEOUT) as connection:
             connection.sendall(f"POST /{studio.token}/{path} HTTP/1.1\r\nHost: 127.0.0.1:{studio.port}\r\n"
                                f"Transfer-Encoding: chunked\r\nX-Session: {studio.session}\r\n\r\n".encode())
@@ -279,7 +280,7 @@ class Bodies(CliTest):
         piece = b"100000\r\n" + bytes(MIB) + b"\r\n"
         self.assertIn(self.pieces(studio, "api/file?name=a.ply", piece, 400), (411, None))
         self.assertIn(self.pieces(studio, "api/step", piece, 400), (413, None))
-        self.assertIn(self.pieces(studio, "api/step", b"0" * MIB, 400), (400, None))  # a length that does not end
+        self.assertIn(self.pieces(studio, "api/step", b"0" * MIB, 400), (400, None))  # an unbounded length
         has_taken_less(self, studio, before + 300 * MIB)
         self.assertEqual(studio.ask("GET", "api/state")[0], 200)
 
@@ -310,7 +311,7 @@ class Gone(CliTest):
         self.assertEqual(studio.post(**LONG_JOB)[0], 202)
         until(lambda: resident(studio) > before + 64 * MIB, "the job takes no memory")
         page.close()
-        # Nobody asks for anything any more.
+        # No page sends requests any more.
         until(lambda: resident(studio) < before + 32 * MIB, "the job ends with its page")
         self.assertEqual(studio.ask("GET", "api/state")[0], 404)
 

@@ -1,4 +1,4 @@
-"""The command line itself: help, versions, wrong words, exit codes, where output goes."""
+"""The command line: help, versions, wrong words, exit codes, places of output."""
 
 import os
 import re
@@ -23,10 +23,10 @@ class Help(CliTest):
         version = re.search(r'kVersion = "([^"]+)"', header)[1]
         said = self.rholm("--version").out.splitlines()
         self.assertEqual(said[0], f"rholm {version}")
-        # Each library that can be left out is named once, as used or as left out.
+        # Each optional library is named once, as used or as left out.
         parts = [part for line in said[1:] for part in re.split(r"^with(?:out)? |, ", line)[1:]]
         self.assertEqual(sorted(parts), sorted(PARTS))
-        # And that of the files that people cite and read.
+        # The version is also in the files that people cite and read.
         citation = (SOURCE / "CITATION.cff").read_text()
         self.assertEqual(re.search(r"^version: (.+)$", citation, re.M)[1], version)
         released = re.search(r"^## \[(\d.*?)\] - (.+)$", (SOURCE / "CHANGELOG.md").read_text(), re.M)
@@ -48,7 +48,7 @@ class Help(CliTest):
             self.assertIn("--threads N", text)
             self.assertRegex(text, rf"\nExamples?:\n  rholm {command} ")
             for line in text.splitlines():
-                if not line.startswith("  rholm "):  # an example may be longer
+                if not line.startswith("  rholm "):  # examples may be longer
                     self.assertLessEqual(len(line), 80, line)
 
     def test_help_wins_over_wrong_options(self):
@@ -96,7 +96,7 @@ class WrongUsage(CliTest):
             with self.subTest(words):
                 result = self.rholm(*words, code=2)
                 self.assertNotIn("did you mean", result.err)
-        # What follows an option is its value, and numbers are no options.
+        # A word after an option is its value, and numbers are not options.
         self.rholm("rotate", "--help")
         self.refused("analyze", "a.off", "-o", "--degre", "--degree", "-1", saying="0 ... 16384")
 
@@ -245,7 +245,7 @@ class Talk(CliTest):
                            ("smooth no.ply --region ball:0,0,0,1 --wavelength 1 --fit=mean -o o.ply", "--fitting")):
             said = self.rholm(*line.split(), code=1).err
             self.assertIn(f" is {name} now; the next version refuses the old name", said)
-            self.assertIn("no.", said.splitlines()[-1])  # the file that is missing, not the option
+            self.assertIn("no.", said.splitlines()[-1])  # the file is missing
 
     def test_quiet_says_nothing(self):
         self.rholm("make", "sphere", "--subdivisions", "2", "-o", "s.ply")

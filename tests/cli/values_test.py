@@ -1,5 +1,5 @@
-"""Every option of every command, taken from the program's own description, with values that cannot
-be: exit code 2, and a message with the option and the value, before any file is opened."""
+"""Every option of every command, taken from the program's own description, with impossible values: exit
+code 2, and a message with the option and the value, before any file is opened."""
 
 import os
 import re
@@ -9,8 +9,8 @@ import sys
 sys.path.insert(0, os.path.dirname(__file__))
 from harness import NIGHTLY, CliTest, RHOLM, STUDIO, main, nightly_too
 
-# What else a command needs. The files are not there: a value that is accepted ends with exit
-# code 1, one that is refused with 2.
+# Other words that a command needs. The files do not exist: an accepted value ends with exit code 1, a
+# refused one with 2.
 NEEDS = {
     "info": ["none.ply"], "center": ["none.ply"],
     "analyze": ["none.ply", "-o", "out.h5"],
@@ -30,13 +30,13 @@ NEEDS = {
     "recenter": ["none.h5", "-o", "out.h5"], "completion": ["bash"],
 }
 
-# Values that are words of the user's own: names of files, of units, labels.
+# Options whose values are words of the user's choice: names of files, units, labels.
 FREE = {"output", "against", "like", "shape", "from", "to", "gain", "model", "labels",
         "length-unit", "outputs", "page", "work-dir"}
 
 BAD = ["", "text", "nan", "-inf", "1e400", "1,2,3,4,5,6,7,8,9,10,11,12,"]
 
-# One value beyond each limit that the help texts give.
+# One value beyond each limit that the help texts state.
 BEYOND = {
     "threads": ["-1", "4097"], "seed": ["-1", "99999999999999999999"], "weld": ["-1e-9"],
     "analyze --degree": ["-1", "16385", "1.5", "0x10"], "report --degree": ["-1", "16385"],
@@ -79,8 +79,8 @@ if STUDIO:
 
 
 def described_options():
-    """(command, option) of each option with a value, as the program tells them to fish, and whether
-    its values are a list of words."""
+    """Returns {(command, option): True if its values are a list of words} for options with a value, as the
+    program describes them to fish."""
     text = subprocess.run([RHOLM, "completion", "fish"], capture_output=True, text=True,
                           check=True).stdout
     found = {}
@@ -94,7 +94,7 @@ def described_options():
 
 class Values(CliTest):
     def refused(self, command, option, value):
-        """Exit code 2 with one message that has the option and the value."""
+        """Checks for exit code 2 with one message that has the option and the value."""
         needed = list(NEEDS[command])
         if f"--{option}" in needed:
             at = needed.index(f"--{option}")
@@ -121,8 +121,9 @@ class Values(CliTest):
     def test_a_value_that_is_no_value(self):
         for k, ((command, option), is_word) in enumerate(described_options().items()):
             if option == "threads" and command != "info":
-                continue  # the same for all
-            # No value and a word for each; of the numbers, which one place reads, another in turn.
+                continue  # tested once for all commands
+            # Each option is tested without a value and with a word. Numbers, which are read in one place,
+            # get others in turn.
             values = BAD[:2] if is_word else [*BAD[:2], BAD[2 + k // 3 % (len(BAD) - 2)]]
             for value in values if NIGHTLY else [values[k % len(values)]]:
                 if value and option in FREE:

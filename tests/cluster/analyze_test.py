@@ -1,4 +1,4 @@
-"""rholm-mpi analyze: the bytes of rholm analyze on any number of ranks, and how runs end."""
+"""rholm-mpi analyze gives the bytes of rholm analyze on any number of ranks; how runs end."""
 
 import json
 import os
@@ -15,7 +15,7 @@ class Analyze(ProgramTest):
     every_way = False
 
     def check_same(self, *words, ranks=RANKS, threads=(1, 2), code=0):
-        """The file, and the report but for its times."""
+        """Compares the file, and the report except for its times."""
         one = self.rholm("analyze", *words, "--json", "-o", "one.h5", code=code)
         for n in ranks:
             for t in threads if self.every_way else threads[n % len(threads):][:1]:
@@ -73,7 +73,7 @@ class SameBytes(Analyze):
 
 @nightly
 class SameBytesInEveryWay(SameBytes):
-    """Any number of threads with any number of ranks."""
+    """Runs any number of threads with any number of ranks."""
 
     every_way = True
 
@@ -143,7 +143,7 @@ class Refused(Analyze):
 
 
 class Stopped(Analyze):
-    """Runs that end too early: nothing is written, and no rank stays."""
+    """Runs that end too early write nothing and leave no rank behind."""
 
     def setUp(self):
         super().setUp()
@@ -154,21 +154,22 @@ class Stopped(Analyze):
         return self.folder.with_suffix(".mark")
 
     def start_working(self, ranks):
-        """Every triangle has nodes of its own: some seconds of a processor. A run that is done before it is ended
-        waits where its file is to get its name."""
+        """Starts a run of some seconds: every triangle has its own nodes. A run that is done before it is
+        stopped waits where its file is about to get its name."""
         self.mark.unlink(missing_ok=True)
         run = self.start(RHOLM_MPI, "analyze", "mesh.ply", "--degree", 700, "--precision", 1e-13, "-o", "o.h5",
                          "--threads", 1, "--patience", 10, ranks=ranks, environment=held(self.mark, "o.h5$"))
-        # Ranks open the mesh when rank 0 has told them to: before MPI has begun nobody can say that one is stopped.
+        # Ranks open the mesh after a message of rank 0. Before MPI has started, no rank can report that it
+        # stops.
         run.until(lambda: run.have_mapped("mesh.ply") or self.mark.exists(), "all ranks have the mesh")
         return run
 
     def check_ended(self, run, by_mpiexec=False, killed=None):
         run.wait()
-        if not by_mpiexec:  # that of MPICH ends with 0 then
+        if not by_mpiexec:  # the exit code of MPICH's mpiexec is 0 then
             self.assertNotEqual(run.code, 0, run)
         left = [p.name for p in self.folder.iterdir()]
-        if killed == 0 or self.mark.exists():  # who is killed with a file that has no name yet leaves it
+        if killed == 0 or self.mark.exists():  # a rank killed with an unnamed file leaves the file behind
             left = [name for name in left if not name.startswith(".rholm.")]
         self.assertEqual(left, ["mesh.ply"])
         self.assertEqual(run.pids(), {})

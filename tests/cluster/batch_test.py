@@ -1,4 +1,4 @@
-"""rholm-mpi batch: the bytes of rholm batch on any number of ranks, however it was stopped before."""
+"""rholm-mpi batch gives the bytes of rholm batch on any number of ranks, also after interrupted runs."""
 
 import csv
 import io
@@ -17,7 +17,7 @@ class Batch(MpiTest):
         return subprocess.run([RHOLM, *[str(w) for w in words]], cwd=self.folder, check=True, capture_output=True)
 
     def make_shapes(self, n):
-        """Shapes that are star-shaped, and some that are none; writes shapes.csv."""
+        """Makes shapes, some of them not star-shaped, and writes shapes.csv."""
         (self.folder / "s").mkdir()
         rows = []
         for i in range(n):
@@ -51,7 +51,7 @@ class SameBytes(Batch):
         rows = self.make_shapes(10)
         for out in ("one.h5", "one.csv"):
             self.rholm(*self.words(out))
-        # Formats and numbers of threads meet each other; a format is what rank 0 makes of its rows.
+        # Formats are combined with numbers of threads; rank 0 writes the format from its rows.
         ways = ((1, 1, "all.h5"), (2, 2, "all.csv"), (3, 2, "all.h5"), (4, 1, "all.csv"))
         if self.every_way:
             ways = itertools.product(RANKS, (1, 2), ("all.h5", "all.csv"))
@@ -99,7 +99,7 @@ class SameBytes(Batch):
 
 @nightly
 class SameBytesInEveryWay(SameBytes):
-    """Any number of threads with any number of ranks."""
+    """Runs any number of threads with any number of ranks."""
 
     every_way = True
 
@@ -136,8 +136,8 @@ class Usage(Batch):
 
 
 class Stopped(Batch):
-    """Runs that end too early, and go on. From some row on all shapes wait for a writer: the rows before it are done
-    then, and the run lasts until it is stopped."""
+    """Runs that end too early and are continued. From some row on, all shapes wait for a writer: the rows
+    before it are done then, and the run lasts until it is stopped."""
 
     ROWS = 16
 
@@ -150,9 +150,9 @@ class Stopped(Batch):
         return rows_done(self.folder / "all.h5.journal")
 
     def stopped_at(self, share, ranks, stop):
-        """A run after stop(run), which came when that share of the rows was done."""
+        """Returns a run after stop(run), which is called when that share of the rows is done."""
         done = int(share * len(self.rows))
-        waiting = [self.folder / path for _, path, _ in self.rows[done:]]  # also for a file that is not there
+        waiting = [self.folder / path for _, path, _ in self.rows[done:]]  # one of the files does not exist
         for path in waiting:
             if path.is_file():
                 path.rename(path.with_suffix(".kept"))
@@ -169,7 +169,7 @@ class Stopped(Batch):
         return run
 
     def check_stopped(self, run, says=None, by_mpiexec=False):
-        if not by_mpiexec:  # that of MPICH ends with 0 then
+        if not by_mpiexec:  # the exit code of MPICH's mpiexec is 0 then
             self.assertNotEqual(run.code, 0, run)
         self.assertFalse((self.folder / "all.h5").exists())
         if says is not None:
@@ -214,7 +214,7 @@ class Stopped(Batch):
         for stopped in all_stopped:
             run = self.stopped_at(0.1, 3, lambda run: os.kill(run.pids()[stopped], signal.SIGSTOP))
             says = rf"error: rank {stopped}\b.* has not been heard of .*"
-            if stopped != 0:  # rank 0 knows how much is kept
+            if stopped != 0:  # rank 0 knows the number of rows kept
                 says += r"; \d+ of 19 rows are kept in all.h5.journal: the same command goes on from there$"
             self.check_stopped(run, says)
             self.check_goes_on_over_ranks(2)
@@ -233,7 +233,7 @@ class Stopped(Batch):
     def test_a_full_disk_is_said_once(self):
         (self.folder / "small").mkdir()
         words = list(self.words("small/all.h5", degree=24))
-        # A file system of its own for the results, in a name space of its own.
+        # The results are on a separate file system in a separate name space.
         script = 'mount -t tmpfs -o size=64k none small && exec "$@"'
         if subprocess.run(["unshare", "-m", "sh", "-c", script, "sh", "true"], cwd=self.folder,
                           capture_output=True).returncode != 0:

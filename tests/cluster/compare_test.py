@@ -1,4 +1,4 @@
-"""rholm-mpi compare: the report of rholm compare on any number of ranks, and how runs end."""
+"""rholm-mpi compare gives the report of rholm compare on any number of ranks; how runs end."""
 
 import os
 import signal
@@ -55,7 +55,7 @@ class SameReport(Compare):
 
 @nightly
 class SameReportInEveryWay(SameReport):
-    """Any number of threads with any number of ranks."""
+    """Runs any number of threads with any number of ranks."""
 
     every_way = True
 
@@ -100,9 +100,9 @@ class Failures(Compare):
             run.until(lambda: run.seconds_worked(0) >= begin + 0.5, "rank 0 has worked")
             os.kill(run.process.pid if victim is None else run.pids()[victim], what)
             run.wait()
-            if victim is not None:  # mpiexec of MPICH ends with 0 after Ctrl-C
+            if victim is not None:  # the exit code of MPICH's mpiexec is 0 after Ctrl-C
                 self.assertNotEqual(run.code, 0, run)
-            self.assertNotIn("Hausdorff", run.stdout, run)  # mpiexec of MPICH writes there, too
+            self.assertNotIn("Hausdorff", run.stdout, run)  # MPICH's mpiexec writes to it, too
             self.assertEqual(run.pids(), {})
 
         self.at_once(check, (3, 1, signal.SIGKILL), (2, 0, signal.SIGKILL), (3, None, signal.SIGINT))

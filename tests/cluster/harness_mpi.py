@@ -1,4 +1,5 @@
-"""Runs programs over ranks as a user does, with either MPI: MPIEXEC is the program that starts them."""
+"""Runs programs on several ranks as a user does, with either MPI. MPIEXEC names the program that starts
+ranks."""
 
 import os
 import shutil
@@ -18,28 +19,29 @@ from harness import NIGHTLY, held, main, nightly, nightly_too, rows_done, second
 RHOLM = os.environ.get("RHOLM", "rholm")
 RHOLM_MPI = os.environ.get("RHOLM_MPI", "rholm-mpi")
 MPIEXEC = os.environ.get("MPIEXEC", "mpiexec")
-# What hangs is ended after this time, of which nothing else depends.
+# Seconds after which a run that hangs is ended. No result depends on the value.
 TIMEOUT = 900
 RANKS = (1, 2, 3, 4)
-# Of Open MPI; MPICH reads none of these. More ranks than processors, as root, in a container, where
-# ranks that wait must not be in the way of the others. Ranks of one machine take the transports
-# vader and self anyway; naming them spares the others' start, a fifth of the processor time of a run.
+# Settings of Open MPI; MPICH reads none of them. Tests run more ranks than processors, as root, in a
+# container. Waiting ranks must leave processors to the others. Ranks of one machine use the transports vader
+# and self anyway; naming them avoids starting others, which takes a fifth of a run's processor time.
 ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
                "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
                "OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self,vader"}
-# After a rank that failed mpiexec waits a second before it ends the others by SIGTERM, and one more before SIGKILL,
-# also when all have ended. Ranks that end by themselves have nothing left to do when the first of them has ended.
+# After a rank has failed, mpiexec waits a second before SIGTERM for the others and another before SIGKILL,
+# even if all have ended. Ranks that end by themselves have nothing left to do when the first of them has
+# ended.
 NO_GRACE = {"OMPI_MCA_odls_base_sigkill_timeout": "0"}
 
 
 class RanksRun:
-    """A run that goes on: words started on n ranks in a folder."""
+    """A running program: the command `words` on n ranks in a folder."""
 
     def __init__(self, words, ranks, folder, wrap=(), environment=None):
         self.folder, self.ranks = Path(folder), ranks
         self.out, self.err = tempfile.TemporaryFile(), tempfile.TemporaryFile()
-        # Open MPI's mpiexec fails where another one has just made the folder that all of a user share.
+        # mpiexec of Open MPI fails if another one has just made the folder that all runs of a user share.
         self.session = tempfile.TemporaryDirectory(prefix="mpi-", ignore_cleanup_errors=True)
         self.process = subprocess.Popen(
             [*wrap, MPIEXEC, "-n", str(ranks), *[str(w) for w in words]], cwd=folder, stdout=self.out,
@@ -49,7 +51,7 @@ class RanksRun:
         self.program = os.path.basename(str(words[0]))
 
     def pids(self):
-        """Of the ranks, by their number: they run in our folder."""
+        """Returns the process ids of the ranks by number. They are found by their working folder."""
         found = {}
         for entry in Path("/proc").iterdir():
             if not entry.name.isdigit():
@@ -68,7 +70,7 @@ class RanksRun:
         return found
 
     def until(self, is_true, what):
-        """Waits for a state, before which the run may not end."""
+        """Waits for a state; the run must not end before it."""
         begin = time.monotonic()
         while not is_true():
             if self.process.poll() is not None or time.monotonic() - begin > TIMEOUT:
@@ -78,7 +80,7 @@ class RanksRun:
             time.sleep(0.005)
 
     def have_mapped(self, name):
-        """Whether all ranks have this file in their memory."""
+        """Returns true if all ranks have mapped this file into memory."""
         pids = self.pids()
         try:
             return len(pids) == self.ranks and all(
@@ -87,7 +89,7 @@ class RanksRun:
             return False
 
     def seconds_worked(self, rank):
-        """Processor time of a rank: 0 if it is not there."""
+        """Returns the processor time of a rank, or 0 if the rank does not exist."""
         try:
             return seconds_worked(self.pids()[rank])
         except (KeyError, OSError):
@@ -99,8 +101,9 @@ class RanksRun:
         self.process.kill()
 
     def wait(self, seconds=TIMEOUT):
-        """The exit code; the texts are in stdout and stderr. Nothing is left running: mpiexec may end before
-        ranks that it has killed, and these still write until they notice."""
+        """Waits for the end and keeps the exit code; texts are in stdout and stderr. No process is left
+        running: mpiexec may end before ranks that it has killed, and these still write until they
+        notice."""
         begin = time.monotonic()
         try:
             self.code = self.process.wait(seconds)
@@ -125,7 +128,7 @@ class RanksRun:
 
 
 class MpiTest(unittest.TestCase):
-    """Each test has an empty folder, self.folder, in which ranks run."""
+    """Each test has its own empty folder, self.folder, in which ranks run."""
 
     def setUp(self):
         self.all = Path(os.path.realpath(tempfile.mkdtemp(prefix="rholm-mpi-test-")))
@@ -139,8 +142,8 @@ class MpiTest(unittest.TestCase):
         return self.own.folder
 
     def at_once(self, check, *cases):
-        """check(*case) of every case, all at the same time, each in a copy of the folder: for runs that mostly
-        wait."""
+        """Calls check(*case) for all cases at the same time, each in a copy of the folder. It suits runs
+        that mostly wait."""
         given = self.folder
 
         def one(number, case):
@@ -156,23 +159,23 @@ class MpiTest(unittest.TestCase):
         return RanksRun(words, ranks, self.folder, **options)
 
     def apart(self, program, *words, ranks, **options):
-        """Rank r runs in the folder r: each may have other files under the same names."""
+        """Runs rank r in the folder r, so that ranks may have different files of the same name."""
         script = 'cd "${OMPI_COMM_WORLD_RANK:-$PMI_RANK}" && exec "$@"'
         return self.finished("sh", "-c", script, "sh", program, *words, ranks=ranks, **options)
 
     def errors(self, run):
-        """What a program of ours has said went wrong."""
+        """Returns the error messages of a program of ours."""
         return [line for line in run.stderr.splitlines() if line.startswith("rholm") and ": error:" in line]
 
     def finished(self, *words, ranks, seconds=TIMEOUT, **options):
-        """A run whose ranks end by themselves."""
+        """Returns a finished run whose ranks end by themselves."""
         run = self.start(*words, ranks=ranks, environment=NO_GRACE, **options)
         run.wait(seconds)
         return run
 
 
 class ProgramTest(MpiTest):
-    """Of rholm-mpi beside rholm, which works alone."""
+    """Compares rholm-mpi with rholm, which runs alone."""
 
     def rholm(self, *words, code=0):
         run = subprocess.run([RHOLM, *[str(w) for w in words]], cwd=self.folder, capture_output=True, text=True)
@@ -186,7 +189,7 @@ class ProgramTest(MpiTest):
         return (self.folder / name).read_bytes()
 
     def exchanged(self, *words, ranks=2):
-        """How many bytes ranks have sent to each other."""
+        """Returns the number of bytes that ranks have sent to each other."""
         run = self.finished(RHOLM_MPI, *words, "--timings", ranks=ranks)
         self.assertEqual(run.code, 0, run)
         return 1e6 * float(run.stderr.split(" MB in ")[0].split()[-1])

@@ -1,4 +1,4 @@
-"""One message of more than 2^31 bytes, which MPI cannot count."""
+"""Sends one message of more than 2^31 bytes, whose length exceeds MPI's counts."""
 
 import os
 import sys

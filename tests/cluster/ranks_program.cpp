@@ -1,6 +1,6 @@
-// Ranks put to work: ranks_program CASE[,CASE...] [RANK]. Rank 0 prints each case when it begins.
-// Each rank leaves the code that it ends with in code.RANK; a check that does not hold is an error
-// of that rank. Run by ranks_test.py.
+// Runs cases on several ranks: ranks_program CASE[,CASE...] [RANK]. Rank 0 prints each case when it
+// begins. Each rank writes its exit code to code.RANK. A check that fails is an error of that rank.
+// The program is run by ranks_test.py.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Small, so that few bytes come in many pieces.
+// Size in bytes of a block, so small that short messages are split into many blocks.
 constexpr std::size_t kPiece = 1000;
 
 std::atomic<int> stop_signal = 0;
@@ -35,7 +35,7 @@ void expect(bool holds, const std::string& what) {
   if (!holds) throw Error(ErrorCode::kUnsupported, "not so: " + what);
 }
 
-// Bytes that nobody else sends.
+// Returns bytes that no other rank sends.
 std::string bytes_of(std::size_t size, int salt) {
   std::string bytes(size, '\0');
   for (std::size_t i = 0; i < size; ++i) {
@@ -60,7 +60,7 @@ void collect(Ranks& ranks) {
   }
 }
 
-// Messages of all sizes to the next rank (itself, if there is one rank only).
+// Sends messages of all sizes to the next rank (to itself, if there is only one rank).
 void order(Ranks& ranks) {
   const int to = (ranks.rank() + 1) % ranks.size();
   for (int i = 0; i < 500; ++i) {
@@ -89,7 +89,7 @@ std::string result_of(std::size_t part) {
   return bytes_of(part * 31 % 6000, static_cast<int>(part));
 }
 
-// A part and what it is worked on.
+// The work for one part.
 using Work = std::function<void(Ranks& ranks, std::size_t part)>;
 
 void parts(Ranks& ranks, const Work& extra, const std::function<void(std::size_t)>& on_take) {
@@ -112,9 +112,9 @@ void parts(Ranks& ranks, const Work& extra, const std::function<void(std::size_t
   for (const auto& [part, n] : times) expect(n == 1, fmt::format("part {} once", part));
 }
 
-// Results come in their order, of the rank that had to work the part if they are dealt, and no part
-// is begun far ahead of them. Invalid input from part `wrong` on is thrown on rank 0, once, and
-// nothing is taken from there on.
+// Results arrive in order. If parts are dealt, each result comes from the rank to which its part
+// belongs. No part begins far ahead of the results. Part `wrong` has invalid input: rank 0 throws
+// the error once, and takes no result from there on.
 void ordered(Ranks& ranks, bool dealt, std::size_t count, std::size_t wrong) {
   constexpr int kThreads = 2;
   const auto size = static_cast<std::size_t>(ranks.size());
@@ -128,7 +128,7 @@ void ordered(Ranks& ranks, bool dealt, std::size_t count, std::size_t wrong) {
         [&](std::size_t part, int threads) {
           expect(threads == 1, "one thread a part");
           expect(ranks.rank() != 0 || dealt || part < next + 2 * kThreads * size, "not far ahead");
-          if (part % 50 == 7) std::this_thread::sleep_for(20ms);  // the others get ahead of it
+          if (part % 50 == 7) std::this_thread::sleep_for(20ms);  // other parts overtake it
           ++progress;
           if (part >= wrong) {
             throw Error(ErrorCode::kInvalidInput, fmt::format("part {} is wrong", part));
@@ -155,7 +155,7 @@ void ordered(Ranks& ranks, bool dealt, std::size_t count, std::size_t wrong) {
          "what was thrown: " + thrown);
 }
 
-// A stage ends on all ranks at once.
+// A stage ends on all ranks at the same time.
 void stages(Ranks& ranks) {
   RankExecutor executor(ranks, 2);
   const auto files = [&](std::size_t stage) {
@@ -187,7 +187,7 @@ void stages(Ranks& ranks) {
 
 void nothing(std::size_t) {}
 
-// Work that gets on, and ends when the rank is told to.
+// Makes progress until the rank is told to stop.
 void until_stopped() {
   while (stop_signal == 0) {
     ++progress;
@@ -195,8 +195,8 @@ void until_stopped() {
   }
 }
 
-// Others see it once it is complete. Tests look for names by their beginning: the part has another
-// one.
+// Other ranks see the file when it is complete. Tests search for files by the beginning of the
+// name: the partial file has another beginning.
 void write_whole(const std::string& name, const std::string& text) {
   const std::string part =
       fmt::format("part.{}.{}", std::hash<std::thread::id>()(std::this_thread::get_id()), name);
@@ -206,8 +206,8 @@ void write_whole(const std::string& name, const std::string& text) {
 
 void run_case(Ranks& ranks, const std::string& name, int chosen) {
   const auto is_chosen = [&](const Ranks& here) { return here.rank() == chosen; };
-  // On a busy machine the others would work all parts before the chosen rank asks for one: from
-  // some part on they wait for it.
+  // On a busy machine the other ranks would take all parts before the chosen rank asks for one.
+  // From some part on they wait for it.
   const auto wait_for_chosen = [&](const Ranks& here, std::size_t part) {
     while (!is_chosen(here) && part > 20 && !std::filesystem::exists("met")) {
       ++progress;
@@ -234,7 +234,7 @@ void run_case(Ranks& ranks, const std::string& name, int chosen) {
     }
   } else if (name == "stages") {
     stages(ranks);
-  } else if (name == "throws") {  // in a part, while others have some
+  } else if (name == "throws") {  // while other ranks have parts
     std::atomic<int> n = 0;
     const Work work = [&](const Ranks& here, std::size_t part) {
       wait_for_chosen(here, part);
@@ -245,7 +245,7 @@ void run_case(Ranks& ranks, const std::string& name, int chosen) {
       std::this_thread::sleep_for(1ms);
     };
     parts(ranks, work, nothing);
-  } else if (name == "throws-at-once") {  // all ranks, each its own error
+  } else if (name == "throws-at-once") {  // all ranks, each with another error
     throw Error(ErrorCode::kInvalidInput, fmt::format("bad file {}", ranks.rank()));
   } else if (name == "does-not-take") {
     const Work slow = [](Ranks&, std::size_t part) {
@@ -254,7 +254,7 @@ void run_case(Ranks& ranks, const std::string& name, int chosen) {
     parts(ranks, slow, [](std::size_t part) {
       if (part == 20) throw Error(ErrorCode::kIo, "the disk is full");
     });
-  } else if (name == "stuck") {  // alive, but its part does not end
+  } else if (name == "stuck") {  // the rank is alive, but its part does not end
     ranks.set_patience(3);
     const Work work = [&](const Ranks& here, std::size_t part) {
       wait_for_chosen(here, part);
@@ -263,14 +263,14 @@ void run_case(Ranks& ranks, const std::string& name, int chosen) {
       while (true) std::this_thread::sleep_for(10ms);
     };
     parts(ranks, work, nothing);
-  } else if (name == "slow") {  // as long as need be
+  } else if (name == "slow") {  // until it is told to stop
     const Work work = [](const Ranks& here, std::uint64_t) {
       write_whole(fmt::format("works.{}", here.rank()), std::to_string(getpid()));
       until_stopped();
     };
     ranks.set_patience(5);
     parts(ranks, work, nothing);
-  } else if (name == "leaves") {  // rank 0 has nothing for the others
+  } else if (name == "leaves") {  // the others wait for rank 0
     if (ranks.rank() != 0) ranks.receive(Tag::kTest);
   } else {
     throw Error(ErrorCode::kUnsupported, "no such case: " + name);
@@ -289,7 +289,7 @@ Ending ending_of(const std::exception_ptr& what) {
   }
 }
 
-// All cases in one run; every case but the last ends with a barrier.
+// Runs all cases in one run; every case except the last ends with a barrier.
 void run_cases(Ranks& ranks, const std::string& names, int chosen) {
   std::stringstream list(names);
   for (std::string name; std::getline(list, name, ',');) {

@@ -23,13 +23,14 @@ class Ranks(MpiTest):
         else:
             self.assertNotEqual(run.code, 0, what)
             self.assertEqual(len(errors), 1, what)
-        if graceful:  # every rank has ended by itself, with that code
+        if graceful:  # every rank has ended by itself with that code
             codes = {p.name: p.read_text() for p in self.folder.glob("code.*")}
             self.assertEqual(codes, {f"code.{i}": str(code) for i in range(ranks)}, what)
         return run, errors
 
     def test_messages_arrive_parts_are_worked_and_ranks_without_work_end_with_rank_0(self):
-        # One start of the ranks for all: what does not hold is in the error. A case says when it has begun.
+        # Ranks are started once for all cases. Errors name the failed check; each case prints its name at
+        # its start.
         cases = ("collect", "order", "parts", "ordered", "stages", "leaves")
         for ranks in RANKS:
             run, _ = self.case(",".join(cases), ranks=ranks)
@@ -69,7 +70,7 @@ class Signals(MpiTest):
         return run, [int((self.folder / f"works.{i}").read_text()) for i in range(ranks)]
 
     def check_ended(self, run):
-        """wait() has seen all ranks go."""
+        """wait() has checked that no rank is left."""
         run.wait()
         self.assertNotEqual(run.code, 0, run)
 
@@ -96,7 +97,7 @@ class Signals(MpiTest):
         def check(ranks):
             run, _ = self.started(ranks)
             os.kill(run.process.pid, signal.SIGINT)
-            run.wait()  # mpiexec of MPICH ends with 0
+            run.wait()  # the exit code of MPICH's mpiexec is 0
             codes = {p.read_text() for p in self.folder.glob("code.*")}
             self.assertLessEqual(codes, {str(128 + signal.SIGINT), str(128 + signal.SIGTERM)}, run)
 

@@ -1,4 +1,4 @@
-"""rholm-mpi reconstruct: the bytes of rholm reconstruct, whatever happens to the ranks."""
+"""rholm-mpi reconstruct gives the bytes of rholm reconstruct, also after failures of ranks."""
 
 import os
 import signal
@@ -25,8 +25,8 @@ class Reconstruct(ProgramTest):
         return [line for line in run.stderr.splitlines() if line.startswith("rholm") and ": error:" in line]
 
     def killed(self, ranks, killed, stage):
-        """A run of which a rank was killed when three pieces of a stage were there: every rank that has finished one
-        more waits with it, so that the stage cannot be done."""
+        """Runs until three parts of a stage are finished, then kills a rank. Every rank that has finished
+        one more part waits with it, so that the stage cannot end."""
         mark = self.folder / "mark"
         run = self.start(RHOLM_MPI, *self.words("all.ply", "--resume", "--threads", 1), ranks=ranks,
                          environment=held(mark, f"/{stage}/", 3))
@@ -38,7 +38,7 @@ class Reconstruct(ProgramTest):
         return run
 
     def bare(self):
-        """Without normals, in their file's order."""
+        """Writes the points without normals, in the order of the file."""
         self.rholm("convert", "p.ply", "p.xyz", "--quiet")
         rows = [line.split()[:3] for line in (self.folder / "p.xyz").read_text().splitlines()
                 if not line.startswith("#")]

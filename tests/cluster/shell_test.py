@@ -1,4 +1,4 @@
-"""Completions of rholm-mpi in real shells, and its manual page; no ranks are needed for them."""
+"""Completions of rholm-mpi in real shells, and its manual page. No ranks are needed for these tests."""
 
 import re
 import shutil

@@ -1,4 +1,5 @@
-"""rholm-mpi analyze of a mesh whose parts are spread one after the other: more than eight million triangles."""
+"""rholm-mpi analyze of a mesh with more than eight million triangles, whose parts are spread one after the
+other."""
 
 import os
 import sys

@@ -31,7 +31,7 @@ TEST(watch, finds_work_without_progress) {
   EXPECT_EQ(found->why, Watch::Why::kNoProgress);
 }
 
-// What came after its last pulse, a result, says that it was there, and not how it gets on.
+// A result after the last pulse shows that the rank is alive, but not that its work makes progress.
 TEST(watch, calls_silent_who_was_heard_after_its_last_pulse) {
   Watch watch(2, 0);
   watch.pulse(1, {.is_working = true, .progress = 7}, 1);
@@ -51,7 +51,7 @@ TEST(watch, lets_work_take_as_long_as_it_gets_on) {
   }
 }
 
-// Its own rank is found as well: rank 0 works, too.
+// Rank 0 works too, so that a failure of its own is found as well.
 TEST(watch, lets_who_has_nothing_to_do_wait) {
   Watch watch(2, 0);
   for (int second = 1; second <= 100; ++second) {
@@ -61,7 +61,7 @@ TEST(watch, lets_who_has_nothing_to_do_wait) {
   }
 }
 
-// A machine that slept has not seen what the others did meanwhile.
+// After sleep of the machine, rank 0 has not seen what the others did in the meantime.
 TEST(watch, forgives_what_it_has_not_seen) {
   Watch watch(2, 0);
   watch.pulse(1, {.is_working = true, .progress = 7}, 1);

@@ -1,4 +1,4 @@
-// Vectors, errors, cancellation, pictures, version; and the header that has them all.
+// Vectors, errors, cancellation, pictures, the version, and the header that includes all others.
 #include <rholm/rholm.h>
 
 #include <cmath>
@@ -62,7 +62,7 @@ void version() {
          "the package has the version of its header");
 }
 
-// From a box to coefficients and back by the one header.
+// From a box to coefficients and back, with the single header.
 void rholm_h() {
   rholm::EncodeOptions options;
   options.analyze.degree = 8;

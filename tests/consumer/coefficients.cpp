@@ -1,4 +1,4 @@
-// A program that wants coefficients and nothing else.
+// A program that uses coefficients only.
 #include <rholm/model.h>
 #include <rholm/primitives.h>
 

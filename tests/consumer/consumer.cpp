@@ -1,5 +1,5 @@
-// Somebody else's program: it uses something of every header that is installed.
-// Usage: consumer INSTALLED_HEADERS_FOLDER; fails if a header of the folder has no check.
+// A foreign program that uses a part of every installed header. Usage: consumer
+// INSTALLED_HEADERS_FOLDER; it fails if a header of the folder has no check.
 #include "check.h"
 
 #include <cmath>
@@ -29,7 +29,7 @@ std::vector<HeaderCheck> all_checks() {
   return all;
 }
 
-// Names of installed headers that no check is for, and of checks whose header is not installed.
+// Returns names of installed headers without a check, and of checks whose header is not installed.
 std::vector<std::string> mismatches(const std::filesystem::path& folder,
                                     const std::vector<HeaderCheck>& checks) {
   std::set<std::string> installed;

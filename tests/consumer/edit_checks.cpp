@@ -1,4 +1,4 @@
-// Shapes changed where one wants it.
+// Edits of chosen regions of a shape.
 #include <rholm/primitives.h>
 #include <rholm/region.h>
 #include <rholm/smooth.h>
@@ -11,7 +11,7 @@
 
 namespace {
 
-// Vertex that lies farthest in that direction.
+// Returns the vertex that lies farthest in that direction.
 std::size_t tip(const rholm::Mesh& mesh, const rholm::Vec3& direction) {
   const auto last = std::max_element(mesh.vertices.begin(), mesh.vertices.end(),
                                      [&](const rholm::Vec3& a, const rholm::Vec3& b) {

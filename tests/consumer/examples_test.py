@@ -43,7 +43,7 @@ class Examples(unittest.TestCase):
         return done.stdout
 
     def numbers(self, text, name):
-        """The numbers of the line that begins with that name."""
+        """Returns the numbers of the line that begins with that name."""
         line = re.search(rf"^ *{re.escape(name)}((?: +[-+.\de]+)+)", text, re.MULTILINE)
         self.assertIsNotNone(line, f"no '{name}' in\n{text}")
         return [float(number) for number in line[1].split()]
@@ -52,7 +52,7 @@ class Examples(unittest.TestCase):
         return self.numbers(text, name)[0]
 
     def move(self, source, target, change):
-        """A text mesh in OFF with change(vertex) for every vertex."""
+        """Rewrites a text mesh in OFF with change(vertex) for every vertex."""
         lines = (self.folder / source).read_text().split("\n")
         begin = 1 if lines[0] == "OFF" else 0
         n = int(lines[begin].split()[0])
@@ -69,8 +69,8 @@ class Examples(unittest.TestCase):
     def test_mesh_to_coefficients_and_back(self):
         self.make("ellipsoid", "--axes", "3,2,1", "--translate", "5,0,-1", "-o", "shape.ply")
         out = self.output("mesh_to_coefficients", "shape.ply", 48, "model.h5", "back.off")
-        # Flat faces inside of the ellipsoid: 10 242 vertices leave out 0.1 % of the volume, and
-        # what is above degree 48 is as small.
+        # Flat faces lie inside the ellipsoid. With 10 242 vertices they lose 0.1 % of the volume; the part
+        # above degree 48 is as small.
         self.assertAlmostEqual(self.number(out, "volume"), 8 * math.pi, delta=0.003 * 8 * math.pi)
         for found, known in zip(self.numbers(out, "centre"), (5, 0, -1)):
             self.assertAlmostEqual(found, known, delta=1e-3)
@@ -86,7 +86,8 @@ class Examples(unittest.TestCase):
             beyond = [math.sqrt(max(0, norm - sum(energy[:l + 1])) / (4 * math.pi)) / mean
                       for l in range(25)]
             known = next(l for l in range(25) if beyond[l] <= percent / 100)
-            # The mesh is no ellipsoid, but this near to one: the answer must not hang on it.
+            # The mesh is only near to an ellipsoid. The margin shows that the answer does not depend on the
+            # difference.
             self.assertGreater(min(abs(math.log(100 * b / percent)) for b in beyond if b > 0), 0.01)
             self.assertEqual(self.number(out, "degree"), known)
             self.assertAlmostEqual(self.number(out, "reached"), beyond[known] * mean,
@@ -105,7 +106,7 @@ class Examples(unittest.TestCase):
     def test_smooth_region(self):
         self.make("sphere", "-o", "sphere.off")
 
-        def spike(x):  # 0.1 high at both poles
+        def spike(x):  # bumps of height 0.1 at both poles
             return [1.1 * c for c in x] if abs(x[2]) > 0.9999 else x
         self.move("sphere.off", "spiked.off", spike)
         spiked = self.vertices("spiked.off")
@@ -125,7 +126,7 @@ class Examples(unittest.TestCase):
         angle, shift = math.radians(40), (0.3, -0.2, 0.1)
         axis = (1 / 3, 2 / 3, 2 / 3)
 
-        def turn(x):  # Rodrigues
+        def turn(x):  # Rodrigues' formula
             c, s = math.cos(angle), math.sin(angle)
             along = sum(a * b for a, b in zip(axis, x)) * (1 - c)
             across = [axis[1] * x[2] - axis[2] * x[1], axis[2] * x[0] - axis[0] * x[2],
@@ -136,7 +137,7 @@ class Examples(unittest.TestCase):
         self.assertAlmostEqual(self.number(out, "angle"), 40, delta=0.01)
         for found, known in zip(self.numbers(out, "axis"), axis):
             self.assertAlmostEqual(found, known, delta=1e-3)
-        # Of the centroid, which is turned about the origin first.
+        # The distance of the centroid, which is first turned about the origin.
         self.assertLess(self.number(out, "distance after"), 1e-3)
         self.assertGreater(self.number(out, "distance before"), 0.02)
         self.assertEqual(self.number(out, "others nearly as good"), 0)
@@ -153,7 +154,7 @@ class Examples(unittest.TestCase):
         self.assertAlmostEqual(self.number(out, "distance of descriptors"), 1, delta=1e-3)
 
         self.make("bumpy", "-o", "a.off")
-        self.move("a.off", "b.off", lambda x: [x[1], x[2], x[0]])  # a turn by a third
+        self.move("a.off", "b.off", lambda x: [x[1], x[2], x[0]])  # a turn by 120 degrees
         out = self.output("spectrum_and_descriptors", "a.off", "b.off", 12)
         self.assertGreater(self.number(out, "distance"), 0.05)
         self.assertLess(self.number(out, "distance of descriptors"), 1e-6)
@@ -168,7 +169,7 @@ class Examples(unittest.TestCase):
             self.assertIn(f'"{source.stem}"', Path(__file__).read_text())
             alone = self.call(PROGRAMS / source.stem)
             self.assertEqual((alone.returncode, alone.stderr), (2, f"usage: {usage}\n"))
-            # Any number will do where one is wanted: the files are not there.
+            # Any value serves where a number is expected, because the files do not exist.
             values = [{"DEGREE": "4", "PERCENT": "1", "WAVELENGTH": "1",
                        "REGION": "ball:0,0,1,1"}.get(word, f"none-{i}.ply")
                       for i, word in enumerate(words[1:])]
@@ -178,7 +179,7 @@ class Examples(unittest.TestCase):
 
 
 def spheroid_spectrum(a, c, degree):
-    """Energies of degrees up to that one of the radius of a spheroid (semi-axes a, a, c), and of all
+    """Returns energies of the radius of a spheroid (semi-axes a, a, c): up to the given degree, and of all
     degrees together, by Simpson's rule."""
     n = 4000
     energy, norm = [0.0] * (degree + 1), 0.0

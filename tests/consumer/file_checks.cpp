@@ -1,4 +1,4 @@
-// Bytes in and out.
+// Input and output of files.
 #include <rholm/coefficients_io.h>
 #include <rholm/compare.h>
 #include <rholm/file.h>

@@ -18,7 +18,7 @@ namespace {
 const double kPi = std::numbers::pi;
 const double kRounding = 1e-12;
 
-// A sphere of that radius about its centre.
+// Returns a sphere of that radius about its centre.
 rholm::Expansion sphere(double radius, int degree) {
   rholm::Expansion expansion;
   expansion.coefficients = rholm::Coefficients(degree);
@@ -76,7 +76,7 @@ void recenter() {
   const rholm::Expansion seen = rholm::recentered(moved, {1.2, 2, 3});
   const std::vector<rholm::Vec3> along_x = {{1, 0, 0}, {-1, 0, 0}};
   const std::vector<double> radii = rholm::evaluate(seen.coefficients, along_x);
-  // Degree l of the radius falls as 0.2^l: nothing is left beyond 32.
+  // The coefficients of the radius fall as 0.2^l: degrees above 32 are negligible.
   expect_near(radii[0], 0.8, 1e-9, "the nearest point of the sphere");
   expect_near(radii[1], 1.2, 1e-9, "the farthest point of the sphere");
 }

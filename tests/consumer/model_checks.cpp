@@ -26,7 +26,7 @@ void model() {
   options.analyze.degree = 32;
   const rholm::Encoded encoded = rholm::encode(rholm::ellipsoid({1, 2, 3}, 5), options);
   const rholm::Expansion& expansion = encoded.analysis.expansion;
-  // Flat triangles with edges of 1/30 of the radius lie 1e-4 of it within the ellipsoid.
+  // Flat triangles with edges of 1/30 of the radius lie 1e-4 radii inside the ellipsoid.
   expect_near(rholm::measure(expansion).volume.value(), 8 * kPi, 0.005 * 8 * kPi,
               "the volume of an ellipsoid");
   rholm::write_model(expansion, "ellipsoid.h5");
@@ -83,8 +83,8 @@ void patch_atlas() {
 #endif
   const rholm::PatchPicture picture = rholm::patch_picture(sphere, rholm::PatchView::kPatches);
   expect(picture.patches > 1, "a sphere has several sides");
-  // The points of each patch lie on the sphere that fits it; triangles between them with edges e <
-  // 0.08 lie at most e^2 / 6 = 1.1e-3 within it.
+  // The points of each patch lie on the sphere fitted to it. Triangles between them with edges e <
+  // 0.08 lie at most e^2 / 6 = 1.1e-3 inside.
   const rholm::PatchAtlas made =
       rholm::patch_atlas(sphere, {.degree = 4, .extension = rholm::CapExtension::kSphere});
   expect_near(made.rms_along_rays, 0, 1.1e-3, "what caps miss of a sphere");

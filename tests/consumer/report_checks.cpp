@@ -1,4 +1,4 @@
-// What people look at.
+// Reports and pictures.
 #include <rholm/model.h>
 #include <rholm/primitives.h>
 #include <rholm/render.h>

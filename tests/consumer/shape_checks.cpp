@@ -46,7 +46,7 @@ void polygon() {
   expect(triangles.size() == 3, "a pentagon is three triangles");
 }
 
-// Single precision coordinates of another program, with a colour behind each vertex.
+// Coordinates in single precision in another program's arrays, with a colour after each vertex.
 void mesh_view() {
   struct Vertex {
     float x, y, z;
@@ -77,7 +77,8 @@ void points() {
 void primitives() {
   const rholm::Mesh torus = rholm::torus(2, 0.5, 192, 96);
   expect(torus.vertices.size() == 192 * 96, "a torus is a grid");
-  // The polygon of n corners in a circle has less area by (2 pi / n)^2 / 6, here 7e-4.
+  // A polygon of n corners in a circle has less area than the circle by (2 pi / n)^2 / 6, here
+  // 7e-4.
   const double volume = 2 * std::pow(std::numbers::pi, 2) * 2 * 0.5 * 0.5;
   expect_near(rholm::enclosed_volume(torus), volume, 2e-3 * volume, "the volume of a torus");
 }

@@ -1,4 +1,4 @@
-// Shapes that are star-shaped, and their coefficients.
+// Star-shaped shapes and their coefficients.
 #include <rholm/analyze.h>
 #include <rholm/monte_carlo.h>
 #include <rholm/primitives.h>
@@ -39,7 +39,7 @@ void monte_carlo() {
   const rholm::StarChart chart = rholm::make_star_chart(rholm::box({2, 2, 2}, 8));
   const rholm::MonteCarlo estimate = rholm::monte_carlo(chart, {.degree = 4, .samples = 64});
   const rholm::Analysis exact = rholm::analyze(chart, {.degree = 4});
-  // 3 deviations hold the error in 99.7 % of all seeds; this seed is one of them.
+  // The error is within 3 deviations for 99.7 % of all seeds, and for this seed.
   expect_near(estimate.expansion.coefficients.c(4, 0), exact.expansion.coefficients.c(4, 0),
               3 * estimate.deviation.c(4, 0), "C_40 at random");
 }

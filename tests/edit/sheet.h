@@ -1,4 +1,4 @@
-// Sheets for tests of edits: a triangular grid over the plane, lifted by a function.
+// Sheets for tests of edits: triangular grids over a plane, moved up or down by a function.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 
 namespace rholm::test {
 
-// For what must be the same to the last bit: -0 is not 0.
+// Returns the bits of a vector, for comparisons to the last bit: -0 differs from 0.
 inline std::array<std::uint64_t, 3> bits_of(const Vec3& x) {
   return std::bit_cast<std::array<std::uint64_t, 3>>(x);
 }
 
-// Equilateral triangles of side h, n x n of their squares' worth, the middle at the origin.
+// Equilateral triangles of side h, n x n pairs of them, with the middle at the origin.
 template <class Height>
 Mesh sheet(int n, double h, const Height& height) {
   Mesh mesh;

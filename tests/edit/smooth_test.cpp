@@ -17,14 +17,14 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kEdge = 0.1;  // ten edges a wavelength of 1
+constexpr double kEdge = 0.1;  // ten edges per wavelength of 1
 
 Patch patch_of(const Mesh& mesh, const Region& region, const PatchOptions& options,
                const Context& context = {}) {
   return analyze_patch(mesh, std::vector<Region>{region}, options, context);
 }
 
-// How much of a wave is left where the weight is 1, by projection onto the wave.
+// Returns the remaining part of a wave where the weight is 1, by projection onto the wave.
 double gain(double wave, const PatchOptions& options, double shorten = 1) {
   const Mesh mesh = test::sheet(90, kEdge, [&](double x, double y) {
     return 0.02 * std::cos(2 * pi * (0.8 * x + 0.6 * y) / wave + 0.3);
@@ -52,12 +52,13 @@ TEST(Smooth, wavelength_is_where_waves_begin_to_pass) {
 
 TEST(Smooth, slider_of_the_wavelength_is_an_analysis_for_it) {
   const PatchOptions options{.wavelength = 1, .fitting = PatchFitting::kMean};
-  EXPECT_LT(std::abs(gain(0.9, options, 2)), 0.1);  // 1 / 2 of the cut
+  EXPECT_LT(std::abs(gain(0.9, options, 2)), 0.1);  // half of the cut-off
   EXPECT_NEAR(gain(2.2, options, 2), 1, 0.07);
 }
 
-// A cap takes all of its points up to 400 a coefficient: what aliases is 1 / sqrt(400) at most,
-// less where caps overlap. Here it has 47 points a square wavelength, 12.6 of these, for 51.
+// A cap uses all of its points up to 400 per coefficient. Aliasing is at most 1 / sqrt(400), and
+// less where caps overlap. Here a cap has 47 points per square wavelength, 12.6 square wavelengths,
+// and 51 coefficients.
 TEST(Smooth, finer_detail_leaves_nothing_behind) {
   const Mesh mesh = test::sheet(90, kEdge, [&](double x, double y) {
     return 0.02 * (std::cos(15 * x + 3 * y) + std::cos(4 * x - 13 * y) + std::cos(9 * x + 12 * y));
@@ -74,10 +75,10 @@ TEST(Smooth, finer_detail_leaves_nothing_behind) {
   EXPECT_LT(std::sqrt(after / before), 0.04);
 }
 
-// A dome of the width of the wavelength at half its height, over a smooth surface.
+// A dome whose width at half height is the wavelength, on a smooth surface.
 TEST(Smooth, features_as_wide_as_the_wavelength_keep_their_height) {
   const auto base = [](double x, double y) { return -(x * x + 0.4 * y * y) / 8; };
-  const double s2 = 1 / (8 * std::log(2.0));  // full width at half maximum 1
+  const double s2 = 1 / (8 * std::log(2.0));  // full width 1 at half maximum
   const Mesh mesh = test::sheet(90, kEdge, [&](double x, double y) {
     return base(x, y) + 0.1 * std::exp(-(x * x + y * y) / (2 * s2));
   });
@@ -96,7 +97,7 @@ TEST(Smooth, features_as_wide_as_the_wavelength_keep_their_height) {
   }
 }
 
-// A curved scratch, sharp, three edges wide.
+// A curved, sharp scratch that is three edges wide.
 double scratch(double x, double y) {
   const double u = (y - 0.2 * x * x) / 0.15;
   return std::abs(u) < 1 && std::abs(x) < 0.8 ? -0.08 * (1 - u * u) : 0;
@@ -135,7 +136,7 @@ TEST(Smooth, scratch_of_a_third_of_the_wavelength_goes) {
   }
 }
 
-// Waves of 0.55 are not in the fits, but the rim has them. Only what is painted moves.
+// Waves of length 0.55 are too short for the fits, but exist at the rim. Only painted points move.
 TEST(Smooth, bridge_carries_the_detail_of_its_rim) {
   const auto wave = [](double x, double y) { return 0.02 * std::sin(2 * pi * (x + y) / 0.78); };
   Mesh mesh =
@@ -154,7 +155,7 @@ TEST(Smooth, bridge_carries_the_detail_of_its_rim) {
     detail += std::pow(wave(moved[i].x, moved[i].y), 2);
   }
   EXPECT_GT(moved.size(), 50u);
-  EXPECT_LT(std::sqrt(error / detail), 0.6);  // measured 0.49; 1.2 by the fits alone
+  EXPECT_LT(std::sqrt(error / detail), 0.6);  // measured: 0.49; with the fits alone: 1.2
 }
 
 TEST(Smooth, repair_leaves_texture_that_does_not_stand_out) {
@@ -166,7 +167,7 @@ TEST(Smooth, repair_leaves_texture_that_does_not_stand_out) {
   const Patch patch = patch_of(mesh, BallRegion{{0, 0, 0}, 1.5}, {.wavelength = 1, .repair = true});
   for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
     const Vec3& v = patch.positions[i];
-    // Half a wavelength from the scratch, and an edge.
+    // The distance to the scratch is at most half a wavelength and an edge.
     EXPECT_LT(std::abs(v.y - 0.2 * v.x * v.x), 0.15 + 0.5 + 2 * kEdge);
   }
   EXPECT_GT(patch.vertices.size(), 100u);
@@ -194,8 +195,8 @@ TEST(Smooth, what_has_no_weight_stays_to_the_last_bit) {
   EXPECT_EQ(update(patch, {.strength = 0}), patch.positions);
 }
 
-// Where the input was smooth the transition adds no crease: the normals of a sphere stay within a
-// degree of its own.
+// The transition adds no crease to a smooth input: the normals of a sphere stay within a degree of
+// the exact normals.
 TEST(Smooth, smooth_surface_keeps_its_normals_across_the_transition) {
   Mesh mesh = icosphere(6);
   const Patch patch = patch_of(mesh, BallRegion{{0, 0, 1}, 0.4}, {.wavelength = 0.3});
@@ -204,7 +205,7 @@ TEST(Smooth, smooth_surface_keeps_its_normals_across_the_transition) {
   for (std::size_t i = 0; i < local.points.size(); ++i) {
     const double cosine = dot(local.normals[i], normalized(local.points[i]));
     EXPECT_LT(std::acos(std::min(1.0, cosine)), pi / 180);
-    EXPECT_NEAR(norm(local.points[i]), 1, 3e-4 * 0.3);  // measured 1.3e-4 wavelengths
+    EXPECT_NEAR(norm(local.points[i]), 1, 3e-4 * 0.3);  // measured: 1.3e-4 wavelengths
   }
 }
 
@@ -225,11 +226,11 @@ TEST(Smooth, a_handle_is_no_obstacle) {
     before += std::pow(off(mesh.vertices[i]), 2);
     after += std::pow(off(edited.vertices[i]), 2);
   }
-  // 47 vertices a square wavelength for the 4 coefficients that a cap has there, squares of noise.
+  // Squares of noise: 47 vertices per square wavelength, for 4 coefficients of a cap.
   EXPECT_LT(after, before / 6);
 }
 
-// A post, higher than wide, is in the support of the caps beside it, but not of their surface.
+// The post is higher than wide. It is in the support of neighbouring caps, but off their surface.
 TEST(Smooth, what_towers_beside_a_patch_does_not_pull_at_it) {
   const Mesh mesh = test::sheet(90, kEdge, [](double x, double y) {
     return 1.5 / (1 + std::pow(std::hypot(x - 1.3, y) / 0.4, 8));
@@ -239,7 +240,7 @@ TEST(Smooth, what_towers_beside_a_patch_does_not_pull_at_it) {
                {.wavelength = 1, .transition = 0.2, .fitting = PatchFitting::kMean});
   const std::vector<Vec3> moved = update(patch);
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    EXPECT_LT(norm(moved[i] - patch.positions[i]), 0.05);  // its foot does, by 0.034
+    EXPECT_LT(norm(moved[i] - patch.positions[i]), 0.05);  // the foot of the post moves by 0.034
   }
 }
 

@@ -23,7 +23,7 @@ using std::numbers::pi;
 
 using Regions = std::vector<Region>;
 
-// Bumps without symmetry, of waves from 0.11 to 0.16 of a unit, at most 1 high.
+// Returns the height of bumps without symmetry: waves of length 0.11 to 0.16, height at most 1.
 double pattern(double p, double q) {
   double sum = 0;
   for (std::uint64_t k = 0; k < 6; ++k) {
@@ -34,7 +34,7 @@ double pattern(double p, double q) {
   return sum / 6;
 }
 
-// A sphere with the pattern around its north pole, over angles.
+// Returns a sphere with the pattern around its north pole, as a function of angles.
 Mesh patterned_sphere(int subdivisions, double radius, double height) {
   Mesh mesh = icosphere(subdivisions);
   for (Vec3& v : mesh.vertices) {
@@ -73,7 +73,7 @@ TEST(Transfer, pattern_moves_between_spheres_of_different_size) {
   std::size_t outside = 0;
   for (std::size_t i = 0; i < target.vertices.size(); ++i) {
     const Vec3 u = target.vertices[i] / 3, x = moved.mesh.vertices[i];
-    if (norm(u - Vec3{0, 0, 1}) > 0.76) {  // region and transition, 0.5 + 0.25
+    if (norm(u - Vec3{0, 0, 1}) > 0.76) {  // radius of region and transition, 0.5 + 0.25
       outside += 1;
       EXPECT_EQ(test::bits_of(x), test::bits_of(target.vertices[i]));
     }
@@ -87,7 +87,7 @@ TEST(Transfer, pattern_moves_between_spheres_of_different_size) {
   EXPECT_GT(outside, 100000u);
 }
 
-// The charts are those of a centre 3.7 radii below, where neither patch bends (method 7.2).
+// Charts have their centre 3.7 radii below, where neither patch is curved (method 7.2).
 TEST(Transfer, pattern_moves_from_a_plane_to_a_saddle) {
   const double h = 0.01;
   const Mesh source = test::sheet(180, h, [](double x, double y) { return 0.004 * pattern(x, y); });
@@ -115,14 +115,14 @@ TEST(Transfer, pattern_moves_from_a_plane_to_a_saddle) {
   EXPECT_LT(error.part(), 0.05);
 }
 
-// A rotation by `angle` about a unit axis.
+// Rotates v by `angle` about a unit axis.
 Vec3 turn(const Vec3& v, const Vec3& axis, double angle) {
   const double c = std::cos(angle);
   return c * v + std::sin(angle) * cross(axis, v) + (1 - c) * dot(axis, v) * axis;
 }
 
-// The target is turned about its own axis by the angle that is looked for, then that axis by the
-// shortest turn to anywhere.
+// The target is turned about its own axis by the angle to be found. Then the axis is turned to a
+// random direction by the shortest rotation.
 TEST_OF_TWO_SIZES(Transfer, angle_is_found_within_a_degree) {
   const Mesh source =
       test::sheet(90, 0.02, [](double x, double y) { return 0.004 * pattern(x, y); });
@@ -315,7 +315,7 @@ TEST(Refine, edges_get_short_and_a_sphere_stays_round) {
       EXPECT_LE(norm(mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]), 0.05);
     }
   }
-  // Flat middles would lie h^2 / 8 = 2.6e-3 inside, h = 0.145.
+  // With h = 0.145, flat middles of edges would lie h^2 / 8 = 2.6e-3 inside.
   for (const Vec3& v : mesh.vertices) EXPECT_NEAR(norm(v), 1, 3e-4);
 }
 
@@ -352,7 +352,7 @@ TEST(Transfer, what_cannot_be_done_is_refused) {
   const Regions disc = {BallRegion{{0, 0, 0}, 0.5}};
   for (const TransferOptions& options :
        {TransferOptions{.from_degree = 1}, TransferOptions{.from_degree = 1000},
-        TransferOptions{.from_degree = 60},  // finer than the mesh
+        TransferOptions{.from_degree = 60},  // finer than the mesh allows
         TransferOptions{.scale = 0}, TransferOptions{.scale = std::nan("")},
         TransferOptions{.transition = -1}}) {
     EXPECT_THROW(transfer(mesh, disc, mesh, disc, options), Error);
@@ -367,7 +367,7 @@ TEST(Transfer, what_cannot_be_done_is_refused) {
   EXPECT_THROW(transfer({}, disc, mesh, disc), Error);
   EXPECT_THROW(transfer(mesh, disc, {}, disc), Error);
   EXPECT_THROW(transfer(mesh, {}, mesh, disc), Error);
-  const Mesh ball = icosphere(4);  // no side shows all of it
+  const Mesh ball = icosphere(4);  // no view shows all of it
   EXPECT_THROW(transfer(ball, Regions{BallRegion{{0, 0, 0}, 2}}, mesh, disc), Error);
 }
 

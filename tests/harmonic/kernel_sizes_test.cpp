@@ -1,5 +1,5 @@
-// Kernels with 1 ... 33 of what they work on, with every instruction set, on memory full of NaN:
-// what is left over of whole vectors, against sums as they are written.
+// Kernels with 1 ... 33 elements, with every instruction set, on memory full of NaN. The elements
+// in the last, partial vectors are compared with plain sums.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -109,7 +109,7 @@ struct Parts {
   std::size_t n;
 };
 
-// n of the fast transforms is a multiple of 16 at least (sphere_fourier.h).
+// The fast transforms use multiples of 16 for n, at least (sphere_fourier.h).
 template <typename T>
 void expect_plain_circles(const char* target) {
   for (std::size_t n = 16; n <= 2 * kMost; n += 2) {
@@ -119,7 +119,7 @@ void expect_plain_circles(const char* target) {
     Parts parts(n / 2);
     split_circle(circle.data(), n, parts.of(0), parts.of(1));
     for (std::size_t q = 0; q < n / 2; ++q) {
-      for (std::size_t part = 0; part < 2; ++part) {  // real and imaginary
+      for (std::size_t part = 0; part < 2; ++part) {  // real and imaginary part
         const auto at = [&](std::size_t i) { return x[2 * i + part]; };
         for (std::size_t odd = 0; odd < 2; ++odd) {
           const double sign = odd == 0 ? 1 : -1;
@@ -153,7 +153,7 @@ TEST(KernelSizes, circles_are_split_into_rings_and_joined_by_the_transpose) {
   });
 }
 
-// Where the row and its mirror image lie on the circle, see circle_kernels.cpp.
+// circle_kernels.cpp says where a row and its mirror image lie on the circle.
 template <typename T>
 void expect_plain_gathering(const char* target) {
   for (const int width : {3, 7, 16}) {
@@ -204,7 +204,7 @@ TEST(KernelSizes, rows_are_gathered_on_great_circles_and_scattered_by_the_transp
   });
 }
 
-// One source after the other: each fills a block of its own.
+// Sources are added one after the other, so that each fills its own block.
 TEST(KernelSizes, sums_over_sources_are_those_of_single_ones) {
   const int degree = 9;
   const Coefficients f = test::random_coefficients(degree, 3);
@@ -219,7 +219,7 @@ TEST(KernelSizes, sums_over_sources_are_those_of_single_ones) {
       add_adjoint({.directions = some.last(1), .weights = w.last(1)}, expected, direct);
       const double alone = evaluate(f, some.last(1), direct)[0];
       EXPECT_NEAR(evaluate(f, some, direct)[n - 1], alone, 1e-14 * degree * degree);
-      for (const double precision : {1e-4, 1e-11}) {  // windows in single and in double precision
+      for (const double precision : {1e-4, 1e-11}) {  // windows in single and double precision
         const SumOptions fast{.engine = Engine::kFast, .precision = precision};
         const double size = std::sqrt(static_cast<double>(n)) * degree * degree;
         EXPECT_NEAR(evaluate(f, some, fast)[n - 1], alone, precision * size) << target << " " << n;
@@ -238,7 +238,7 @@ TEST(KernelSizes, sums_over_sources_are_those_of_single_ones) {
   });
 }
 
-// Each term by itself, at a pole and on both sides of the equator.
+// Compares each term, at a pole and on both sides of the equator.
 TEST(KernelSizes, sums_by_degree_are_the_terms_of_their_definition) {
   const int degree = 300;
   const std::vector<double> mu = legendre_mu(degree);

@@ -1,4 +1,4 @@
-// The two tables of formats: what must hold for every line, whatever it is of.
+// Properties that every line of the two tables of formats must have.
 #include <set>
 #include <string>
 
@@ -76,7 +76,7 @@ TEST(formats, of_coefficients_are_found_by_name_and_extension) {
   }
 }
 
-// A made mesh with every attribute that a format may have room for.
+// A mesh with every attribute that a format can hold.
 TEST(formats, of_shapes_keep_what_they_say_they_hold) {
   Mesh mesh = icosphere(0);
   for (const char* name : {"nx", "ny", "nz", "red", "green", "blue", "alpha", "u", "v", "heat"}) {

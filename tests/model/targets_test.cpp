@@ -1,5 +1,5 @@
-// Whole pipelines with one instruction set after the other: results differ by rounding, and by what
-// close decisions make of it.
+// Whole pipelines with each instruction set in turn. Results differ by rounding and by near
+// decisions that rounding changes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,12 +23,12 @@ using test::random_in;
 struct Body {
   const char* name;
   PointCloud cloud;
-  std::function<double(const Vec3&)> distance;  // from its surface, outside positive
+  std::function<double(const Vec3&)> distance;  // signed distance to its surface, outside positive
   std::ptrdiff_t euler;
   double volume;
 };
 
-// Major radius 1, minor 0.4: a ring at theta stands for 1 + 0.4 cos(theta) of the area.
+// Radii are 1 and 0.4: a ring at theta has an area proportional to 1 + 0.4 cos(theta).
 Body torus_body(std::size_t n) {
   Body body{"torus", {}, {}, 0, 2 * pi * pi * 0.16};
   for (std::uint64_t i = 0; body.cloud.points.size() < n; ++i) {
@@ -48,7 +48,7 @@ Body sphere_body(std::size_t n) {
           4 * pi / 3};
 }
 
-// Half axes 1, 0.6, 0.3: edges are where decisions are close.
+// Semi-axes are 1, 0.6 and 0.3. At edges, decisions are near.
 Body box_body(std::size_t n) {
   Body body{"box", {}, {}, 2, 8 * 0.18};
   const double half[3] = {1, 0.6, 0.3};
@@ -79,8 +79,8 @@ double rms_of(const Mesh& mesh, const Body& body) {
   return std::sqrt(sum / static_cast<double>(mesh.vertices.size()));
 }
 
-// Noise of a quarter of a percent of the diagonal, and none: the number of points of a cap takes
-// all remainders by the lanes of a vector.
+// Runs without noise and with noise of 0.25 % of the diagonal. Caps have all remainders of points
+// by the lanes of a vector.
 void check_reconstructions(const std::vector<Body>& bodies, const std::vector<double>& noises) {
   for (Body body : bodies) {
     for (const double noise : noises) {

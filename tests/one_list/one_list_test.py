@@ -1,7 +1,8 @@
-"""A row that is added to a table of the library is found in everything that the program shows; so is an option.
+"""A row that is added to a table of the library appears in everything that the program shows; so does an
+option.
 
-The program of these tests is that of users, with one made-up row in each table (*.inc beside this file), and a
-made-up option of reconstruct (CMakeLists.txt).
+The program of these tests is the program of users with one made-up row in each table (*.inc beside this
+file), and a made-up option of reconstruct (CMakeLists.txt).
 """
 
 import csv
@@ -11,7 +12,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
-# This program has a main() of its own, which does not look for an instruction set.
+# This program has its own main(), which does not read the variable of the instruction set.
 os.environ.pop("RHOLM_TEST_TARGET", None)
 from harness import STUDIO, CliTest
 from studio_program import Studio
@@ -24,14 +25,14 @@ class OneList(CliTest):
         self.rholm("analyze", "rock.ply", "--degree", 8, "-o", "rock.h5")
 
     def words(self, *words):
-        """What is said, without the breaks of lines."""
+        """Returns the output of a command without line breaks."""
         return " ".join(self.rholm(*words).out.split())
 
     def test_window_is_in_all_that_the_program_says_of_itself(self):
         text = self.words("filter", "--help")
         self.assertIn("plateau, wedge", text)
-        self.assertIn("wedge none", text)  # its overshoot
-        self.assertIn("of the exponential and wedge windows", text)  # its parameter
+        self.assertIn("wedge none", text)  # overshoot of the window
+        self.assertIn("of the exponential and wedge windows", text)  # parameter of the window
         for shell in ("bash", "zsh", "fish"):
             self.assertIn("wedge", self.rholm("completion", shell).out)
         self.assertIn("wedge", self.rholm("man-page").out)
@@ -82,7 +83,7 @@ class OneList(CliTest):
         control = next(one for one in studio.json("GET", "api/controls")["reconstruct"] if one["name"] == "made_up")
         self.assertEqual((control["label"], control["kind"], control["default"], control["least"], control["most"]),
                          ("Made up", "number", 0.5, 0, 1))
-        self.assertFalse(control["shown"])  # under "More options" of the page
+        self.assertFalse(control["shown"])  # listed under "More options" of the page
         studio.step(op="make", shape="points")
         state = studio.step(op="reconstruct", item=1, made_up=0.25)
         self.assertIn(" --made-up 0.25 ", state["recipe"]["shell"])

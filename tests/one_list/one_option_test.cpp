@@ -1,4 +1,4 @@
-// The made-up option of rholm/reconstruct.h (CMakeLists.txt) where no command shows it.
+// Uses of the made-up option of rholm/reconstruct.h (CMakeLists.txt) that no command shows.
 #include <gtest/gtest.h>
 
 #include "base/bytes.h"

@@ -23,7 +23,7 @@ TEST(time_left, is_that_of_costs_at_the_speed_so_far) {
   left.done("a", 1, 40);
   EXPECT_TRUE(left.is_known());
   EXPECT_DOUBLE_EQ(left.seconds(), 120);
-  left.done("b", 0.5, 160);  // slower than foreseen
+  left.done("b", 0.5, 160);  // slower than expected
   EXPECT_DOUBLE_EQ(left.seconds(), 160 * 1.5 / 2.5);
   left.add({{"c", 1}});
   EXPECT_DOUBLE_EQ(left.seconds(), 160);
@@ -34,11 +34,11 @@ TEST(time_left, is_that_of_costs_at_the_speed_so_far) {
 
 TEST(time_left, does_not_count_what_was_done_before) {
   TimeLeft left({{"a", 1}, {"b", 3}});
-  left.done("a", 1, 0);  // in no time
+  left.done("a", 1, 0);  // takes no time, because it was done before
   EXPECT_FALSE(left.is_known());
   left.done("b", 0.5, 60);
   EXPECT_DOUBLE_EQ(left.seconds(), 60);
-  left.done("unknown", 1, 90);  // takes time, and is nothing that was foreseen
+  left.done("unknown", 1, 90);  // takes time although it was not planned
   EXPECT_DOUBLE_EQ(left.seconds(), 90);
 }
 
@@ -67,7 +67,7 @@ TEST(stages, tell_of_parts_and_ask_whether_to_go_on) {
   std::vector<std::size_t> parts;
   stages.each("first", 4, [&](std::size_t part) {
     parts.push_back(part);
-    // What loops within tell is part of the stage.
+    // Progress of loops within a part is reported as progress of the stage.
     stages.context().progress("inner", 0.9);
   });
   EXPECT_EQ(parts, (std::vector<std::size_t>{0, 1, 2, 3}));
@@ -79,7 +79,7 @@ TEST(stages, tell_of_parts_and_ask_whether_to_go_on) {
   EXPECT_THROW(stages.once("second", [] { FAIL() << "it was cancelled"; }), Error);
 }
 
-// A store that may be kept, in memory.
+// A store in memory that reports that it may be kept.
 class KeptStore final : public PieceStore {
  public:
   using PieceStore::write;

@@ -26,7 +26,7 @@ TEST(memory_store, keeps_what_it_is_given_without_a_copy) {
   const PieceValues<double> read = read_values<double>(store, "numbers");
   EXPECT_EQ(read.data(), place);
   EXPECT_EQ(store.bytes(), 1000 * sizeof(double));
-  // What can be changed is a copy.
+  // Values that the caller may change are a copy.
   std::vector<double> own = read_values<double>(store, "numbers");
   EXPECT_EQ(own, std::vector<double>(1000, 0.5));
   EXPECT_NE(own.data(), place);
@@ -68,7 +68,7 @@ TEST(memory_store, has_values_for_as_long_as_they_are_read) {
 
 TEST(piece_values, are_those_that_fit_wherever_they_lie) {
   MemoryStore store;
-  // 11 bytes: one number and a half, behind one byte of another section.
+  // The section has 11 bytes, one number and a half, and follows a section of one byte.
   std::vector<std::vector<std::byte>> sections = {{std::byte{1}}, {}, {}};
   sections[1].resize(11);
   sections[1][0] = std::byte{5};
@@ -80,7 +80,7 @@ TEST(piece_values, are_those_that_fit_wherever_they_lie) {
   EXPECT_THROW(values.at(1), std::out_of_range);
   EXPECT_TRUE(piece.values<double>(0).empty());
   EXPECT_TRUE(piece.values<double>(2).empty());
-  // Bytes that lie where no number may are copied.
+  // Bytes at an address that is not aligned for numbers may be copied.
   const auto owner = std::make_shared<const std::vector<std::byte>>(20, std::byte{3});
   const std::span<const std::byte> odd = std::span(*owner).subspan(1, 16);
   store.write("odd", std::vector<SectionBytes>{{odd, owner}});

@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 constexpr int kThreads[] = {1, 2, 3, 8};
 
-// Parts that other parts get ahead of.
+// Every tenth part takes longer, so that other parts overtake it.
 std::string slow_now_and_then(std::size_t part, int) {
   if (part % 10 == 3) std::this_thread::sleep_for(3ms);
   return std::to_string(part);
@@ -109,7 +109,7 @@ TEST(threads, work_several_parts_at_a_time) {
       {.count = 3},
       [&](std::size_t, int) {
         ++there;
-        while (there < 3) std::this_thread::sleep_for(1ms);  // else for ever
+        while (there < 3) std::this_thread::sleep_for(1ms);  // one thread alone would wait for ever
         return std::string();
       },
       [](std::size_t, const std::string&) {});
@@ -150,7 +150,7 @@ TEST(threads, throw_what_take_throws) {
                      {.count = 1000},
                      [&](std::size_t part, int) {
                        ++at_work;
-                       // What is worked meanwhile is told to end.
+                       // Parts that run at the same time are told to end.
                        for (int i = 0; part > 5 && i < 10000; ++i) {
                          try {
                            ask_cancel();
@@ -167,7 +167,7 @@ TEST(threads, throw_what_take_throws) {
                        if (part == 5) throw Error(ErrorCode::kIo, "the disk is full");
                      }),
                  Error);
-    EXPECT_EQ(at_work, 0);  // nothing goes on
+    EXPECT_EQ(at_work, 0);  // no part still runs
   }
 }
 
@@ -183,7 +183,7 @@ TEST(threads, are_cancelled_by_the_scope_of_the_caller) {
             ++n_begun;
             if (part == 10) go_on = false;
             while (!go_on) {
-              ask_cancel();  // also on threads that have another scope
+              ask_cancel();  // ends the part also on threads with another scope
               std::this_thread::sleep_for(1ms);
             }
             return std::string();

@@ -1,4 +1,4 @@
-// Files, pipes and memory give the same points, and files larger than memory do.
+// Files, pipes and memory give the same points, and files larger than memory can be read.
 #include "reconstruct/points/point_source.h"
 
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ TEST(PointSource, of_a_file_is_gone_through_again) {
   expect_error([&] { open_points(folder / "none.ply", {}, store); }, ErrorCode::kIo, {"none.ply"});
 }
 
-// A pipe with a name, and somebody who writes to it.
+// A named pipe with a thread that writes to it.
 class Pipe {
  public:
   Pipe(const std::filesystem::path& path, std::string bytes) : path_(path) {
@@ -95,7 +95,7 @@ class Pipe {
 TEST(PointSource, of_a_pipe_is_kept) {
   const TemporaryFolder folder;
   PointCloud cloud = sphere_points(40000);
-  cloud.points[39999].x = 0.1;  // the last piece is wider
+  cloud.points[39999].x = 0.1;  // a value that single precision cannot hold
   write_shape(cloud, folder / "points.ply");
   FolderStore store(folder / "store");
   store.keep(true);
@@ -105,13 +105,13 @@ TEST(PointSource, of_a_pipe_is_kept) {
     PointCloud piece;
     source->rewind();
     ASSERT_TRUE(source->next(piece, {}));
-    source->rewind();  // reads the rest first
+    source->rewind();  // first reads all points
     for (int pass = 0; pass < 3; ++pass) {
       expect_same(all_of(*source), cloud);
       source->rewind();
     }
   }
-  // Of a run that is taken up again.
+  // A run is resumed.
   const auto again = open_points(folder / "pipe.ply", {}, store);
   expect_same(all_of(*again), cloud);
 }
@@ -151,8 +151,8 @@ std::size_t address_space() {
   return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-// 0 if the action comes to an end with so many more bytes than the process has, 1 if there was not
-// enough memory. In a child: the limit is the process's.
+// Returns 0 if the action succeeds with `bytes` more memory than the process has, 1 if memory runs
+// out. A child process has the limit.
 template <class Action>
 int exit_code_within(std::size_t bytes, Action&& action) {
   const pid_t child = fork();
@@ -196,7 +196,7 @@ TEST(PointSource, larger_than_memory_goes_to_tiles) {
                 static_cast<std::streamsize>(values.size() * sizeof(float)));
     }
   }
-  constexpr std::size_t kMemory = std::size_t{60} << 20;  // the points have 144 MB, the file 72
+  constexpr std::size_t kMemory = std::size_t{60} << 20;  // the points take 144 MB, the file 72
   EXPECT_EQ(exit_code_within(kMemory, [&] { read_shape(folder / "large.ply"); }), 1);
   EXPECT_EQ(exit_code_within(kMemory,
                              [&] {

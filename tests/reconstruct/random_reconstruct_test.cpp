@@ -1,5 +1,5 @@
-// Random bodies, sampled well and badly: whatever goes in, what comes out is a closed 2-manifold,
-// by exact counts of edges and vertex links. Long: the label nightly.
+// Random bodies, sampled well and badly: every result is a closed 2-manifold, by exact counts of
+// edges and vertex links. The test is long and has the label nightly.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kInputs = 200;
 
-// Random numbers one after the other.
+// A sequence of random numbers.
 struct Dice {
   std::uint64_t seed;
   std::uint64_t next = 0;
@@ -45,7 +45,7 @@ Mesh random_body(Dice& dice) {
   }
 }
 
-// One to three bodies side by side, or through one another.
+// Returns one to three bodies, separate or intersecting.
 std::vector<Mesh> random_bodies(Dice& dice) {
   std::vector<Mesh> bodies;
   const std::size_t n = 1 + dice.below(3);
@@ -59,7 +59,7 @@ std::vector<Mesh> random_bodies(Dice& dice) {
   return bodies;
 }
 
-// Whether a point is within the body.
+// Returns the winding number of the body at each point: near 1 inside, near 0 outside.
 std::vector<double> winding_of(const Mesh& body, const std::vector<Vec3>& points) {
   std::vector<Vec3> centers, areas;
   for (const Triangle& t : body.triangles) {
@@ -70,7 +70,7 @@ std::vector<double> winding_of(const Mesh& body, const std::vector<Vec3>& points
   return WindingTree(centers, areas).winding(points);
 }
 
-// The points of the union's surface: those within another body go.
+// Samples the surface of the union: points within another body are removed.
 PointCloud random_points(Dice& dice, std::string& what) {
   const std::vector<Mesh> bodies = random_bodies(dice);
   SampleOptions options{.points = 300 + dice.below(6000)};

@@ -1,4 +1,4 @@
-// Degenerate points: a closed manifold or a clear refusal.
+// Degenerate points give a closed manifold or a clear error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void expect_closed_or_refused(const PointCloud& cloud, const std::string& name) 
         EXPECT_EQ(found.boundary_edges, 0U);
       }
     } catch (const Error& error) {
-      // Points nearly at one place ask for steps of nearly nothing.
+      // Points that nearly coincide need steps near zero.
       EXPECT_TRUE(error.code() == ErrorCode::kInvalidInput ||
                   error.code() == ErrorCode::kOutOfMemory)
           << error.what();
@@ -51,7 +51,7 @@ void expect_closed_or_refused(const PointCloud& cloud, const std::string& name) 
   }
 }
 
-// The same with the normals given, and without.
+// Runs with the normals given and without normals.
 void expect_decent(PointCloud cloud, const std::string& name) {
   expect_closed_or_refused(cloud, name);
   cloud.normals.clear();
@@ -100,7 +100,7 @@ TEST(ReconstructDegenerate, points_without_a_surface) {
 }
 
 TEST(ReconstructDegenerate, a_grid_too_coarse_for_the_shape_is_refused_with_its_step) {
-  // Steps of ten diameters.
+  // The step is ten diameters.
   const PointCloud sphere = sphere_points(500);
   try {
     const Reconstruction made = reconstruct(sphere, {.step = 20});
@@ -147,13 +147,14 @@ TEST(ReconstructDegenerate, the_same_places_again) {
   EXPECT_EQ(made.report.dropped_points, 99 * 120U);
   const Mesh once = reconstruct(sphere).mesh;
   ASSERT_EQ(made.mesh.vertices.size(), once.vertices.size());
-  for (std::size_t i = 0; i < once.vertices.size(); ++i) {  // means of a hundred normals round
+  // Means of a hundred normals have rounding errors.
+  for (std::size_t i = 0; i < once.vertices.size(); ++i) {
     EXPECT_LT(norm(made.mesh.vertices[i] - once.vertices[i]), 1e-6);
   }
   PointCloud opposite = sphere;
   for (Vec3& n : opposite.normals) n = -n;
   expect_decent(test::joined(sphere, opposite), "with opposite normals");
-  // Neighbours that single precision cannot tell apart.
+  // Neighbours are equal in single precision.
   for (int k = 1; k < 20; ++k) {
     for (std::size_t i = 0; i < 300; ++i) {
       nearly.points.push_back(sphere.points[i] +
@@ -176,13 +177,13 @@ TEST_OF_TWO_SIZES(ReconstructDegenerate, extremes_of_scale) {
     for (Vec3& p : cloud.points) p *= scale;
     EXPECT_EQ(expect_closed_manifold(reconstruct(cloud).mesh).euler_characteristic, 2) << scale;
   }
-  // Far away, until doubles no longer hold the shape.
+  // The shape is moved away until doubles cannot represent it.
   for (const double shift : {1e6, 1e12, 1e15, 1e17}) {
     PointCloud cloud = sphere_points(nightly ? 300 : 100);
     for (Vec3& p : cloud.points) p += {shift, 0, 0};
     expect_decent(cloud, "at " + std::to_string(shift));
   }
-  // One point far away from all others.
+  // One point lies far away from all others.
   for (const double far : nightly ? std::vector{1e3, 1e6, 1e9, 1e12} : std::vector{1e3, 1e9}) {
     PointCloud cloud = sphere_points(nightly ? 500 : 150);
     cloud.points.push_back({far, 0, 0});
@@ -192,7 +193,7 @@ TEST_OF_TWO_SIZES(ReconstructDegenerate, extremes_of_scale) {
 }
 
 TEST_OF_TWO_SIZES(ReconstructDegenerate, thin_sheets) {
-  // Two faces of a plate nearer to each other than their points are.
+  // The two faces of the plate are nearer to each other than the points.
   for (const double thickness : {1e-1, 1e-3, 0.0}) {
     PointCloud plate;
     for (std::size_t i = 0; i < (nightly ? 700 : 200); ++i) {

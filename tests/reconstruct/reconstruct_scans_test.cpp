@@ -1,5 +1,5 @@
-// Surfaces of scans: off as rigid bodies, with the places of their scanners. Oracles: bodies in
-// closed form.
+// Surfaces of scans that are misaligned by rigid motions, with positions of the scanners. Oracles
+// are bodies in closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ using test::expect_closed_manifold;
 using test::sphere_points;
 
 TEST(Reconstruct, scans_that_are_off_make_one_sheet_nightly) {
-  // Three spacings, rms: without a motion thousands of caps of two sheets each.
+  // The misalignment is three spacings rms: unaligned, thousands of caps contain two sheets each.
   const Mesh body = bumpy_sphere(5);
   const PointCloud scans =
       sample_surface(body, {.points = 30000, .scans = 8, .misalignment = 0.02, .normals = false});
@@ -31,7 +31,7 @@ TEST(Reconstruct, scans_that_are_off_make_one_sheet_nightly) {
   EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 2);
   EXPECT_EQ(made.report.scans.scans, 8U);
   EXPECT_EQ(left.report.scans.scans, 0U);
-  // The mean of all motions stays, a third of each.
+  // The mean of all motions stays, about a third of each motion.
   const double diagonal = bounds(body.vertices).diagonal();
   EXPECT_LT(compare(made.mesh, body, {.samples = 20000}).a_to_b.rms, 0.5 * 0.02 * diagonal);
   EXPECT_EQ(made.report.noise, 0);
@@ -41,23 +41,23 @@ TEST(Reconstruct, scans_that_are_off_make_one_sheet_nightly) {
 TEST(Reconstruct, what_has_been_seen_to_be_empty_is_not_closed) {
   const double whole = 8, bore = std::numbers::pi * 0.16 * 1.5;
   const Reconstruction blind = reconstruct(test::bored_box(false));
-  // The bottom of the bore is a bubble, the bore is closed.
+  // The bottom of the bore becomes a closed bubble, and the bore is filled.
   EXPECT_EQ(expect_closed_manifold(blind.mesh).euler_characteristic, 4);
   EXPECT_GT(blind.report.volume, whole - 0.4 * bore);
   const Reconstruction made = reconstruct(test::bored_box(true));
   EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 2);
-  // Two spacings of 0.03 less of the radius.
+  // The radius is smaller by at most two spacings of 0.03.
   EXPECT_NEAR(made.report.volume, whole - bore, 0.3 * bore);
   const double radius = 0.4, spacing = made.report.spacing;
   for (const Vec3& v : made.mesh.vertices) {
     if (std::abs(v.z - 0.25) > 0.5 || std::hypot(v.x, v.y) > 0.7) continue;
-    // Cubes of two spacings, soft over two more.
+    // The cubes are two spacings wide, with a transition over two more spacings.
     EXPECT_NEAR(std::hypot(v.x, v.y), radius, 4 * spacing);
   }
 }
 
 TEST(Reconstruct, one_sensor_decides_all_signs) {
-  // The front of a ball, as seen from afar: alone it could be a bowl.
+  // The front of a ball as seen from far away: by itself it could be a bowl.
   PointCloud front = sphere_points(6000);
   std::vector<Vec3> seen;
   for (const Vec3& p : front.points) {

@@ -1,5 +1,5 @@
-// From points to surfaces. Oracles: bodies in closed form, exact counts of edges and vertex links,
-// exact distances to the mesh that was sampled.
+// From points to surfaces. Oracles are bodies in closed form, exact counts of edges and vertex
+// links, and exact distances to the mesh that was sampled.
 #include "rholm/reconstruct.h"
 
 #include <gtest/gtest.h>
@@ -59,8 +59,8 @@ TEST(Reconstruct, a_sphere_is_exact_to_the_terms_that_caps_leave_out) {
   const Inspection found = expect_closed_manifold(made.mesh);
   EXPECT_EQ(found.euler_characteristic, 2);
   EXPECT_FALSE(found.inside_out);
-  // Over a cap of radius R the sphere is d^2/2 + d^4/8 + ... high; degree 3 has all but the second
-  // term. Its slope is d^3/2.
+  // Over a cap of radius R the sphere has the height d^2/2 + d^4/8 + ...; degree 3 represents the
+  // first term. The slope of the second term is d^3/2.
   const double support = largest_support(made.model.atlas), r4 = std::pow(support, 4) / 8;
   for (std::size_t i = 0; i < made.mesh.vertices.size(); ++i) {
     const Vec3& v = made.mesh.vertices[i];
@@ -72,7 +72,7 @@ TEST(Reconstruct, a_sphere_is_exact_to_the_terms_that_caps_leave_out) {
   EXPECT_EQ(made.report.noise, 0);
   EXPECT_EQ(made.report.caps, made.model.atlas.caps.size());
   EXPECT_FALSE(made.report.computed_normals);
-  // 10000 points of 4 pi.
+  // 10000 points on an area of 4 pi.
   EXPECT_NEAR(made.report.spacing, std::sqrt(4 * std::numbers::pi / 1e4),
               0.05 * made.report.spacing);
 }
@@ -115,7 +115,7 @@ TEST(Reconstruct, a_torus_has_a_hole_through_it) {
   const Inspection found = expect_closed_manifold(made.mesh);
   EXPECT_EQ(found.components, 1U);
   EXPECT_EQ(found.genus, 1U);
-  // Vertices of facets are dents of 1 - cos(pi / 80) of the tube in the mesh that was sampled.
+  // In the sampled mesh, facets lie inside the tube by up to 1 - cos(pi / 80) of its radius.
   const double dent =
       0.3 * (1 - std::cos(std::numbers::pi / 80)) + std::pow(largest_support(made.model.atlas), 4);
   EXPECT_LT(rms(distances_to_surface(made.mesh.vertices, truth)), dent);
@@ -142,11 +142,11 @@ TEST(Reconstruct, edges_of_a_box_stay_within_their_neighbours) {
   const Reconstruction made = reconstruct(sample_surface(truth, {.points = 20000}));
   const Inspection found = expect_closed_manifold(made.mesh);
   EXPECT_EQ(found.euler_characteristic, 2);
-  // Caps shrink at an edge until they hold a few points: nothing is farther off than their size.
+  // At an edge caps shrink until they have few points: errors do not exceed their size.
   const std::vector<double> off = distances_to_surface(made.mesh.vertices, truth);
   EXPECT_LT(*std::max_element(off.begin(), off.end()), 3 * made.report.spacing);
-  // Flat faces, which no edge is near to: a plane is r = R_0 / cos(theta) on a cap of support
-  // R_0 tan(15 degrees), and degree 3 leaves no more of it than its term 5 theta^4 / 24.
+  // Points of flat faces away from edges. On a cap of support R_0 tan(15 degrees) a plane is r =
+  // R_0 / cos(theta), and degree 3 leaves at most its term 5 theta^4 / 24 as error.
   std::size_t n_flat = 0;
   const double margin = 2 * largest_support(made.model.atlas);
   for (std::size_t i = 0; i < off.size(); ++i) {
@@ -175,7 +175,7 @@ TEST(Reconstruct, a_hole_is_closed_by_a_surface_that_goes_on_as_its_border) {
   EXPECT_EQ(found.euler_characteristic, 2);
   EXPECT_EQ(made.report.holes, 1U);
   EXPECT_EQ(made.report.smooth_holes, 1U);
-  // Of a hole of radius 0.6 the flat lid would be 0.2 below the sphere.
+  // A flat lid over a hole of radius 0.6 would be 0.2 below the sphere.
   for (const Vec3& v : made.mesh.vertices) EXPECT_NEAR(norm(v), 1, 0.05);
 }
 
@@ -193,8 +193,8 @@ TEST(Reconstruct, a_hole_can_be_kept_with_one_clean_border) {
 }
 
 TEST(Reconstruct, a_bowl_that_is_kept_open_has_one_sheet) {
-  // Its normals point to the hollow side: seen from the other one, it fills less than half of the
-  // view, so that the winding number closes it at once, right behind the points.
+  // The normals point to the hollow side. From the other side the bowl fills less than half of the
+  // view, so that the winding number closes it directly behind the points.
   PointCloud bowl = open_sphere(20000, -0.5);
   for (Vec3& normal : bowl.normals) normal = -normal;
   const Reconstruction made = reconstruct(bowl, {.holes = HolePolicy::kKeep});
@@ -228,7 +228,7 @@ TEST_OF_TWO_SIZES(Reconstruct, noise_is_found_and_averaged_out) {
   std::vector<double> off;
   off.reserve(made.mesh.vertices.size());
   for (const Vec3& v : made.mesh.vertices) off.push_back(norm(v) - 1);
-  // Caps of k points with 16 coefficients: sigma sqrt(16 / k), or a third of it at least.
+  // Caps of k points with 16 coefficients leave sigma sqrt(16 / k), and a third of sigma at most.
   EXPECT_LT(rms(off), kSigma / 3);
   const ReconstructOptions told{.noise = 0.02};
   EXPECT_EQ(reconstruct(cloud, told).report.noise, 0.02);
@@ -256,7 +256,7 @@ TEST(Reconstruct, outliers_are_left_out_before_normals_are_found_nightly) {
   const Reconstruction made = reconstruct(cloud);
   EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 2);
   for (const Vec3& v : made.mesh.vertices) EXPECT_NEAR(norm(v), 1, 0.05);
-  // One far away changes nothing at all.
+  // One point far away changes nothing.
   PointCloud one = sample_surface(icosphere(5), {.points = 5000, .normals = false});
   const Mesh expected = reconstruct(one).mesh;
   one.points.push_back({1e8, 0, 0});
@@ -288,7 +288,7 @@ TEST_OF_TWO_SIZES(Reconstruct, points_in_rows_make_the_surface_of_even_ones) {
                                                     .normals = normals});
       const Reconstruction made = reconstruct(rows);
       EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 0);
-      // A tenth of the square of the gap times the curvature: the best is some 0.01.
+      // The bound is 0.1 times gap^2 times curvature; the best possible factor is about 0.01.
       const double gap =
           std::sqrt(ratio * 4 * std::numbers::pi * std::numbers::pi * 1.4 / static_cast<double>(n));
       for (const Vec3& v : made.mesh.vertices) {
@@ -316,7 +316,7 @@ TEST(Reconstruct, points_that_say_nothing_change_nothing) {
 }
 
 TEST_OF_TWO_SIZES(Reconstruct, uneven_density_does_not_tear_the_surface) {
-  // Thirty times denser at one pole than at the other.
+  // The density is thirty times higher at one pole than at the other.
   PointCloud cloud;
   for (std::uint64_t i = 0; cloud.points.size() < (nightly ? 20000 : 8000); ++i) {
     const Vec3 u = random_direction(3, i);
@@ -332,7 +332,7 @@ TEST_OF_TWO_SIZES(Reconstruct, uneven_density_does_not_tear_the_surface) {
 // ---- Attributes ----
 
 TEST_OF_TWO_SIZES(Reconstruct, a_density_that_falls_a_thousand_times_does_not_tear_it_either) {
-  // By rejection: the density is 1000^(-(z + 1) / 2).
+  // Points are drawn by rejection: the density is 1000^(-(z + 1) / 2).
   PointCloud cloud;
   for (std::uint64_t i = 0; cloud.points.size() < (nightly ? 20000 : 8000); ++i) {
     const Vec3 p = random_direction(3, i);
@@ -348,14 +348,14 @@ TEST_OF_TWO_SIZES(Reconstruct, a_density_that_falls_a_thousand_times_does_not_te
 }
 
 TEST(Reconstruct, caps_of_sparse_parts_agree_within_a_band_of_their_own) {
-  // Spacings differ by 17; the step is that of the dense end, and bands of steps alone leave five
-  // handles at the other one.
+  // Spacings differ by a factor of 17. The step is the spacing of the dense end; bands in steps
+  // alone would leave five handles at the other end.
   const Mesh ring = torus(2, 0.7, 400, 200);
   const Reconstruction made =
       reconstruct(sample_surface(ring, {.points = 20000, .density_ratio = 300}));
   EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 0);
   for (const Vec3& v : made.mesh.vertices) {
-    // Some 0.2 apart at that end.
+    // Points at that end are about 0.2 apart.
     EXPECT_NEAR(std::hypot(std::hypot(v.x, v.y) - 2, v.z), 0.7, 0.05);
   }
 }
@@ -375,8 +375,9 @@ TEST(Reconstruct, attributes_that_are_linear_in_space_travel_along) {
   ASSERT_NE(reds, nullptr);
   EXPECT_EQ(reds->type, ScalarType::kUint8);
   EXPECT_EQ(heights->type, ScalarType::kFloat32);
-  // The eight nearest lie within 2.5 spacings (8 of them would fill pi r^2 with r = 1.6, at holes
-  // of the random points more); a mean of them is no farther off than the gradient times that.
+  // The eight nearest points lie within 2.5 spacings (8 points fill pi r^2 with r = 1.6; holes
+  // between random points need more). A mean of their values is off by at most the gradient times
+  // that.
   const double reach = 2.5 * made.report.spacing;
   for (std::size_t i = 0; i < made.mesh.vertices.size(); ++i) {
     const Vec3& v = made.mesh.vertices[i];
@@ -429,7 +430,7 @@ TEST(Reconstruct, results_are_the_same_bits_for_every_number_of_threads) {
   }
 }
 
-// Rms distance from the truth to the surface of its points after a motion, undone.
+// Returns the rms distance from the truth to the surface of the moved points, moved back.
 double error_after(const test::Motion& motion, std::size_t n_points) {
   static const Mesh truth = bumpy_sphere(5);
   PointCloud cloud = sample_surface(truth, {.points = n_points});
@@ -457,8 +458,8 @@ TEST(Reconstruct, place_and_size_do_not_matter) {
 }
 
 TEST(Reconstruct, direction_does_not_matter) {
-  // Other points become seeds: the error is that of some five hundred other caps, whose mean
-  // square scatters by twice 1 / sqrt(500). The same caps would be exact to rounding, as above.
+  // Other points become seeds: the error belongs to about five hundred other caps, and its square
+  // scatters by twice 1 / sqrt(500). With the same caps it would be exact to rounding, as above.
   const double expected = error_after({}, 5000);
   for (const double angle : {0.7, 2.0}) {
     EXPECT_NEAR(error_after(test::rotation({1, 2, 3}, angle), 5000) / expected, 1, 0.1);
@@ -486,7 +487,7 @@ TEST(Reconstruct, more_memory_than_allowed_is_refused_with_the_number) {
   const std::string said =
       refusal(sphere_points(2000), {.step = 8e-3, .max_memory = 1 << 22}, ErrorCode::kOutOfMemory);
   EXPECT_NE(said.find("4 MiB"), std::string::npos) << said;
-  // And it says what would do, which does.
+  // The error names a step that suffices, and that step works.
   const std::size_t at = said.find("take steps of ");
   ASSERT_NE(at, std::string::npos) << said;
   const double step = std::stod(said.substr(at + 14));
@@ -495,7 +496,7 @@ TEST(Reconstruct, more_memory_than_allowed_is_refused_with_the_number) {
       reconstruct(sphere_points(2000), {.step = step, .max_memory = 1 << 22});
   EXPECT_LE(made.report.memory, std::size_t{1} << 22);
   EXPECT_EQ(made.report.step, step);
-  // Without a step that would do.
+  // No step is suggested, because none suffices.
   EXPECT_NE(refusal(sphere_points(2000), {.step = 1e-300}, ErrorCode::kOutOfMemory), "");
   EXPECT_NE(refusal(sphere_points(2000), {.max_memory = 0}, ErrorCode::kOutOfMemory), "");
 }

@@ -1,5 +1,5 @@
-// Thin bodies of which both sheets have normals: plates and boxes a few spacings thick. Oracles:
-// distances in closed form, exact counts of parts and handles.
+// Thin bodies whose two sheets have normals: plates and boxes a few spacings thick. Oracles are
+// distances in closed form and exact counts of parts and handles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,10 +22,10 @@ namespace {
 using test::expect_closed_manifold;
 
 constexpr std::size_t kPoints = 30000;
-// Between points on both sides of a rectangle of 2 x 1, as if they lay on a square grid.
+// Spacing of points on both sides of a rectangle of 2 x 1, as if they formed a square grid.
 const double kSpacing = std::sqrt(4.0 / kPoints);
 
-// All that is within t / 2 of the rectangle |x| < a, |y| < b in the plane z = 0.
+// All points within t / 2 of the rectangle |x| < a, |y| < b in the plane z = 0.
 struct RoundPlate {
   double thickness, a = 1 - thickness / 2, b = 0.5 - thickness / 2;
 

@@ -1,4 +1,4 @@
-// Clouds with what happens in files, and what is in the tiles of a store.
+// Point clouds with difficulties that files have, and the contents of tiles in a store.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,12 +22,12 @@
 
 namespace rholm::testing {
 
-// On a unit sphere, closer together on one side; with unit normals and attributes, of which one is
-// the index. All numbers are floats.
+// Points of a unit sphere, denser on one side, with unit normals and attributes; one attribute is
+// the index. All values fit into single precision.
 inline PointCloud sphere_points(std::size_t n, std::uint64_t seed = 1) {
   PointCloud cloud;
   cloud.attributes = {{"index", ScalarType::kUint32, {}}, {"shade", ScalarType::kUint8, {}}};
-  // To 2^-20: by way of float GCC 12.2 at -O3 leaves the two conversions out.
+  // Rounds to 2^-20. GCC 12.2 at -O3 omits a conversion to float and back.
   const auto rounded = [](double x) { return std::round(x * 0x1p20) * 0x1p-20; };
   const auto single = [&](const Vec3& v) { return Vec3{rounded(v.x), rounded(v.y), rounded(v.z)}; };
   for (std::size_t i = 0; i < n; ++i) {
@@ -43,7 +43,7 @@ inline PointCloud sphere_points(std::size_t n, std::uint64_t seed = 1) {
   return cloud;
 }
 
-// All lists in the order of the indices.
+// Returns the points with these indices, and all their values, in this order.
 inline PointCloud chosen(const PointCloud& cloud, const std::vector<std::size_t>& indices) {
   PointCloud result;
   for (const Attribute& a : cloud.attributes) result.attributes.push_back({a.name, a.type, {}});
@@ -66,7 +66,7 @@ inline PointCloud shuffled(const PointCloud& cloud, std::uint64_t seed = 5) {
   return chosen(cloud, order);
 }
 
-// A point with all that belongs to it.
+// A point with all its values.
 using Row = std::vector<double>;
 inline std::vector<Row> sorted_rows(const PointCloud& cloud) {
   std::vector<Row> rows;
@@ -106,7 +106,7 @@ inline std::vector<std::vector<std::byte>> bytes_of_piece(const PieceStore& stor
   return sections;
 }
 
-// A source all the way to sorted tiles.
+// Takes a source through all steps up to sorted tiles.
 struct Tiles {
   Survey found;
   TilePlan plan;

@@ -1,4 +1,4 @@
-// Normals in tiles: those that orient() gives all points at once, and the true ones.
+// Normals in tiles, compared with orient() on all points at once and with the true normals.
 #include "reconstruct/normals/tile_normals.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ PointCloud without_normals(PointCloud cloud) {
 using Place = std::tuple<double, double, double>;
 Place place_of(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-// What is wanted of normals at the places of a cloud: body(index in the cloud, normal found).
+// Calls body(index in the cloud, normal found) for the normal at each point of a cloud.
 template <typename Body>
 void for_each_normal(const Oriented& made, const PointCloud& cloud, const Body& body) {
   std::map<Place, std::size_t> index;
@@ -99,7 +99,8 @@ TEST(tile_normals, of_one_tile_are_those_of_all_points) {
     mean += norm(whole.normals[i] - found.normal());
     EXPECT_NEAR(whole.attributes[0].values[i], static_cast<double>(found.confidence), 0.05);
   });
-  EXPECT_LT(mean / static_cast<double>(given.points.size()), 1e-6);  // floats, and other frames
+  // The difference comes from single precision and from other frames.
+  EXPECT_LT(mean / static_cast<double>(given.points.size()), 1e-6);
 }
 
 TEST(tile_normals, of_many_tiles_point_out_nightly) {
@@ -113,7 +114,7 @@ TEST(tile_normals, of_many_tiles_point_out_nightly) {
   }
 }
 
-// Directions beside the faces of tiles are those of points all around.
+// Normals beside faces between tiles use points on all sides.
 TEST(tile_normals, have_the_directions_of_all_points) {
   for (const double noise : {0.0, 0.005}) {
     const PointCloud given =
@@ -139,7 +140,8 @@ TEST(tile_normals, turn_what_bounds_a_cavity_inwards) {
   EXPECT_EQ(share_right(made, shell), 1.0);
 }
 
-// Where the graph is in doubt a field of all points decides: two bodies that cross, and rows.
+// Where the spanning tree is unsure, a field of all points decides: two intersecting balls, and
+// rows.
 PointCloud crossing_balls() {
   PointCloud cloud;
   for (const double x : {-0.45, 0.45}) {
@@ -172,7 +174,7 @@ TEST(tile_normals, are_those_of_a_field_where_the_graph_is_in_doubt_nightly) {
   }
 }
 
-// Samples that are farther apart than a plate is thick do not see it, and would ask the field.
+// Samples farther apart than the plate is thick do not resolve it, and would use the field.
 TEST(tile_normals, of_a_plate_that_samples_do_not_show_are_sure_nightly) {
   const PointCloud given = sample_surface(box({1, 1, 0.05}), {.points = 15000});
   const Oriented made(without_normals(given), 2500, {.samples = 300});
@@ -197,7 +199,8 @@ TEST(tile_normals, of_noisy_points_are_right_where_they_are_sure_nightly) {
     wrong += dot(given.normals[i], found.normal()) < 0;
   });
   EXPECT_GT(sure, 0.8 * 15000);
-  // The normals given are those of faces: beside an edge a fit may be at more than 90 degrees.
+  // The given normals are normals of faces: beside an edge a fit may differ by more than 90
+  // degrees.
   EXPECT_LT(wrong, 0.005 * sure);
 }
 
@@ -233,7 +236,8 @@ TEST(tile_normals, face_one_sensor_for_all) {
   std::size_t away = 0;
   for_each_normal(made, given, [&](std::size_t i, const TileNormal& found) {
     const Vec3 to = normalized(above - given.points[i]);
-    away += dot(found.normal(), to) < -0.1 ? 1 : 0;  // what is seen at a glancing angle may
+    // Points seen at a glancing angle may face away.
+    away += dot(found.normal(), to) < -0.1 ? 1 : 0;
   });
   EXPECT_EQ(away, 0u);
 }
@@ -275,7 +279,7 @@ TEST(tile_normals, are_the_same_after_an_interruption) {
     EXPECT_EQ(bytes_of_piece(store, name), bytes_of_piece(whole.store, name));
     EXPECT_FALSE(store.has("directions/" + std::to_string(tile)));
   }
-  // Nothing is done again.
+  // No work is repeated.
   StageTimes none;
   Stages no_stages(alone, store, {}, none, {});
   const TileNormalsReport again = orient_tiles(store, tiles.plan, spacings, {}, no_stages);

@@ -24,7 +24,7 @@ using namespace testing;
 
 class TileReconstructOptions : public TileFiles {};
 
-// Two holes, one of them through several tiles.
+// The cloud has two holes, one of which crosses several tiles.
 TEST_F(TileReconstructOptions, keeps_holes_open_through_tiles_nightly) {
   const PointCloud cloud =
       with_hole(with_hole(torus_points(20000), {1.3, 0.1, 0.2}, 0.25), {-1, 0.2, -0.4}, 0.15);
@@ -48,7 +48,7 @@ TEST_F(TileReconstructOptions, keeps_holes_open_through_tiles_nightly) {
   EXPECT_TRUE(bytes("open.ply") == bytes("other.ply"));
 }
 
-// Of a wavy sheet: its rim is where its points end.
+// The rim of the wavy sheet is where its points end.
 TEST_F(TileReconstructOptions, keeps_a_sheet_open) {
   PointCloud cloud;
   for (std::size_t i = 0; i < 5000; ++i) {
@@ -66,13 +66,13 @@ TEST_F(TileReconstructOptions, keeps_a_sheet_open) {
   const double spacing = std::sqrt(4.0 / 5000);
   for (const Vec3& v : sheet.vertices) {
     const double rim = std::max(std::abs(v.x), std::abs(v.y));
-    // Beyond the last points it goes on by itself.
+    // Beyond the last points the surface is extrapolated.
     ASSERT_NEAR(v.z, 0.2 * std::sin(3 * v.x), (rim < 0.9 ? 0.05 : 1.0) * spacing);
     ASSERT_LT(rim, 1 + 2 * spacing);
   }
 }
 
-// As many triangles as wanted; what vertices know stays.
+// The result has as many triangles as requested, and attributes of vertices are kept.
 TEST_F(TileReconstructOptions, simplifies_through_tiles_nightly) {
   PointCloud cloud = torus_points(15000);
   cloud.attributes = {{"height", ScalarType::kFloat32, {}}};
@@ -107,7 +107,7 @@ TEST_F(TileReconstructOptions, simplifies_through_tiles_nightly) {
   EXPECT_TRUE(bytes("simple.ply") == bytes("other.ply"));
 }
 
-// By the error that a step of the grid allows, and with borders.
+// Simplification with borders, to the error that a step of the grid allows.
 TEST_F(TileReconstructOptions, simplifies_what_is_open_nightly) {
   const PointCloud cloud = with_hole(torus_points(15000), {1.3, 0.1, 0.2}, 0.3);
   const ReconstructOptions wanted{.holes = HolePolicy::kKeep, .simplify = SimplifyOptions{}};
@@ -123,7 +123,7 @@ TEST_F(TileReconstructOptions, simplifies_what_is_open_nightly) {
   EXPECT_NEAR(static_cast<double>(found.triangles), n, 0.05 * n);
 }
 
-// A torus with a hole, and a thin plate.
+// The cloud is a torus with a hole and a thin plate.
 TEST_F(TileReconstructOptions, knows_how_sure_it_is_as_one_piece_does_nightly) {
   PointCloud cloud = with_hole(torus_points(20000), {1.3, 0.1, 0.2}, 0.3);
   const auto random = [](std::size_t i) { return 1.2 * random_uniform(21, i) - 0.6; };
@@ -150,7 +150,7 @@ TEST_F(TileReconstructOptions, knows_how_sure_it_is_as_one_piece_does_nightly) {
   EXPECT_NEAR(report.unseen_area, one.report.unseen_area, 0.03 * report.unseen_area);
   EXPECT_NEAR(report.thin_area, one.report.thin_area, 0.03 * report.thin_area);
   EXPECT_NEAR(report.unsure_area, one.report.unsure_area, 0.03 * report.unsure_area);
-  // In the middle of the hole nothing is known, and far from all this everything.
+  // In the middle of the hole confidence is 0, and far from the hole and the plate it is full.
   for (std::size_t v = 0; v < sure.vertices.size(); ++v) {
     const double here = sure.attributes[3].values[v];
     if (norm(sure.vertices[v] - Vec3{1.3, 0.1, 0.2}) < 0.12) {
@@ -171,7 +171,7 @@ TEST_F(TileReconstructOptions, does_not_close_what_has_been_seen_to_be_empty_nig
   EXPECT_NEAR(report.volume, 8 - bore, 0.3 * bore);
 }
 
-// As if seen from within: what closes the hole ends where lines of sight went out.
+// The sensor lies inside: the surface that closes the hole ends where lines of sight leave.
 TEST_F(TileReconstructOptions, takes_one_sensor_for_all_nightly) {
   PointCloud cloud;
   for (const Vec3& p : sample_surface(icosphere(4), {.points = 12000, .seed = 5}).points) {
@@ -188,14 +188,14 @@ TEST_F(TileReconstructOptions, takes_one_sensor_for_all_nightly) {
                       inside.attributes[2].values[v]};
     ASSERT_LT(dot(normal, inside.vertices[v]), -0.9);
   }
-  // About the middle of its box, as one piece has it.
+  // The volume is taken about the middle of the box, as in one piece.
   const Reconstruction one = reconstruct(cloud, wanted);
   EXPECT_NEAR(report.volume, one.report.volume, 0.01 * std::abs(report.volume));
   EXPECT_LT(report.volume, 0);
 }
 
-// A ball of eight scans, each off by three spacings: in the mean where they were, on one sphere.
-// The order of the points changes nothing.
+// Eight scans of a ball, each misaligned by three spacings: on average they stay in place, on one
+// sphere. The order of the points does not matter.
 TEST_F(TileReconstructOptions, brings_scans_together_as_one_piece_does) {
   PointCloud cloud =
       sample_surface(bumpy_sphere(5), {.points = 8000, .scans = 8, .misalignment = 0.04});
@@ -205,7 +205,7 @@ TEST_F(TileReconstructOptions, brings_scans_together_as_one_piece_does) {
   EXPECT_GT(report.tiles, 2U);
   EXPECT_EQ(report.scans.scans, 8U);
   EXPECT_GT(report.scans.pairs, 1000U);
-  // A third of the points tell the motions: errors of a tenth of the way are far above theirs.
+  // A third of the points determine the motions. Their error is far below a tenth of the motions.
   EXPECT_NEAR(report.scans.moved, one.report.scans.moved, 0.1 * one.report.scans.moved);
   EXPECT_LT(report.scans.distance, 0.2 * report.scans.distance_before);
   EXPECT_EQ(report.noise, 0);
@@ -264,7 +264,7 @@ TEST_F(TileReconstructOptions, drops_small_parts_through_all_tiles_nightly) {
   EXPECT_EQ(inspect(mesh("two.ply")).components, 2U);
 }
 
-// The whole shape's own values: a linear one and a whole number.
+// Attributes have the values of the whole shape: a linear function and an integer.
 TEST_F(TileReconstructOptions, carries_attributes) {
   PointCloud cloud = torus_points(6000);
   cloud.attributes = {{"height", ScalarType::kFloat32, {}}, {"side", ScalarType::kUint8, {}}};
@@ -280,7 +280,7 @@ TEST_F(TileReconstructOptions, carries_attributes) {
   const double spacing = std::sqrt(4 * std::numbers::pi * std::numbers::pi * kRing * kTube / 6000);
   for (std::size_t v = 0; v < carried.vertices.size(); ++v) {
     const Vec3& p = carried.vertices[v];
-    ASSERT_NEAR(carried.attributes[3].values[v], p.z, 2 * spacing);  // of eight around
+    ASSERT_NEAR(carried.attributes[3].values[v], p.z, 2 * spacing);  // mean of eight neighbours
     if (std::abs(p.x) > 4 * spacing) {
       ASSERT_EQ(carried.attributes[4].values[v], p.x < 0 ? 10 : 20);
     }

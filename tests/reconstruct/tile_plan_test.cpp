@@ -1,4 +1,4 @@
-// Samples, surveys and plans: against slow ways, and in any order of the points.
+// Samples, surveys and plans, compared with slow computations, and for any order of the points.
 #include "reconstruct/points/tile_plan.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ TEST(PointSample, grows_with_the_points) {
   EXPECT_EQ(growing.take(), sample_of(points, 999));
 }
 
-// The size of a pipe is not known before.
+// A source of unknown size, like a pipe.
 class Unsized final : public PointSource {
  public:
   explicit Unsized(const PointCloud& cloud) : source_(points_in_memory(cloud)) {}
@@ -87,7 +87,7 @@ PointCloud with_strays() {
   cloud.points[70] = {0, -std::numeric_limits<double>::infinity(), 0};
   cloud.points[100] = {1000, 0, 0};
   cloud.points[101] = {0, -90, 80};
-  cloud.points[7000] = {40, 0, 0};  // not far: nearly all are within a box of diagonal 3.4
+  cloud.points[7000] = {40, 0, 0};  // near enough: nearly all points are in a box of diagonal 3.4
   return cloud;
 }
 
@@ -150,7 +150,7 @@ TEST(survey, knows_the_narrowest_layout) {
   found = survey(*points_in_memory(cloud));
   EXPECT_EQ(found.layout.row_bytes(), 24u + 12 + 4 + 8);
   EXPECT_EQ(found.layout.columns[1].type, ScalarType::kUint8);
-  // Normals that are no directions are none.
+  // Normals without a direction count as missing.
   for (Vec3& normal : cloud.normals) normal = {};
   cloud.normals[17] = {kNan, 1, 0};
   EXPECT_FALSE(survey(*points_in_memory(cloud)).layout.normals);
@@ -220,7 +220,7 @@ TEST(TilePlan, cells_fill_space_once) {
   }
 }
 
-// All points are in the sample: none has more, and a cut leaves no less than a quarter.
+// All points are in the sample: no tile has more than wanted, and cuts leave at least a quarter.
 TEST(TilePlan, tiles_have_as_many_points_as_wanted) {
   const std::vector<Vec3> points = sphere_points(50000).points;
   for (const std::uint64_t most : {100, 3000, 30000}) {
@@ -231,7 +231,7 @@ TEST(TilePlan, tiles_have_as_many_points_as_wanted) {
   }
 }
 
-// Of 64 or more samples the share of a tile has a standard deviation of an eighth.
+// With 64 or more samples, the share of a tile has a standard deviation of an eighth.
 TEST(TilePlan, tiles_by_a_sample_have_about_as_many) {
   const std::vector<Vec3> points = sphere_points(200000).points;
   const PointCloud cloud{.points = points};
@@ -262,7 +262,7 @@ TEST(TilePlan, depends_on_the_set_of_points_only) {
 }
 
 TEST(TilePlan, points_at_one_place_stay_together) {
-  // Half of them are twins, a millionth of the diagonal apart or less.
+  // Half of the points are twins, at most a millionth of the diagonal apart.
   std::vector<Vec3> points = sphere_points(20000).points;
   for (std::size_t i = 0; i < 20000; ++i) {
     Vec3 step;
@@ -286,14 +286,14 @@ TEST(TilePlan, points_at_one_place_stay_together) {
 }
 
 TEST(TilePlan, takes_points_with_equal_coordinates) {
-  // A stack of seven planes, thick: cuts across it go between planes.
+  // A stack of seven dense planes: cuts across it go between planes.
   std::vector<Vec3> planes;
   planes.reserve(7000);
   for (std::size_t i = 0; i < 7000; ++i) {
     planes.push_back({random_uniform(1, i), random_uniform(2, i), static_cast<double>(i % 7)});
   }
   for (const std::size_t n : counts_of(plan_of(planes, 300), planes)) EXPECT_LE(n, 300u);
-  // On a line, at few places, at one.
+  // Points on a line, at several places, and at one place.
   std::vector<Vec3> line, places;
   line.reserve(1000), places.reserve(1000);
   for (std::size_t i = 0; i < 1000; ++i) {

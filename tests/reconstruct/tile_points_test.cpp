@@ -1,4 +1,4 @@
-// Points through tiles and back: none is lost, doubled or changed but as clean() does it.
+// Points go through tiles and back: none is lost, doubled or changed, except as in clean().
 #include "reconstruct/points/tile_points.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(tile_points, are_the_points_that_were_given) {
   }
   cloud.points[7] = {kNan, 0, 0};
   cloud.points[8] = {1e6, 0, 0};
-  cloud.normals[9] = {kNan, 0, 1};  // others have a direction
+  cloud.normals[9] = {kNan, 0, 1};  // dropped, because other normals have directions
   MemoryStore store;
   const Tiles tiles(*points_in_memory(cloud), store, 700);
   std::vector<std::size_t> kept;
@@ -55,7 +55,7 @@ TEST(tile_points, are_the_points_that_were_given) {
 
 TEST(tile_points, of_another_order_are_the_same_bytes) {
   PointCloud cloud = sphere_points(15000);
-  // Some are there two or three times, with other normals, and with 0 and -0.
+  // Some points occur two or three times, with other normals, and with 0 and -0.
   for (std::size_t i = 0; i < 300; ++i) {
     cloud.points[i + 1000] = cloud.points[i % 100];
     cloud.attributes[0].values[i + 1000] = cloud.attributes[0].values[i % 100];
@@ -78,7 +78,7 @@ TEST(tile_points, of_another_order_are_the_same_bytes) {
   }
 }
 
-// Twins at most a cell or so apart, in tiles of a few points: many lie beside cuts.
+// Twins are at most about a cell apart, in tiles of few points: many lie beside cuts.
 PointCloud twins() {
   PointCloud cloud = sphere_points(10000);
   const PointCloud more = sphere_points(10000);
@@ -108,7 +108,7 @@ TEST(tile_points, are_merged_as_the_whole_cloud_is) {
   EXPECT_EQ(tiles.counts.opposite_normals, report.opposite_normals);
   EXPECT_GT(report.duplicates, 1000u);
   EXPECT_GT(report.opposite_normals, 100u);
-  // Attributes, by the place: of the first in the file.
+  // Each place has the attributes of its first point in the file.
   std::map<testing::Row, double> index_at;
   const auto place = [&](const Vec3& p) {
     const Vec3 cell = lattice.cell_of(p);
@@ -161,11 +161,11 @@ TEST(tile_points, lie_near_each_other_in_chunks) {
   ASSERT_EQ(index.chunks.size(), (100000 + kChunkPoints - 1) / kChunkPoints);
   double sum = 0;
   for (const TileIndex::Chunk& chunk : index.chunks) sum += chunk.box.diagonal();
-  // 25 chunks of 4 pi have 0.7 x 0.7 each; in random order all have 3.4.
+  // 25 chunks of 4 pi have 0.7 x 0.7 each; in random order each chunk would have 3.4.
   EXPECT_LT(sum / 25, 1.7);
 }
 
-// A source that ends early, with an error.
+// A source that ends early with an error.
 class Interrupted final : public PointSource {
  public:
   Interrupted(const PointCloud& cloud, int pieces)
@@ -207,7 +207,7 @@ TEST(tile_points, are_finished_by_another_run) {
   }
   FolderStore store(folder / "run");
   Interrupted never(cloud, 0);
-  distribute(never, wanted.found, wanted.plan, store, {});  // all of it is there
+  distribute(never, wanted.found, wanted.plan, store, {});  // all parts exist already
   SortedTile counts;
   for (std::size_t k = 0; k < wanted.plan.n_tiles(); ++k) {
     counts.points += sort_points(store, k).points;
@@ -223,7 +223,7 @@ TEST(tile_points, of_a_file_that_changes_are_refused) {
   const TilePlan plan = make_plan(found, 100);
   MemoryStore store;
   PointCloud other = cloud;
-  other.points[3].x = 0.1;  // no float
+  other.points[3].x = 0.1;  // does not fit into single precision
   expect_error([&] { distribute(*points_in_memory(other), found, plan, store); },
                ErrorCode::kInvalidInput, {"others"});
   other = chosen(cloud, {1, 2, 3});
@@ -257,7 +257,7 @@ TEST(tile_points, that_are_damaged_are_refused) {
     auto sections = whole;
     sections[0].resize(n);
     store.write(sorted_name(0), sections);
-    // Without its last bytes a layout may be one of fewer columns: then rows do not fit.
+    // Without its last bytes the layout has fewer columns, which the rows do not fit.
     expect_error(read, ErrorCode::kInvalidInput);
   }
   auto sections = whole;

@@ -42,7 +42,7 @@ TEST_F(TileReconstruct, is_as_good_as_one_piece) {
   EXPECT_NEAR(report.step, one.report.step, 0.03 * one.report.step);
   EXPECT_EQ(report.faces, tiles.triangles.size());
   EXPECT_LT(rms_of(tiles), 1.05 * rms_of(one.mesh));
-  // Normals to the true ones.
+  // Compares normals with the true normals.
   double worst = 1;
   for (std::size_t v = 0; v < tiles.vertices.size(); ++v) {
     const Vec3& p = tiles.vertices[v];
@@ -63,8 +63,8 @@ double distance_to_faces(const Bounds& cell, const Vec3& x) {
   return least;
 }
 
-// Errors within three cubes of a face between tiles are those of elsewhere: of all, and of the
-// worst thousandth.
+// Errors within three cubes of a face between tiles equal errors elsewhere: over all vertices, and
+// over the worst thousandth.
 TEST_F(TileReconstruct, has_no_seam_at_faces_of_tiles_nightly) {
   constexpr std::uint64_t kPerTile = 4000;
   const PointCloud cloud = torus_points(100000);
@@ -123,14 +123,14 @@ TEST_F(TileReconstruct, removes_outliers_near_the_surface_nightly) {
   EXPECT_EQ(found.genus, 1);
   const Reconstruction one = reconstruct(cloud);
   EXPECT_NEAR(static_cast<double>(report.outliers), static_cast<double>(one.report.outliers), 15);
-  // Few stay, near the surface: they make no more than a dent.
+  // The few that remain are near the surface: they only make dents.
   EXPECT_LT(most_of(tiles), 1.05 * most_of(one.mesh));
   EXPECT_NEAR(report.area, one.report.area, 1e-3 * report.area);
   run(cloud, 5000, "other.ply", {}, 1, "work");
   EXPECT_TRUE(bytes("tiles.ply") == bytes("other.ply"));
 }
 
-// At random and in a patch that several tiles have.
+// Wrong normals are at random points, and in a patch that crosses several tiles.
 TEST_F(TileReconstruct, mends_normals_as_one_piece_does_nightly) {
   PointCloud cloud = torus_points(30000);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
@@ -152,7 +152,7 @@ TEST_F(TileReconstruct, mends_normals_as_one_piece_does_nightly) {
   EXPECT_TRUE(bytes("tiles.ply") == bytes("other.ply"));
 }
 
-// None is far from the surface: their normals alone tell.
+// No point is far from the surface: only the normals are wrong.
 TEST_F(TileReconstruct, removes_points_with_wrong_normals_nightly) {
   PointCloud cloud = torus_points(30000);
   for (std::size_t i = 0; i < cloud.points.size(); i += 25) {
@@ -162,15 +162,15 @@ TEST_F(TileReconstruct, removes_points_with_wrong_normals_nightly) {
   const ReconstructReport report = run(cloud, 5000, "tiles.ply");
   const Reconstruction one = reconstruct(cloud);
   EXPECT_GT(report.outliers, 800U);
-  // Some are turned and kept, as in one piece, the others are removed.
+  // Some points are flipped and kept, as in one piece; the others are removed.
   EXPECT_EQ(report.mended_normals, one.report.mended_normals);
   EXPECT_NEAR(static_cast<double>(report.outliers), static_cast<double>(one.report.outliers), 15);
-  // A torus without noise: chosen, a hundredth of the spacing.
+  // The bound, chosen for a torus without noise, is a hundredth of the spacing.
   EXPECT_LT(rms_of(mesh("tiles.ply")), 0.01 * report.spacing);
   EXPECT_LT(rms_of(one.mesh), 0.01 * report.spacing);
 }
 
-// A patch of fewer points than are kept beside the surface, in two tiles at least: x = 0 is
+// A patch with fewer points than are kept away from the surface, in at least two tiles: x = 0 lies
 // between tiles.
 TEST_F(TileReconstruct, removes_groups_through_tiles_nightly) {
   PointCloud cloud = with_outliers(torus_points(30000), 300);
@@ -181,14 +181,14 @@ TEST_F(TileReconstruct, removes_groups_through_tiles_nightly) {
       cloud.normals.push_back({0, 0, 1});
     }
   }
-  ASSERT_EQ(n, 49U);  // of 60 that a group needs here
+  ASSERT_EQ(n, 49U);  // a group needs 60 here
   run(cloud, 5000, "tiles.ply", {.min_component = 0});
   const Mesh tiles = mesh("tiles.ply");
   EXPECT_EQ(inspect(tiles).components, 1U);
   for (const Vec3& v : tiles.vertices) EXPECT_LT(std::abs(distance_to_torus(v)), 0.05);
 }
 
-// As where there is one point to a place: what has no direction is of no use.
+// Points without a direction are useless here, as at a place with a single point.
 TEST_F(TileReconstruct, drops_points_without_normals_where_others_have_some) {
   PointCloud cloud = torus_points(10000);
   for (std::size_t i = 0; i < 500; ++i) {
@@ -199,7 +199,7 @@ TEST_F(TileReconstruct, drops_points_without_normals_where_others_have_some) {
   test::expect_closed_manifold(mesh("some.ply"));
 }
 
-// What is missing lies in several tiles.
+// The hole crosses several tiles.
 TEST_F(TileReconstruct, closes_holes_through_tiles_smoothly_nightly) {
   constexpr double kHole = 0.25;
   const PointCloud cloud = with_hole(torus_points(40000), {1.3, 0.1, 0.2}, kHole);
@@ -212,14 +212,14 @@ TEST_F(TileReconstruct, closes_holes_through_tiles_smoothly_nightly) {
   EXPECT_GT(report.closed_area, 0.1);
   double worst = 0;
   for (const Vec3& v : closed.vertices) worst = std::max(worst, std::abs(distance_to_torus(v)));
-  // The fill continues what is around within a few thousandths of the hole's size.
+  // The fill continues the surface around it to a few thousandths of the hole's size.
   EXPECT_LT(worst, 3e-3 * kHole);
   const Reconstruction one = reconstruct(cloud);
   EXPECT_NEAR(report.closed_area, one.report.closed_area, 0.05 * report.closed_area);
 }
 
-// A sphere with a gap around an island: its rims are too far from each other to be one portion, and
-// what closes one closes the other.
+// A sphere with a gap around an island. Its rims are too far apart for one portion, and closing one
+// rim closes the other.
 TEST_F(TileReconstruct, closes_gaps_around_islands_whatever_the_portions_nightly) {
   const PointCloud whole = sample_surface(icosphere(6), {.points = 30000, .seed = 2});
   const PointCloud cloud = those_of(whole, [](const Vec3& p) {
@@ -233,7 +233,7 @@ TEST_F(TileReconstruct, closes_gaps_around_islands_whatever_the_portions_nightly
     const TileRunOptions wanted{.reconstruct = {.tile_points = 4000, .output = path(name)},
                                 .open_blocks = open_blocks};
     const Reconstruction made = run_tiles(*points_in_memory(cloud), store, wanted, alone, {});
-    // A second round, of what was in several portions.
+    // A second round closes what crossed several portions.
     EXPECT_EQ(store.has("filling-1/0"), open_blocks == 1);
     return made.report;
   };
@@ -249,8 +249,9 @@ TEST_F(TileReconstruct, closes_gaps_around_islands_whatever_the_portions_nightly
   EXPECT_NEAR(together.closed_area, one.report.closed_area, 0.02 * one.report.closed_area);
 }
 
-// A ring with a neck that is thinner than points can tell, between tiles, within one, or in the
-// only one: as in one piece it is cut, and a ball is left, also where the surface may be open.
+// A ring with a neck thinner than the points resolve, between tiles, within one tile, or in the
+// only tile. The neck is cut and a ball is left, as in one piece, also where the surface may be
+// open.
 TEST_F(TileReconstruct, cuts_handles_as_one_piece_does_nightly) {
   const PointCloud cloud = sample_surface(test::ring_with_neck(0.15), {.points = 4000, .seed = 5});
   const Reconstruction one = reconstruct(cloud);
@@ -278,7 +279,7 @@ TEST_F(TileReconstruct, turns_normals_that_point_inwards) {
   EXPECT_GT(report.volume, 0);
 }
 
-// Also in the middle of a hole, where no cap reaches.
+// Normals exist also in the middle of a hole, which no cap reaches.
 TEST_F(TileReconstruct, has_unit_normals_everywhere_nightly) {
   const PointCloud cloud = with_hole(torus_points(20000), {-1.2, 0.3, 0.25}, 0.35);
   run(cloud, 1500, "normals.ply");

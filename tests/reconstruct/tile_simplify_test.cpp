@@ -37,8 +37,8 @@ double rms_of_middles(const Mesh& mesh) {
   return std::sqrt(sum / all);
 }
 
-// A mesh cut into tiles: each triangle is of the tile of its middle, each vertex of that of its
-// first triangle.
+// A mesh cut into tiles. Each triangle belongs to the tile of its middle, each vertex to the tile
+// of its first triangle.
 class TilesOfMesh {
  public:
   TilesOfMesh(const Mesh& mesh, double vertices_per_tile)
@@ -149,7 +149,7 @@ class TilesOfMesh {
   std::unique_ptr<TileSurface> surface_;
 };
 
-// Groups of two, of four, and all together; or all at once.
+// Groups of two tiles, then of four, then all together; or all tiles at once.
 TEST(tile_simplify, is_as_good_as_of_the_whole_in_groups_of_any_size) {
   const Mesh mesh = torus(kRing, kTube, 300, 120);
   const Simplification whole = simplify(mesh, {.triangles = 6000});
@@ -174,7 +174,7 @@ TEST(tile_simplify, keeps_the_error_that_is_allowed) {
   EXPECT_LE(found.error, allowed * (1 + 1e-4));
   const auto n = static_cast<double>(whole.mesh.triangles.size());
   EXPECT_NEAR(static_cast<double>(found.mesh.triangles.size()), n, 0.02 * n);
-  // A share that the error does not allow.
+  // The error does not allow the requested share.
   const TilesOfMesh::Result both =
       TilesOfMesh(mesh, 5000).simplified({.share = 0.01, .max_error = allowed}, 64);
   EXPECT_LE(both.error, allowed * (1 + 1e-4));
@@ -186,7 +186,7 @@ TEST(tile_simplify, of_one_tile_is_that_of_the_whole) {
   const TilesOfMesh::Result found = TilesOfMesh(mesh, 1e6).simplified({.triangles = 1000}, 64);
   EXPECT_EQ(found.mesh.triangles.size(), 1000U);
   EXPECT_NEAR(rms_of_middles(found.mesh), rms_of_middles(simplify(mesh, {.triangles = 1000}).mesh),
-              0.02 * rms_of_middles(found.mesh));  // of another order, and another unit
+              0.02 * rms_of_middles(found.mesh));  // in another order and another unit
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A surface in tiles is the same as in one piece.
+// A surface made in tiles is the same as in one piece.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace rholm {
 namespace {
 
-// Two balls that overlap, a torus would do as well: distances to first order.
+// Two overlapping balls, as an example: distances are exact to first order.
 double field(const Vec3& x) {
   return std::min(norm(x - Vec3{-0.35, 0.1, 0}) - 0.7, norm(x - Vec3{0.5, -0.2, 0.1}) - 0.6);
 }
@@ -23,7 +23,7 @@ double field(const Vec3& x) {
 constexpr double kStep = 0.043;
 const Vec3 kOrigin{-1.117, -1.031, -0.999};
 
-// Values within three steps of the surface.
+// Makes a grid with values within three steps of the surface.
 BlockGrid make_grid(std::vector<BlockCoordinates> blocks) {
   BlockGrid grid = make_block_grid(kOrigin, kStep, std::move(blocks));
   for (std::size_t b = 0; b < grid.n_blocks(); ++b) {
@@ -45,7 +45,7 @@ std::vector<BlockCoordinates> all_blocks() {
   return blocks;
 }
 
-// Four tiles.
+// Space is divided into four tiles.
 std::uint32_t tile_of(const Vec3& x) { return (x.x + 0.07 < 0 ? 0U : 1U) + (x.y < 0.03 ? 0U : 2U); }
 const GridFrame kFrame{kOrigin, kStep, tile_of};
 
@@ -55,7 +55,7 @@ std::vector<std::uint32_t> first(std::size_t n) {
   return all;
 }
 
-// The blocks of a tile, from narrow bytes, with those around.
+// Returns the blocks of a tile, from small integers, with neighbouring blocks.
 BlockGrid narrow_grid(std::uint32_t tile, std::size_t& n_own) {
   const std::vector<BlockCoordinates> all = all_blocks();
   const OwnBlocks own = own_blocks(kFrame, tile, all);
@@ -110,7 +110,7 @@ TEST(TileSurface, triangles_of_all_tiles_are_those_of_the_whole) {
   std::sort(expected.begin(), expected.end());
   std::sort(found.begin(), found.end());
   EXPECT_EQ(found, expected);
-  // Vertices of others are where their own tiles have them.
+  // Vertices of other tiles have the same positions as in those tiles.
   std::size_t n_foreign = 0;
   for (const TileMesh& tile : tiles) {
     for (std::size_t i = 0; i < tile.foreign.size(); ++i) {
@@ -135,7 +135,7 @@ TEST(TileSurface, blocks_belong_to_one_tile_each) {
       EXPECT_NE(kFrame.owner(b), tile);
       EXPECT_FALSE(std::binary_search(blocks.own.begin(), blocks.own.end(), b, comes_before));
     }
-    // By all 26 places, whatever the shape of tiles.
+    // All 26 neighbours are examined, whatever the shape of tiles.
     std::vector<std::uint32_t> border;
     for (std::uint32_t b = 0; b < blocks.own.size(); ++b) {
       bool at_border = false;

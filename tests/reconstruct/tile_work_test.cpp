@@ -33,8 +33,8 @@ TEST_F(TileReconstructWork, neither_threads_nor_a_folder_nor_the_order_change_a_
   EXPECT_TRUE(bytes("a.ply") == bytes("c.ply"));
 }
 
-// Cancelled after each of its stages, and taken up.
-// Also what is rare: outliers, borders, strips of triangles between tiles.
+// The run is cancelled after each of its stages and resumed. The cloud has rare features: outliers,
+// borders, strips of triangles between tiles.
 TEST_F(TileReconstructWork, is_taken_up_where_it_ended_nightly) {
   PointCloud cloud = with_outliers(torus_points(12000), 200);
   for (std::size_t i = 0; i < 12000; ++i) {
@@ -48,12 +48,12 @@ TEST_F(TileReconstructWork, is_taken_up_where_it_ended_nightly) {
   resumed.work_dir = path(""), resumed.resume = true;
   const std::filesystem::path kept = path("parts.ply.tiles");
   std::size_t runs = 0;
-  std::vector<std::string> ended;  // stages
+  std::vector<std::string> ended;  // names of stages
   for (bool done = false; !done && runs < 100; ++runs) {
     std::string first;
     Context context{.threads = 2};
     context.progress = [&](std::string_view stage, double part) {
-      // The first time that a stage is at its end.
+      // Stops the first time that a stage is at its end.
       if (first.empty() && part == 1 &&
           std::find(ended.begin(), ended.end(), stage) == ended.end()) {
         first = stage;
@@ -112,7 +112,7 @@ TEST_F(TileReconstructWork, leaves_no_folder_unless_it_is_to_be_taken_up) {
   refused(other, "1000");
   given.points.back().x += 1e-3;
   refused(wanted, "another run");
-  // What does not change the surface may be another.
+  // Options that do not change the surface may differ.
   wanted.max_memory = std::size_t{1} << 30;
   reconstruct(cloud, wanted);
   std::filesystem::remove(path("a.ply"));
@@ -149,7 +149,7 @@ TEST_F(TileReconstructWork, foresees_what_it_takes) {
   EXPECT_TRUE(std::filesystem::is_empty(path("")));
 }
 
-// Of one tile and of several: what is refused names tiles that are not, and nothing else changes.
+// Runs of one tile and of several: errors name tiles that fit, and nothing else changes.
 TEST_F(TileReconstructWork, memory_refuses_or_changes_nothing) {
   const PointCloud cloud = torus_points(9000);
   for (const std::uint64_t tile_points : {std::uint64_t{6000}, kTilePoints}) {
@@ -197,7 +197,7 @@ TEST_F(TileReconstructWork, gives_the_same_in_memory_and_in_files) {
   EXPECT_EQ(model.atlas.coefficients.size(), report.coefficients);
 }
 
-// Of a mesh the vertices, with the mean normals of their faces.
+// A mesh gives its vertices, with the mean normals of their faces.
 TEST_F(TileReconstructWork, reads_meshes_as_a_whole) {
   write_shape(torus(kRing, kTube, 60, 40), path("torus.obj"));
   for (const std::uint64_t tile_points : {std::uint64_t{1000}, kTilePoints}) {

@@ -1,4 +1,4 @@
-// A torus whose surface is known, reconstructed in tiles.
+// A torus with a known surface, reconstructed in tiles.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,14 +26,14 @@ namespace rholm::testing {
 
 inline constexpr double kRing = 1.0, kTube = 0.4;
 
-// Of a torus about z: exact.
+// Returns the exact distance to a torus about the z axis.
 inline double distance_to_torus(const Vec3& x) {
   return std::hypot(std::hypot(x.x, x.y) - kRing, x.z) - kTube;
 }
 
 inline PointCloud torus_points(std::size_t n) {
   PointCloud cloud = sample_surface(torus(kRing, kTube, 300, 120), {.points = n, .seed = 7});
-  for (std::size_t i = 0; i < n; ++i) {  // onto the true surface
+  for (std::size_t i = 0; i < n; ++i) {  // moves points onto the exact surface
     Vec3& p = cloud.points[i];
     const double around = std::hypot(p.x, p.y);
     const Vec3 middle{kRing * p.x / around, kRing * p.y / around, 0};
@@ -43,7 +43,7 @@ inline PointCloud torus_points(std::size_t n) {
   return cloud;
 }
 
-// The points of which keeps(place) is true, with their normals.
+// Returns the points for which keeps(place) is true, with their normals.
 template <typename Keeps>
 PointCloud those_of(const PointCloud& whole, const Keeps& keeps) {
   PointCloud some;
@@ -55,12 +55,12 @@ PointCloud those_of(const PointCloud& whole, const Keeps& keeps) {
   return some;
 }
 
-// Without those in a ball.
+// Returns the points outside a ball.
 inline PointCloud with_hole(const PointCloud& whole, const Vec3& middle, double radius) {
   return those_of(whole, [&](const Vec3& p) { return !(norm(p - middle) < radius); });
 }
 
-// All over the box around a torus, with normals of their own: far from it and near it.
+// Adds points with random normals in the whole box around a torus: far from it and near it.
 inline PointCloud with_outliers(PointCloud cloud, std::size_t n) {
   const auto random = [&](std::size_t i) { return 2 * random_uniform(11, i) - 1; };
   for (std::size_t i = 0; i < n; ++i) {
@@ -71,13 +71,13 @@ inline PointCloud with_outliers(PointCloud cloud, std::size_t n) {
   return cloud;
 }
 
-// With a folder of its own for files.
+// A fixture with its own folder for files.
 class TileFiles : public ::testing::Test {
  protected:
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
 
-  // In tiles, also if one is enough; with `work` what lies between the steps is in that folder,
-  // which is gone if nothing is left in it.
+  // Reconstructs in tiles, even if one suffices. `work` is the folder for data between the steps,
+  // which is removed if it ends empty.
   ReconstructReport run(const PointCloud& cloud, std::uint64_t tile_points, const std::string& name,
                         const ReconstructOptions& options = {}, int threads = 2,
                         const std::string& work = "") const {
@@ -116,7 +116,7 @@ inline double rms_of(const Mesh& mesh) {
   return std::sqrt(sum / static_cast<double>(mesh.vertices.size()));
 }
 
-// What 99 of 100 distances do not exceed.
+// Returns the 99th percentile of the distances.
 inline double most_of(const Mesh& mesh) {
   std::vector<double> distances;
   distances.reserve(mesh.vertices.size());

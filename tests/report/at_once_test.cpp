@@ -1,7 +1,7 @@
-// A program may call the library from several threads at once: what it keeps for its whole life
-// (plans of transforms, rules of nodes, names of unfinished files) is made once and shared, and
-// callbacks are called one at a time. Results are compared with those of one call; that nothing
-// is a race is for ThreadSanitizer to say (docs/testing.md).
+// A program may call the library from several threads at the same time. Permanent data (plans of
+// transforms, quadrature rules, names of unfinished files) is made once and shared. Callbacks are
+// called one at a time. Results are compared with the results of a single call; ThreadSanitizer
+// checks for races (docs/testing.md).
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -25,7 +25,7 @@ using testing::TemporaryFolder;
 
 constexpr int kCallers = 3;
 
-// Asks for progress with a number that nothing guards: two callbacks at once would be a race.
+// Counts calls of progress in an unguarded number: two callbacks at the same time would be a race.
 struct Listened {
   int calls = 0, inside = 0;
   bool met = false;
@@ -39,8 +39,8 @@ struct Listened {
   }
 };
 
-// The bits of `work` alone must be those that each of several callers at once gets, who come first,
-// so that nothing is there yet.
+// Several callers at the same time must get the same bits as `work` alone. They run first, so that
+// no permanent data exists yet.
 void expect_same_bits_at_once(const std::function<std::string(int caller)>& work) {
   std::vector<std::string> found(kCallers);
   std::atomic<int> waiting = kCallers;

@@ -1,7 +1,7 @@
-// Every parallel loop of the library, on more than one chunk: the results have the same bits on
-// four threads as on one. Under ThreadSanitizer these are the tests that look for races in every
-// run: small, but for what a loop splits into chunks of thousands. scripts/check_loops says which
-// loops they do not reach (docs/testing.md).
+// Every parallel loop of the library runs on more than one chunk: results have the same bits on
+// four threads as on one. Under ThreadSanitizer these tests search for races in every run. They are
+// small, except where a loop makes chunks of thousands. scripts/check_loops lists the loops that
+// they do not reach (docs/testing.md).
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -53,10 +53,10 @@ constexpr CenterOptions kNoRays{.kind = CenterKind::kAuto, .point = {}, .rays = 
 
 StarChart chart_of(const Mesh& mesh) { return make_star_chart(mesh, {.center = kNoRays}); }
 
-// More sources than one thread is for (second_thread_cost()): 20480 triangles, 30720 edges.
+// More sources than a single thread handles (second_thread_cost()): 20480 triangles, 30720 edges.
 Mesh many_triangles() { return bumpy_sphere(5); }
 
-// More vertices and triangles than one part of triangle_order.cpp has, in random order.
+// More vertices and triangles than one part in triangle_order.cpp, in random order.
 Mesh large_mesh_in_random_order() {
   const Mesh sphere = latitude_longitude_sphere(520, 512);
   std::vector<std::uint32_t> order(sphere.vertices.size());
@@ -69,7 +69,7 @@ Mesh large_mesh_in_random_order() {
 
 // ---- Expansions ----
 
-// Parts that are spread as they come, more than are there at a time.
+// Parts are spread as they arrive; there are more parts than may wait at the same time.
 TEST(every_loop, gives_the_same_bits_for_a_mesh_in_parts) {
   const Mesh mesh = many_triangles();
   expect_same_bits([&](const Context& context) {
@@ -78,7 +78,7 @@ TEST(every_loop, gives_the_same_bits_for_a_mesh_in_parts) {
   });
 }
 
-// Read a second time; of a sample.
+// The first mesh is read a second time for the error; the second mesh uses a sample.
 TEST(every_loop, gives_the_same_bits_for_a_measured_error) {
   for (const StarChart& chart : {chart_of(many_triangles()), chart_of(bumpy_sphere(7))}) {
     expect_same_bits([&](const Context& context) {
@@ -103,7 +103,7 @@ TEST(every_loop, gives_the_same_bits_for_each_method) {
 }
 
 TEST(every_loop, gives_the_same_bits_for_errors) {
-  // Many points, then many triangles.
+  // The first case has many points, the second many triangles.
   for (const auto& [mesh, degree] : {std::pair{many_triangles(), 100}, {bumpy_sphere(6), 8}}) {
     const Expansion expansion = analyze(chart_of(mesh), {.degree = degree}).expansion;
     expect_same_bits([&](const Context& context) {
@@ -118,7 +118,7 @@ TEST(every_loop, gives_the_same_bits_for_errors) {
   }
 }
 
-// Four parts that share the vertices between their rows.
+// Four parts share the vertices between their rows.
 TEST(every_loop, gives_the_same_bits_for_a_mesh_in_rows) {
   Mesh mesh = latitude_longitude_sphere(150, 300);
   for (Vec3& v : mesh.vertices) v = (1 + 0.1 * std::sin(3 * v.x + v.y)) * v;
@@ -149,7 +149,7 @@ TEST(every_loop, gives_the_same_bits_for_the_strength_of_the_tail) {
 
 TEST(every_loop, gives_the_same_bits_for_centres_and_star_checks) {
   const Mesh mesh = bumpy_sphere(5, 0.3);
-  Mesh drawn_out = mesh;  // its centre is as far from the middle of the kernel as it may be
+  Mesh drawn_out = mesh;  // its centre is as far from the middle of the kernel as allowed
   for (Vec3& v : drawn_out.vertices) v = (1 + 5 * std::pow(std::max(0.0, v.x), 6)) * v;
   expect_same_bits([&](const Context& context) {
     Bits bits;
@@ -269,7 +269,7 @@ TEST(every_loop, gives_the_same_bits_for_motions) {
 TEST(every_loop, gives_the_same_bits_for_surfaces_of_expansions_and_their_distance) {
   Expansion expansion{.coefficients = test::random_coefficients(12, 1)};
   expansion.coefficients.c(0, 0) = 100;
-  const Mesh sphere = icosphere(5);  // more triangles than a task of a tree of them has
+  const Mesh sphere = icosphere(5);  // more triangles than one task of building a tree
   expect_same_bits([&](const Context& context) {
     const Mesh mesh = synthesize(expansion, sphere, context);
     const Comparison found = compare(mesh, sphere, {.samples = 2000}, context);
@@ -328,7 +328,8 @@ TEST(every_loop, gives_the_same_bits_for_many_points_and_discs) {
 }
 
 TEST(every_loop, gives_the_same_bits_for_normals_of_thin_and_rowed_points) {
-  // Two sheets as near as their points are, so that the field decides, and rows with a stray.
+  // Two sheets as near as the spacing of points, so that the field decides; rows with an isolated
+  // point.
   PointCloud shell = test::joined(test::sphere_points(420, 1), test::sphere_points(340, 2));
   for (std::size_t i = 420; i < shell.points.size(); ++i) shell.points[i] *= 0.85;
   PointCloud rows =
@@ -389,7 +390,7 @@ TEST(every_loop, gives_the_same_bits_for_blocks_of_a_tile) {
   });
 }
 
-// A wavy sheet: its borders are cut open, and behind them its surface turns around.
+// A wavy sheet: its borders are cut open, and beyond them its surface turns back.
 TEST(every_loop, gives_the_same_bits_for_surfaces_in_tiles) {
   PointCloud sheet;
   for (std::size_t i = 0; i < 18000; ++i) {
@@ -435,7 +436,7 @@ TEST(every_loop, gives_the_same_bits_for_caps_of_different_sizes) {
 }
 
 TEST(every_loop, gives_the_same_bits_for_bridges_that_are_cut) {
-  // A ring with a neck: 20 000 vertices, of which some hundred are on two loops.
+  // A ring with a neck: 20 000 vertices, some hundred of them on two loops.
   Mesh ring = test::ring_with_neck(0.1);
   test::add_normals(ring);
   const Resolution resolution{.typical = 0.15, .at = [](const Vec3&) { return 0.15; }};
@@ -498,7 +499,7 @@ TEST(every_loop, gives_the_same_bits_for_surfaces_of_points) {
 }
 
 TEST(every_loop, gives_the_same_bits_for_fewer_triangles) {
-  const Mesh mesh = many_triangles();  // of 10242 vertices
+  const Mesh mesh = many_triangles();  // 10242 vertices
   expect_same_bits([&](const Context& context) {
     return Bits().add(simplify(mesh, {.share = 0.9}, context).mesh);
   });

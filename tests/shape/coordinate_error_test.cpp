@@ -13,7 +13,7 @@ namespace {
 using test::random_direction;
 using test::random_in;
 
-// Volatile: GCC 12 leaves the conversion out in the last rounds of a loop that it makes vectors of.
+// `volatile` is needed: GCC 12 omits the conversion in the last rounds of a vectorised loop.
 double to_single(double x) {
   const volatile float single = static_cast<float>(x);
   return single;
@@ -44,12 +44,12 @@ TEST(coordinate_error, is_a_step_of_what_the_coordinates_are_written_in) {
   };
   EXPECT_NEAR(error_of(changed(mesh, to_decimals(1e4))), 1e-4, 1e-15);
   EXPECT_NEAR(error_of(changed(mesh, to_decimals(1e6))), 1e-6, 1e-15);
-  // Numbers of single precision written with nine decimals are still these.
+  // Single precision is recognised in numbers that are written with nine decimals.
   const auto written = [&](double x) { return to_decimals(1e9)(to_single(x)); };
   EXPECT_NEAR(error_of(changed(mesh, written)), 0x1p-23 * largest, 1e-12);
 }
 
-// A box of round numbers is exact, and so is a mesh all of whose faces would be thin.
+// A box of round numbers counts as exact, as does a mesh all of whose faces would be thin.
 TEST(coordinate_error, of_round_numbers_and_of_what_is_finer_is_that_of_double_precision) {
   EXPECT_NEAR(
       coordinate_error(view_of(changed(box({25.4, 10, 3}, 2), [](double x) { return x + 0.1; }))).x,
@@ -58,7 +58,7 @@ TEST(coordinate_error, of_round_numbers_and_of_what_is_finer_is_that_of_double_p
   EXPECT_LT(coordinate_error(view_of(far)).x, 1e-4);
 }
 
-// Corners moved within the error by random vectors: the bound holds, and is met within a factor.
+// Corners are moved at random within the error: the bound holds, and is reached within a factor.
 TEST(plane_doubt, bounds_how_far_corners_within_their_errors_turn_the_plane) {
   const Vec3 error{1e-4, 2e-4, 5e-5};
   for (std::uint64_t i = 0; i < 200; ++i) {
@@ -90,7 +90,7 @@ TEST(plane_doubt, calls_a_face_thin_where_its_corners_may_lie_on_a_line) {
   EXPECT_TRUE(is_thin({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5, 1.9e-7, 0}}, error));
   EXPECT_FALSE(is_thin({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5, 2.1e-7, 0}}, error));
   EXPECT_TRUE(is_thin({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 0, 0}}, {}));
-  // Errors along a needle take nothing of its width.
+  // Errors along a needle do not reduce its width.
   EXPECT_FALSE(is_thin({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5, 1e-9, 0}}, {1e-7, 1e-10, 1e-10}));
 }
 

@@ -1,4 +1,5 @@
-// Area and volume alone. Oracles: a box in closed form, and the sums that keep slivers.
+// Area and volume by the fast sums. Oracles are a box in closed form and the sums that keep
+// slivers.
 #include "shape/measure.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ TEST(Sizes, of_a_box_are_those_of_its_sides) {
   }
 }
 
-// Several chunks.
+// The mesh has several chunks.
 TEST(Sizes, of_many_triangles_are_those_of_the_whole_measure) {
   const Mesh mesh = bumpy_sphere(5);
   const Sizes sizes = sizes_of(mesh);
@@ -44,7 +45,7 @@ TEST(volume_centroid, is_that_of_the_whole_measure_and_of_a_moved_box) {
   EXPECT_NEAR(norm(volume_centroid(view_of(moved), frame_of(moved), {}) - middle) / 1e80, 0, 1e-13);
 }
 
-// A sheet seen from both sides encloses nothing.
+// A sheet with faces on both sides encloses no volume.
 TEST(volume_centroid, of_no_volume_is_the_middle_of_the_frame) {
   Mesh sheet;
   sheet.vertices = {{0, 0, 1}, {2, 0, 1}, {0, 4, 1}};

@@ -1,4 +1,4 @@
-// Bounding boxes of meshes in somebody else's memory.
+// Bounding boxes of meshes in memory of the caller.
 #include "shape/vertex_range.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 using test::packed;
 using test::PackedMesh;
 
-// Of 1 ... 33 vertices that begin anywhere, against one after the other.
+// Compares ranges of 1 ... 33 vertices that begin anywhere with a loop over single vertices.
 template <class T>
 void expect_any_range(const Mesh& mesh) {
   const PackedMesh bytes = packed<T>(mesh), apart = packed<T>(mesh, 8);

@@ -1,4 +1,4 @@
-// A page without a browser: what it asks, and what it reads of the answers.
+// A page without a browser: it sends requests and reads the answers.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@
 
 namespace rholm::studio::test {
 
-// An array of a BINARY.
+// An array in a binary answer.
 struct Array {
   std::string type, bytes;
   std::vector<std::size_t> shape;
@@ -28,7 +28,7 @@ struct Array {
   }
 };
 
-// Reads one as docs/studio.md says, and that it is as it says.
+// Reads a binary answer and checks that it has the format in docs/studio.md.
 inline std::map<std::string, Array> arrays_of(const std::string& bytes) {
   EXPECT_EQ(bytes.substr(0, 8), std::string("RHOLM1\0\0", 8));
   std::uint32_t length = 0;
@@ -74,13 +74,13 @@ class Client {
     return ask("GET", "api/save", {},
                {{"item", std::to_string(item)}, {"format", format}, {"size", size}});
   }
-  // The state once the step is done; a job is waited for.
+  // Returns the state after the step; waits for its job.
   Json step(const Json& wanted) {
     const Response answer = post(wanted);
     EXPECT_TRUE(answer.status == 200 || answer.status == 202) << wanted.dump() << answer.body;
     return answer.status == 202 ? finished() : Json::parse(answer.body);
   }
-  // The state when no job runs any more.
+  // Returns the state when no job runs any more.
   Json finished() {
     Json now = state();
     while (now.at("job").is_object() && now.at("job").at("state") == "running") {
@@ -96,13 +96,13 @@ class Client {
 
 inline int last_item(const Json& state) { return state.at("items").back().at("id"); }
 
-// An answer's code of an error; empty for none.
+// Returns the code of the error in an answer, or "" if there is none.
 inline std::string code_of(const Response& answer) {
   if (answer.status < 400) return "";
   return Json::parse(answer.body).at("error").at("code");
 }
 
-// What undoing brings back of a state.
+// Returns the part of a state that undo restores.
 inline Json document_of(const Json& state) {
   return {{"items", state.at("items")}, {"recipe", state.at("recipe")}};
 }

@@ -1,4 +1,4 @@
-// Options of steps: what the page is told of them, what requests say of them, what recipes have.
+// Options of steps, as the page is told of them, in requests and in recipes.
 #include <set>
 
 #include "client.h"

@@ -1,4 +1,4 @@
-// A function cut off at each of its degrees, against the library's sums.
+// A function truncated at each of its degrees, compared with the library's sums.
 #include "studio/items/degree_table.h"
 
 #include <cmath>
@@ -25,7 +25,7 @@ Coefficients random_coefficients(int degree) {
   return c;
 }
 
-// Poles, the equator, and places that no block is filled by.
+// Poles, the equator, and other places; their number does not fill a block.
 std::vector<Vec3> directions() {
   std::vector<Vec3> u = icosphere(2).vertices;
   u.push_back({0, 0, 1});
@@ -55,7 +55,7 @@ TEST(DegreeTable, HighDegreesDoNotUnderflowWhereTheyCount) {
   const std::vector<Vec3> u = {
       normalized({0.02, 0.01, 1}), normalized({0.5, -0.2, 0.4}), {0, 1, 0}};
   const std::vector<double> values = evaluate(c, u, {.engine = Engine::kDirect});
-  const DegreeTable table(c, u, values);  // what is left of it is nothing
+  const DegreeTable table(c, u, values);  // only rounding is left
   for (const float left : table.cut_off_at(degree)) EXPECT_NEAR(left, 0, 1e-10);
 }
 

@@ -1,4 +1,4 @@
-// Every kind of request that is wrong, and what is said to it.
+// Every kind of wrong request, and the answer to it.
 #include <gtest/gtest.h>
 
 #include "studio/client.h"
@@ -44,7 +44,7 @@ TEST(Errors, SessionsThatAreNone) {
       EXPECT_EQ(code_of(answer), "no_session");
     }
   }
-  // In the query, for those who cannot send a header.
+  // Clients that cannot send a header put the session into the query.
   EXPECT_EQ(client.studio.handle({.path = "api/state", .query = {{"session", client.id}}}).status,
             200);
   EXPECT_EQ(client.ask("DELETE", "api/session").status, 200);
@@ -188,7 +188,7 @@ TEST(Errors, WhatTheLibraryRefusesIsSaidInItsWords) {
   EXPECT_GT(star.at("offending").get<int>(), 0);
   const auto arrays = test::arrays_of(client.ask("GET", "api/item/1/surface").body);
   EXPECT_EQ(arrays.at("offending").shape[0], star.at("offending").get<std::size_t>());
-  // A live look is answered at once, with the error's own name.
+  // A live request is answered at once, with the name of the error itself.
   const Response live = client.live(
       {{"live", "smooth"}, {"item", 1}, {"wavelength", 0.3}, {"regions", {"vertex:999999,0.4"}}});
   EXPECT_EQ(live.status, 422);
@@ -226,7 +226,7 @@ TEST(Errors, NamesAreNames) {
   EXPECT_EQ(plain_name(".."), "shape");
   EXPECT_EQ(plain_name("folder/"), "shape");
   EXPECT_EQ(plain_name(std::string(1000, 'x')).size(), 200U);
-  // Bytes that are no text do not break the state.
+  // A name that is invalid UTF-8 does not break the state.
   Client client;
   EXPECT_EQ(client.open("\xff\xfe.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").status, 200);
   EXPECT_EQ(client.state().at("items").size(), 1U);

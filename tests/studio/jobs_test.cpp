@@ -1,4 +1,4 @@
-// Work on a thread: how it ends, what it leaves, who is told.
+// Jobs on a thread: how they end, what remains after them, and who is told.
 #include <malloc.h>
 
 #include <atomic>
@@ -19,8 +19,8 @@ using test::Client;
 using test::code_of;
 using test::document_of;
 
-// A job that lasts until it is ended: minutes of a processor for caps of degree 2 and a small
-// error.
+// A job that runs until it is cancelled: caps of degree 2 with a small error take minutes of
+// processor time.
 Json long_job() {
   return {{"op", "compress"}, {"item", 1}, {"tolerance", 1e-4}, {"max_degree", 2}};
 }
@@ -43,7 +43,7 @@ TEST(Jobs, ACancelledOneLeavesNothing) {
   EXPECT_EQ(after.at("job").at("state"), "cancelled");
   EXPECT_EQ(document_of(after), document_of(before));
   EXPECT_EQ(after.at("undo"), before.at("undo"));
-  // And the session goes on.
+  // The session can still be used.
   EXPECT_EQ(client.step({{"op", "analyze"}, {"item", 1}, {"degree", 3}}).at("job").at("state"),
             "done");
 }
@@ -56,7 +56,7 @@ TEST(Jobs, OneAtATime) {
     EXPECT_EQ(code_of(answer), "busy") << step;
   }
   EXPECT_EQ(client.open("a.off", "OFF\n").status, 409);
-  // Looking goes on.
+  // Requests that only look are still answered.
   EXPECT_EQ(client.ask("GET", "api/item/1/surface").status, 200);
   EXPECT_EQ(client.live({{"live", "brush"}, {"item", 1}, {"points", {1}}, {"radius", 0.2}}).status,
             200);
@@ -80,7 +80,7 @@ TEST(Jobs, ListenersHearOfThem) {
   const auto listener = client.studio.listen(client.id);
   ASSERT_TRUE(listener);
   std::vector<Event> events = listener->wait(0ms);
-  ASSERT_EQ(events.size(), 1U);  // what is there already
+  ASSERT_EQ(events.size(), 1U);  // the current state
   EXPECT_EQ(events[0].name, "state");
   EXPECT_TRUE(listener->wait(0ms).empty());
   client.step({{"op", "make"}, {"shape", "bumpy"}});
@@ -118,7 +118,7 @@ TEST(Jobs, ASessionGoesSomeTimeAfterItsPage) {
   EXPECT_EQ(client.ask("GET", "api/state").status, 200);  // no page has listened yet
   auto listener = client.studio.listen(client.id);
   client.studio.tend();
-  EXPECT_EQ(client.ask("GET", "api/state").status, 200);  // one does
+  EXPECT_EQ(client.ask("GET", "api/state").status, 200);  // a page listens
   listener.reset();
   while (client.ask("GET", "api/state").status == 200) client.studio.tend();
   EXPECT_EQ(client.ask("GET", "api/state").status, 404);
@@ -151,7 +151,7 @@ TEST(Jobs, SessionsDoNotSeeEachOther) {
   client.id = Json::parse(client.ask("POST", "api/session").body).at("session");
   EXPECT_TRUE(client.state().at("items").empty());
   EXPECT_EQ(client.ask("GET", "api/item/1/surface").status, 404);
-  client.post(long_job());  // of an item that is not there
+  client.post(long_job());  // fails: the item does not exist
   client.step({{"op", "make"}, {"shape", "box"}});
   client.id = first;
   EXPECT_EQ(client.state().at("items").size(), 1U);
@@ -163,7 +163,7 @@ TEST(Jobs, EveryPageBeginsWithWhatWasOpenedForTheFirst) {
   client.id = offered;
   ASSERT_EQ(client.open("tip.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").status, 200);
   EXPECT_EQ(Json::parse(client.ask("POST", "api/session").body).at("session"), offered);
-  // What the first page does is its own.
+  // Changes by the first page do not affect later pages.
   client.step({{"op", "rename"}, {"item", 1}, {"name", "other"}});
   client.step({{"op", "make"}, {"shape", "box"}});
   client.ask("DELETE", "api/session");
@@ -173,18 +173,18 @@ TEST(Jobs, EveryPageBeginsWithWhatWasOpenedForTheFirst) {
   ASSERT_EQ(state.at("items").size(), 1U);
   EXPECT_EQ(state.at("items")[0].at("name"), "tip.off");
   EXPECT_TRUE(state.at("undo").is_null());
-  state = client.step({{"op", "make"}, {"shape", "box"}});  // with a number of its own
+  state = client.step({{"op", "make"}, {"shape", "box"}});  // the new item has its own number
   EXPECT_NE(state.at("items")[0].at("id"), state.at("items")[1].at("id"));
   EXPECT_NE(state.at("items")[0].at("revision"), state.at("items")[1].at("revision"));
 }
 
-// Bytes in use by this process's allocator; 0 where another one is in its place (sanitizers).
+// Returns bytes in use by this process's allocator, or 0 if another one replaces it (sanitizers).
 std::size_t used() { return mallinfo2().uordblks + mallinfo2().hblkhd; }
 
 TEST(Jobs, MemoryIsGivenBack) {
   if (used() == 0) GTEST_SKIP() << "the allocator does not tell what is in use";
   Client client;
-  client.step({{"op", "make"}, {"shape", "bumpy"}});  // what the library keeps for good
+  client.step({{"op", "make"}, {"shape", "bumpy"}});  // makes data that the library keeps
   client.step({{"op", "analyze"}, {"item", 1}, {"degree", 100}});
   client.ask("DELETE", "api/session");
   const std::size_t before = used();
@@ -204,14 +204,14 @@ TEST(Jobs, APageThatIsClosedTakesItsJobAlong) {
   if (used() == 0) GTEST_SKIP() << "the allocator does not tell what is in use";
   WithJob client({.threads = 1, .patience = 0ms});
   client.ask("POST", "api/job/" + std::to_string(client.job) + "/cancel");
-  client.finished();  // what the library keeps for good
+  client.finished();  // data that the library keeps exists now
   const std::size_t before = used();
   ASSERT_EQ(client.post(long_job()).status, 202);
   while (used() < before + 4000000) std::this_thread::sleep_for(1ms);
   client.studio.tend();
-  EXPECT_GT(used(), before + 3000000);  // nobody has left
+  EXPECT_GT(used(), before + 3000000);  // no page has left
   client.studio.listen(client.id).reset();
-  while (client.studio.listen(client.id)) client.studio.tend();  // and nothing is asked for
+  while (client.studio.listen(client.id)) client.studio.tend();  // no request asks for the result
   EXPECT_LT(used(), before);
 }
 

@@ -1,4 +1,4 @@
-// Live looks, against what the library makes at its leisure.
+// Live requests, compared with the full computations of the library.
 #include <cmath>
 #include <future>
 
@@ -23,7 +23,7 @@ using test::arrays_of;
 using test::Client;
 using test::code_of;
 
-// The surface that `make bumpy` makes, and its expansion as analyze makes it.
+// The surface of `make bumpy`, and the expansion that analyze makes of it.
 Mesh bumpy() { return bumpy_sphere(5); }
 Expansion expansion_of_bumpy(int degree) {
   EncodeOptions options;
@@ -74,7 +74,7 @@ TEST(Live, DegreesAreTheSurfacesOfTheLibrary) {
   }
 }
 
-// A sphere as a file of triangles one by one: none of them shares a vertex with another one.
+// A sphere as a file of separate triangles, without common vertices.
 TEST(Live, ASeamOfTheFileIsNoCrease) {
   const Mesh sphere = icosphere(3);
   std::vector<Vec3> corners;
@@ -119,7 +119,7 @@ TEST(Live, ALookKeepsWhatWasSeen) {
                            b = kept.at("positions").as<float>();
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-6);
-  // And the shape itself is still there.
+  // The original shape is unchanged.
   const auto original =
       arrays_of(client.ask("GET", "api/item/1/surface", {}, {{"original", "1"}}).body);
   expect_near(original.at("positions"), bumpy().vertices, 1e-6);
@@ -143,7 +143,7 @@ TEST(Live, SmoothingIsThatOfTheLibrary) {
     expect_near(arrays.at("positions"),
                 update(patch, {.wavelength = wavelength, .strength = strength}), 1e-6);
   }
-  EXPECT_EQ(client.state().at("undo"), "Make bumpy");  // no step
+  EXPECT_EQ(client.state().at("undo"), "Make bumpy");  // adds no step
 }
 
 TEST(Live, AnAnalysisIsNotUsedForAnotherSurface) {

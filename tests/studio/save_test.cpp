@@ -1,4 +1,4 @@
-// Files that are saved, byte by byte those that the library writes, and how they are opened again.
+// Saved files have the same bytes as files of the library, and can be opened again.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -23,7 +23,7 @@ namespace {
 
 using test::Client;
 
-// The bytes that a function writes to a file of that name.
+// Returns the bytes that a function writes to a file of that name.
 template <typename Write>
 std::string bytes_of(const std::string& name, const Write& write) {
   const auto path = std::filesystem::path(::testing::TempDir()) / ("studio-save-" + name);
@@ -81,7 +81,7 @@ TEST(Save, CoefficientsAreThoseOfTheLibrary) {
                 bytes_of(name, [&](const auto& path) { write_coefficients(expansion, path); }))
         << format;
   }
-  // The look is what is saved.
+  // The file contains the truncated model that is shown.
   client.step({{"op", "look"}, {"item", 1}, {"degree", 3}});
   const Expansion cut =
       filter(expansion, low_pass(3, 8, {.window = Window::kIdeal}), "low-pass 3 ideal");
@@ -171,10 +171,11 @@ TEST(Recipe, WordsAreReadBackAsTheyAre) {
   EXPECT_EQ(shell_word("-r f"), "'./-r f'");
   EXPECT_EQ(shell_word("$(reboot)"), "'$(reboot)'");
   EXPECT_EQ(shell_word(""), "''");
-  EXPECT_EQ(shell_word("=ls"), "'=ls'");  // zsh
+  EXPECT_EQ(shell_word("=ls"), "'=ls'");  // zsh would expand it
   EXPECT_EQ(shell_text("-1"), "-1");
   EXPECT_EQ(python_text("a\"b\\c"), "\"a\\\"b\\\\c\"");
-  // U+202E turns the order of letters, also of this line if it were in one piece.
+  // U+202E reverses the order of letters. It is written in two parts, because it would affect this
+  // line.
   const std::string turns = std::string("\xe2") + "\x80\xae";
   EXPECT_EQ(python_text("a\nb\xff\xc3\xa9" + turns), "\"a\\u000ab\\xff\xc3\xa9\\u202e\"");
 }

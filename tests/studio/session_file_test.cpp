@@ -1,4 +1,4 @@
-// A session as a file: all that is seen comes back; what is not whole is refused.
+// A session as a file: everything visible is restored, and damaged files are refused.
 #include <cstring>
 #include <sstream>
 #include <vector>
@@ -17,7 +17,7 @@ namespace {
 using test::Client;
 using test::code_of;
 
-// What is seen of items, without numbers that are of a session.
+// Returns the visible part of items, without numbers that belong to a session.
 Json seen(const Json& state) {
   Json items = state.at("items");
   for (Json& item : items) {
@@ -39,7 +39,7 @@ std::string small_session() {
   return client.ask("GET", "api/session-file").body;
 }
 
-// The same with another description of its items, and the right checksum.
+// Returns the file with another description of its items and the matching checksum.
 std::string with_json(const std::string& file, const std::string& json) {
   std::uint64_t old_length = 0;
   std::memcpy(&old_length, file.data() + 8, 8);
@@ -95,7 +95,7 @@ TEST(SessionFile, DamagedAnywhereItIsRefused) {
   const std::string file = small_session();
   Client client;
   for (std::size_t i = 8; i < file.size(); i += 7) {
-    if (i >= 20 && i < 24) continue;  // bytes that say nothing
+    if (i >= 20 && i < 24) continue;  // bytes without meaning
     std::string damaged = file;
     damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
     ASSERT_EQ(client.open("a.rholm", damaged).status, 422) << i;
@@ -156,14 +156,14 @@ Json description_of(const std::string& file) {
   return Json::parse(file.substr(24, length));
 }
 
-// Every text in it, however deep.
+// Collects all texts at any depth.
 void collect_texts(Json& json, std::vector<Json*>& texts) {
   if (json.is_string()) texts.push_back(&json);
   if (!json.is_structured()) return;
   for (Json& one : json) collect_texts(one, texts);
 }
 
-// What a shell, or Python, would do by itself: all that is in no quotes.
+// Returns the text outside quotes, which a shell or Python would interpret.
 std::string unquoted(const std::string& line, char quote, bool has_escapes) {
   std::string rest;
   bool inside = false;
@@ -180,7 +180,8 @@ std::string unquoted(const std::string& line, char quote, bool has_escapes) {
   return rest;
 }
 
-// U+202E, which turns the order of letters; not in one piece, as it would do so here.
+// U+202E reverses the order of letters. It is written in two parts, because it would affect this
+// line.
 std::string right_to_left() { return std::string("\xe2") + "\x80\xae"; }
 
 void expect_harmless(const Json& state) {
@@ -205,7 +206,7 @@ void expect_harmless(const Json& state) {
   }
 }
 
-// One step of each kind, and more than one where the lines differ.
+// Returns a step of each kind, and several steps where their lines differ.
 Json all_steps() {
   const auto at = [](const std::string& name, const char* ending) {
     return Json{{"file", name + ending}, {"variable", name}};
@@ -346,14 +347,14 @@ TEST(SessionFile, NoTextOfItsStepsBecomesACommand) {
         expect_harmless(lines_of(steps));
         ++accepted;
       } catch (const Refusal&) {
-        ++refused;  // what is no such name
+        ++refused;  // invalid name
       } catch (const Error&) {
-        ++refused;  // what the library does not read
+        ++refused;  // unreadable by the library
       }
     }
     *text = kept;
   }
-  EXPECT_GT(accepted, 5);  // units, and texts that are passed over
+  EXPECT_GT(accepted, 5);  // units and ignored texts
   EXPECT_GT(refused, 5);
 }
 
@@ -373,7 +374,7 @@ TEST(SessionFile, NoTextOfItsItemsBecomesACommand) {
       Client client;
       const Response opened = client.open("a.rholm", with_json(file, right.dump()));
       if (opened.status == 200) {
-        // What is done next has lines as harmless.
+        // Lines of later steps are harmless, too.
         client.post({{"op", "repair"}, {"item", 1}});
         expect_harmless(client.finished());
         ++accepted;
@@ -383,7 +384,7 @@ TEST(SessionFile, NoTextOfItsItemsBecomesACommand) {
     }
     *text = kept;
   }
-  EXPECT_GT(accepted, 10);  // names, units
+  EXPECT_GT(accepted, 10);  // names and units
 }
 
 TEST(SessionFile, OfAnEarlierVersionHasItsShapesButNotItsLines) {

@@ -1,4 +1,4 @@
-// Every step, taken back and done again.
+// Every step, undone and redone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ using test::last_item;
 
 constexpr double kPi = std::numbers::pi;
 
-// The step changes something; undo brings back all that was, redo all that was made.
+// Checks that the step changes something, undo restores the state, and redo repeats the step.
 Json check_undone(Client& client, const Json& step) {
   const Json before = client.state();
   const Json after = client.step(step);
@@ -76,7 +76,7 @@ TEST(Steps, ExpansionsAreMadeLookedAtAlignedBlended) {
   state = check_undone(client, {{"op", "align"}, {"a", b}, {"b", a}});
   const std::string placed = state.at("items")[1].at("placed");
   EXPECT_NE(placed.find("onto bumpy.ply: radii differ by "), std::string::npos) << placed;
-  // Half turns about its axes leave an ellipsoid as it is.
+  // Half turns about its axes map an ellipsoid to itself.
   EXPECT_NE(placed.find("3 other turns are nearly as good."), std::string::npos) << placed;
   state = check_undone(client, {{"op", "blend"}, {"a", a}, {"b", b}, {"t", 0.5}});
   EXPECT_EQ(state.at("items").back().at("kind"), "expansion");
@@ -138,7 +138,7 @@ TEST(Steps, PointsBecomeSurfacesAndCaps) {
   EXPECT_EQ(state.at("items").back().at("look").at("degree"), highest - 1);
 }
 
-// A table without a header: numbers of rows, places, and one more column.
+// A table without a header: row numbers, coordinates, and one more column.
 constexpr const char* kTable = "1 0 0 2 7\n2 4 0 2 8\n3 0 5 2 9\n4 1 1 3 6\n";
 
 TEST(Steps, ColumnsOfTablesAreToldAndSaid) {
@@ -162,7 +162,7 @@ TEST(Steps, ColumnsOfTablesAreToldAndSaid) {
   EXPECT_TRUE(state.at("recipe").at("python").get<std::string>().ends_with(
       "\npoints_columns = rholm.read_shape(\"points.txt\", "
       "columns=\"-,z,x,y,odd'$(name)\").shape"));
-  // Of the table as it was read first, however often.
+  // Columns always refer to the table as it was first read.
   const Json again = client.step({{"op", "columns"}, {"item", 1}, {"columns", "x,y,z,-,-"}});
   EXPECT_TRUE(again.at("recipe").at("shell").get<std::string>().ends_with(
       "\nrholm convert points.txt points-columns-2.ply --columns=x,y,z,-,-"));
@@ -180,7 +180,7 @@ TEST(Steps, ColumnsAreSaidWhereATableIsOpened) {
   EXPECT_EQ(state.at("recipe").at("shell"),
             "rholm convert points.csv points-columns.ply --columns=x,y,z");
   EXPECT_TRUE(state.at("undo").is_null());
-  // The points in a session file are a table no more.
+  // Points from a session file are no longer a table.
   Client other;
   ASSERT_EQ(other.open("a.rholm", client.ask("GET", "api/session-file").body).status, 200);
   EXPECT_TRUE(other.state().at("items")[0].at("table").is_null());
@@ -219,7 +219,7 @@ TEST(Steps, WhatAReaderPassesOverIsTold) {
 
 TEST(Steps, DamagedMeshesAreMended) {
   Client client;
-  // An octahedron without one face.
+  // The mesh is an octahedron without one face.
   const std::string open =
       "OFF\n6 7 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 2 4\n3 2 1 4\n3 1 3 4\n"
       "3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n";
@@ -241,13 +241,13 @@ TEST(Steps, TheWholeHistoryIsThere) {
   EXPECT_EQ(client.post({{"op", "undo"}}).status, 422);
   for (int i = 1; i <= 5; ++i) EXPECT_EQ(document_of(client.step({{"op", "redo"}})), states[i]);
   EXPECT_EQ(client.post({{"op", "redo"}}).status, 422);
-  // A step after an undo ends what could be redone.
+  // A step after an undo clears the steps that could be redone.
   client.step({{"op", "undo"}});
   client.step({{"op", "make"}, {"shape", "sphere"}});
   EXPECT_EQ(client.post({{"op", "redo"}}).status, 422);
 }
 
-// A value of a row that people read.
+// Returns the value of a row of facts by its label.
 std::string fact(const Json& item, const std::string& label) {
   for (const Json& row : item.at("facts")) {
     if (row.at("label") == label) return row.at("value");
@@ -257,7 +257,7 @@ std::string fact(const Json& item, const std::string& label) {
 
 TEST(Steps, FiguresAreOfWhatIsShown) {
   Client client;
-  // An ellipsoid of radii 3, 2, 1: at degree 0 a sphere, whose radius is the mean one.
+  // An ellipsoid of radii 3, 2, 1 becomes at degree 0 a sphere, whose radius is the mean radius.
   client.step({{"op", "make"}, {"shape", "ellipsoid"}});
   Json item = client.step({{"op", "analyze"}, {"item", 1}, {"degree", 12}}).at("items")[0];
   EXPECT_EQ(fact(item, "Degree"), "12");
@@ -268,7 +268,7 @@ TEST(Steps, FiguresAreOfWhatIsShown) {
   EXPECT_EQ(fact(item, "Degree"), "0 of 12");
   EXPECT_EQ(fact(item, "Coefficients"), "1 of 169");
   EXPECT_NEAR(std::stod(fact(item, "Error, rms")), rms[0].get<double>(), 1e-4);
-  // The faces of the shape, their corners on that sphere; five digits are shown.
+  // The vertices of the shape are moved to that sphere; five digits are shown.
   const Json center = item.at("expansion").at("center");
   Mesh sphere = ellipsoid({3, 2, 1}, 5);
   for (Vec3& v : sphere.vertices) {
@@ -283,7 +283,7 @@ TEST(Steps, FiguresAreOfWhatIsShown) {
   EXPECT_EQ(fact(item, "Error, rms"), "not known");
 }
 
-// What is known of the whole is the same wherever it is told.
+// The error of the whole model is the same wherever it is stated.
 TEST(Steps, TheErrorOfAllDegreesIsOne) {
   Client client;
   client.step({{"op", "make"}, {"shape", "bumpy"}});
@@ -317,7 +317,7 @@ TEST(Steps, LengthsHaveTheUnitThatIsSet) {
             std::string::npos);
   EXPECT_TRUE(
       state.at("recipe").at("python").get<std::string>().ends_with(", length_unit=\"mm\")"));
-  // Of a model the file has it: another file, in the recipe, too.
+  // The unit is part of the file of a model, so that the recipe also writes another file.
   state = check_undone(client, {{"op", "unit"}, {"item", 1}, {"unit", "km"}});
   EXPECT_TRUE(fact(state.at("items")[0], "Error, rms").ends_with(" km"));
   const std::string python = state.at("recipe").at("python");
@@ -338,7 +338,7 @@ TEST(Steps, WhatIsOpenedIsNoStep) {
   client.step({{"op", "analyze"}, {"item", 1}, {"degree", 2}});
   client.step({{"op", "remove"}, {"item", 1}});
   client.step({{"op", "undo"}});
-  // Between steps that can be taken back and done again: it stays, whatever becomes of them.
+  // A file opened between steps stays, whichever of these steps are undone or redone.
   ASSERT_EQ(client.open("second.off", box).status, 200);
   Json state = client.step({{"op", "undo"}});
   ASSERT_EQ(state.at("items").size(), 2U);
@@ -362,7 +362,7 @@ TEST(Steps, WhatAPageBeginsWithIsNotUndone) {
   EXPECT_TRUE(state.at("undo").is_null());
   EXPECT_EQ(state.at("items")[0].at("expansion").at("degree"), 4);
   client.step({{"op", "look"}, {"item", 1}, {"degree", 2}});
-  client.step({{"op", "make"}, {"shape", "box"}, {"first", true}});  // there is something before it
+  client.step({{"op", "make"}, {"shape", "box"}, {"first", true}});  // an item before it exists
   client.step({{"op", "undo"}});
   state = client.step({{"op", "undo"}});
   EXPECT_TRUE(state.at("undo").is_null());
@@ -423,10 +423,10 @@ TEST(Steps, TheDegreeOfAToleranceIsTheSmallest) {
   const Json none =
       Json::parse(client.post({{"op", "degree_for"}, {"item", 1}, {"tolerance", 1e-9}}).body);
   EXPECT_FALSE(none.at("met").get<bool>());
-  EXPECT_EQ(client.state().at("undo"), state.at("undo"));  // no step
+  EXPECT_EQ(client.state().at("undo"), state.at("undo"));  // adds no step
 }
 
-// What is shown may be saved: the recipe has the line for it, until it is whole again.
+// A shown state may be saved: the recipe has its line until the whole model is shown again.
 TEST(Recipe, HasWhatIsOnlyShown) {
   Client client;
   client.step({{"op", "make"}, {"shape", "bumpy"}});

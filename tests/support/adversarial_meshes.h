@@ -1,5 +1,5 @@
-// Star-shaped closed meshes made to fool whoever looks at a sample of their triangles, or believes
-// that what holds of most of them holds of all.
+// Star-shaped closed meshes for which estimates from a sample of the triangles fail, and meshes
+// whose few unusual triangles do not follow the behaviour of the others.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace rholm::test {
 
 struct AdversarialMesh {
   std::string name;
-  Mesh mesh;   // seen from the origin
-  int degree;  // to be asked for
+  Mesh mesh;   // star-shaped about the origin
+  int degree;  // degree to analyse to
   double precision;
 };
 
@@ -32,7 +32,7 @@ inline double smooth_radius(const Vec3& u) {
                      std::sin(5 * u.z + 3 * u.x + 2) + std::cos(6 * u.x - 2 * u.y + 1));
 }
 
-// The radius of each vertex as a function of its direction.
+// Moves each vertex along its ray to the radius that a function of the direction returns.
 inline Mesh shaped(Mesh mesh, const std::function<double(const Vec3&)>& radius) {
   for (Vec3& v : mesh.vertices) {
     const Vec3 u = normalized(v);
@@ -41,7 +41,7 @@ inline Mesh shaped(Mesh mesh, const std::function<double(const Vec3&)>& radius) 
   return mesh;
 }
 
-// Faces of a cube, row by row, 12 n^2 triangles.
+// Returns the faces of a cube, row by row, with 12 n^2 triangles.
 inline Mesh cube_sphere(int n) { return shaped(box({2, 2, 2}, n), smooth_radius); }
 inline Mesh ico(int subdivisions) { return shaped(icosphere(subdivisions), smooth_radius); }
 
@@ -49,7 +49,7 @@ inline double signed_random(std::uint64_t stream, std::uint64_t i) {
   return 2 * random_uniform(stream, i) - 1;
 }
 
-// Which vertices the triangles [first, first + n) have.
+// Returns the vertices of the triangles [first, first + n), without repetition.
 inline std::vector<std::uint32_t> vertices_of_run(const Mesh& mesh, std::size_t first,
                                                   std::size_t n) {
   std::vector<std::uint32_t> found;
@@ -61,7 +61,7 @@ inline std::vector<std::uint32_t> vertices_of_run(const Mesh& mesh, std::size_t 
   return found;
 }
 
-// Radii of a run of triangles times 1 + amplitude * random.
+// Multiplies the radii of the vertices of n triangles by 1 + amplitude * random.
 inline Mesh rough_run(Mesh mesh, std::size_t first, std::size_t n, double amplitude) {
   for (const std::uint32_t v : vertices_of_run(mesh, first, n)) {
     mesh.vertices[v] = (1 + amplitude * signed_random(7, v)) * mesh.vertices[v];
@@ -69,8 +69,8 @@ inline Mesh rough_run(Mesh mesh, std::size_t first, std::size_t n, double amplit
   return mesh;
 }
 
-// Vertices of a run moved along a sphere by a part of an edge, then back onto the surface: the
-// surface stays smooth, its triangles do not.
+// Shifts the vertices of n triangles along the sphere by a part of an edge, then back onto the
+// surface. The surface stays smooth, but its triangles become irregular.
 inline Mesh shifted_run(Mesh mesh, std::size_t first, std::size_t n, double by) {
   for (const std::uint32_t v : vertices_of_run(mesh, first, n)) {
     Vec3 u = normalized(mesh.vertices[v]);
@@ -80,7 +80,7 @@ inline Mesh shifted_run(Mesh mesh, std::size_t first, std::size_t n, double by) 
   return mesh;
 }
 
-// Directions pulled towards the pole z: triangles of very different size.
+// Pulls directions towards the pole z, so that triangles have very different sizes.
 inline Mesh pulled(Mesh mesh, double power) {
   for (Vec3& v : mesh.vertices) {
     Vec3 u = normalized(v);
@@ -92,13 +92,13 @@ inline Mesh pulled(Mesh mesh, double power) {
   return mesh;
 }
 
-// Stretched along z: triangles become needles as seen from the centre.
+// Scales along the axes: triangles become needles as seen from the centre.
 inline Mesh stretched(Mesh mesh, const Vec3& by) {
   for (Vec3& v : mesh.vertices) v = {by.x * v.x, by.y * v.y, by.z * v.z};
   return mesh;
 }
 
-// Triangles in the order of a key.
+// Sorts the triangles by a key.
 inline Mesh ordered(Mesh mesh, const std::function<double(std::size_t)>& key) {
   std::vector<std::size_t> order(mesh.triangles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -113,14 +113,14 @@ inline Mesh ordered(Mesh mesh, const std::function<double(std::size_t)>& key) {
 inline Mesh in_random_order(Mesh mesh) {
   return ordered(std::move(mesh), [](std::size_t t) { return random_uniform(21, t); });
 }
-// Every triangle far from its neighbours, in a regular way.
+// Puts every triangle far from its neighbours, at a regular stride.
 inline Mesh dealt_out(Mesh mesh, std::size_t stride) {
   return ordered(std::move(mesh), [=](std::size_t t) {
     return static_cast<double>(t % stride) * 1e9 + static_cast<double>(t);
   });
 }
 
-// Some faces once more, and once more turned over: nothing is added to the surface.
+// Repeats some faces, once as they are and once flipped: the surface does not change.
 inline Mesh with_duplicates(Mesh mesh, std::size_t every) {
   const std::size_t n = mesh.triangles.size();
   for (std::size_t t = 0; t < n; t += every) {
@@ -142,7 +142,7 @@ inline Mesh turned(Mesh mesh, double angle) {
   return mesh;
 }
 
-// One vertex in `every` farther out.
+// Multiplies the radius of one vertex in `every` by 1 + `by`.
 inline Mesh spiked(Mesh mesh, std::size_t every, double by) {
   for (std::size_t v = every / 2; v < mesh.vertices.size(); v += every) {
     mesh.vertices[v] = (1 + by) * mesh.vertices[v];
@@ -154,13 +154,13 @@ inline Mesh lattice(int n_theta, int n_phi) {
   return shaped(latitude_longitude_sphere(n_theta, n_phi), smooth_radius);
 }
 
-// Nearly a ball.
+// Returns a body that is nearly a ball.
 inline Mesh planet(int n_theta, int n_phi) {
   return shaped(latitude_longitude_sphere(n_theta, n_phi),
                 [](const Vec3& u) { return 1 + 1e-2 * (smooth_radius(u) - 1); });
 }
 
-// The northern third bent out of its rows.
+// Moves the vertices of the northern third out of their rows.
 inline Mesh half_lattice(int n_theta, int n_phi) {
   Mesh mesh = lattice(n_theta, n_phi);
   for (Vec3& v : mesh.vertices) {
@@ -181,8 +181,8 @@ inline std::vector<AdversarialMesh> few_adversaries() {
 
 }  // namespace adversarial
 
-// All of them, of 12 000 to 100 000 triangles, or those few that each stand for a way to be fooled
-// and take direct sums a second.
+// kAll: all meshes, of 12 000 to 100 000 triangles. kFew: five small meshes that each stand for one
+// kind of difficulty; their direct sums take a second.
 enum class Adversaries { kAll, kFew };
 inline std::vector<AdversarialMesh> adversarial_meshes(Adversaries which) {
   using namespace adversarial;
@@ -191,8 +191,8 @@ inline std::vector<AdversarialMesh> adversarial_meshes(Adversaries which) {
   const auto add = [&](std::string name, Mesh mesh, int degree, double precision) {
     all.push_back({std::move(name), std::move(mesh), degree, precision});
   };
-  // A rough patch where nobody looks: runs of 128 triangles are sampled at multiples of n / 24.
-  const Mesh cube = cube_sphere(60);  // 43 200, 337 runs of 128, one in 14 sampled
+  // A rough patch between the samples: runs of 128 triangles are sampled at multiples of n / 24.
+  const Mesh cube = cube_sphere(60);  // 43 200 triangles, 337 runs of 128, one in 14 sampled
   for (const double amplitude : {3e-4, 3e-3, 3e-2}) {
     for (const auto& [degree, precision] :
          std::vector<std::pair<int, double>>{{32, 1e-5}, {64, 1e-4}, {64, 1e-6}, {96, 1e-4}}) {
@@ -203,7 +203,7 @@ inline std::vector<AdversarialMesh> adversarial_meshes(Adversaries which) {
   add("rough run of 16", rough_run(cube, 128 * 203 + 40, 16, 1e-2), 96, 1e-4);
   add("rough run of 2", rough_run(cube, 128 * 203 + 40, 2, 5e-2), 96, 1e-4);
   add("rough run, fine", rough_run(cube_sphere(90), 128 * 333, 64, 1e-3), 128, 1e-4);
-  // Smooth, but with irregular triangles somewhere.
+  // The surface is smooth, but some of its triangles are irregular.
   for (const double by : {2e-3, 8e-3}) {
     add("shifted run " + std::to_string(by), shifted_run(cube, 128 * 100, 128, by), 96, 1e-4);
     add("shifted quarter " + std::to_string(by), shifted_run(cube, 128 * 100, 128 * 80, by), 96,
@@ -211,7 +211,7 @@ inline std::vector<AdversarialMesh> adversarial_meshes(Adversaries which) {
     add("shifted quarter " + std::to_string(by), shifted_run(cube, 128 * 100, 128 * 80, by), 48,
         1e-6);
   }
-  // Two scales.
+  // Triangles have two length scales.
   for (const double power : {2.0, 5.0, 0.3}) {
     add("pulled " + std::to_string(power), pulled(cube_sphere(40), power), 64, 1e-5);
     add("pulled " + std::to_string(power), pulled(ico(5), power), 48, 1e-4);
@@ -222,7 +222,7 @@ inline std::vector<AdversarialMesh> adversarial_meshes(Adversaries which) {
         ordered(pole, [&](std::size_t t) { return -pole.vertices[pole.triangles[t][0]].z; }), 64,
         1e-5);
   }
-  // Lattices aligned with the grid, half of them, and turned a little.
+  // Lattices that are aligned with the grid, aligned in part, and turned by a small angle.
   add("lattice", lattice(80, 160), 64, 1e-5);
   add("lattice in step with L", lattice(64, 128), 64, 1e-4);
   add("lattice in step with 2 L", lattice(96, 192), 48, 1e-6);
@@ -236,18 +236,18 @@ inline std::vector<AdversarialMesh> adversarial_meshes(Adversaries which) {
   add("lattice of a planet", planet(80, 160), 48, 1e-6);
   add("lattice of a planet", planet(64, 128), 64, 1e-4);
   add("ball", icosphere(5), 48, 1e-4);
-  // Vertices with Hessians, in step with the windows.
+  // Meshes whose sums use Hessians at vertices; their spacing matches the width of the windows.
   add("Hessians", bumpy_sphere(5, 0.2), 48, 1e-8);
   add("Hessians", bumpy_sphere(6, 0.2), 64, 1e-9);
   add("Hessians", bumpy_sphere(6, 0.2), 128, 1e-7);
   add("prism", box({2, 2, 2}, 40), 64, 1e-4);
   add("prism, long", box({1, 1, 6}, 40), 48, 1e-4);
-  // Needles.
+  // Triangles are needles.
   add("needles around", lattice(24, 800), 64, 1e-4);
   add("needles along", lattice(800, 24), 64, 1e-4);
   add("needles by stretching", stretched(ico(5), {1, 1, 12}), 48, 1e-4);
   add("needles by flattening", stretched(ico(5), {1, 1, 0.05}), 32, 1e-4);
-  // Creases, across runs and everywhere.
+  // Surfaces with creases, across runs of triangles and everywhere.
   add("box", box({3, 2, 1}, 35), 64, 1e-5);
   add("creased rows",
       shaped(box({2, 2, 2}, 45),
@@ -259,7 +259,7 @@ inline std::vector<AdversarialMesh> adversarial_meshes(Adversaries which) {
   add("dealt out", dealt_out(cube_sphere(50), 101), 96, 1e-4);
   add("random order", in_random_order(cube_sphere(50)), 96, 1e-4);
   add("rough run, random order", in_random_order(rough_run(cube, 12800, 64, 3e-3)), 96, 1e-4);
-  // Up and down from vertex to vertex: the shortest wave there is.
+  // Radii alternate from vertex to vertex: the shortest wave that the mesh can hold.
   add("up and down",
       shaped(box({2, 2, 2}, 50),
              [k = 0](const Vec3& u) mutable {
@@ -270,10 +270,10 @@ inline std::vector<AdversarialMesh> adversarial_meshes(Adversaries which) {
   add("spikes", spiked(cube, 4001, 0.5), 64, 1e-4);
   add("one spike", spiked(cube, 40001, 3), 64, 1e-4);
   add("dents", spiked(cube, 4001, -0.6), 64, 1e-4);
-  // Faces there and back.
+  // Repeated faces cancel each other.
   add("duplicates", with_duplicates(cube, 50), 64, 1e-5);
   add("duplicates of a rough run", with_duplicates(rough_run(cube, 12800, 64, 3e-2), 7), 64, 1e-4);
-  // The centre beside the middle.
+  // The centre lies off the middle.
   add("eccentric", moved(cube, {0.6, 0.2, 0.1}), 64, 1e-5);
   add("nearly on the surface", moved(icosphere(5), {0.93, 0, 0}), 48, 1e-4);
   add("rough run, eccentric", moved(rough_run(cube, 128 * 100, 64, 3e-3), {0.3, -0.5, 0}), 64,

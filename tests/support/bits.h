@@ -1,4 +1,4 @@
-// The bits of results, one after the other: to be compared.
+// Collects the bits of results one after the other, so that they can be compared.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ class Bits {
     return *this;
   }
 
-  // Without padding.
+  // T has no padding bytes.
   template <typename T>
   Bits& add(std::span<T> values) {
     const std::size_t begin = bytes_.size();

@@ -1,5 +1,5 @@
-// Bodies as CAD programs export them: convex and star-shaped solids of flat faces whose vertices on
-// edges are joined by triangles without width, turned, shifted, and rounded to single precision.
+// Bodies as CAD programs export them: convex or star-shaped solids with triangles without width at
+// vertices on edges. The bodies are turned, shifted, and rounded to single precision.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace rholm::test {
 
-// A solid by its faces, counter-clockwise from outside; every edge is in two of them.
+// A solid given by faces, counter-clockwise from outside; every edge belongs to two faces.
 struct FacedSolid {
   std::vector<Vec3> vertices;
   std::vector<std::vector<std::uint32_t>> faces;
@@ -33,7 +33,7 @@ inline FacedSolid cuboid(const Vec3& half) {
   return solid;
 }
 
-// The part of a convex solid with normal . x <= offset.
+// Returns the part of a convex solid with normal . x <= offset.
 inline FacedSolid cut_by(const FacedSolid& solid, const Vec3& normal, double offset) {
   const auto height = [&](std::uint32_t v) {
     const double h = dot(normal, solid.vertices[v]) - offset;
@@ -52,7 +52,7 @@ inline FacedSolid cut_by(const FacedSolid& solid, const Vec3& normal, double off
     }
     return at->second;
   };
-  std::map<std::uint32_t, std::uint32_t> cap;  // from one vertex of the cut to the next
+  std::map<std::uint32_t, std::uint32_t> cap;  // from one vertex of the cut to the next vertex
   for (const std::vector<std::uint32_t>& face : solid.faces) {
     std::vector<std::uint32_t> kept;
     std::uint32_t enters = 0, leaves = 0;
@@ -76,7 +76,7 @@ inline FacedSolid cut_by(const FacedSolid& solid, const Vec3& normal, double off
   return result;
 }
 
-// A prism over a polygon about the origin, which sees all of it; caps are fans about their middles.
+// Returns a prism over a polygon that is star-shaped about the origin; caps are fans about middles.
 inline FacedSolid star_prism(const std::vector<Vec3>& polygon, double half_height) {
   FacedSolid solid;
   const auto n = static_cast<std::uint32_t>(polygon.size());
@@ -94,7 +94,7 @@ inline FacedSolid star_prism(const std::vector<Vec3>& polygon, double half_heigh
   return solid;
 }
 
-// Fans from the first vertex of each face.
+// Splits each face into a fan of triangles about its first vertex.
 inline Mesh triangulated(const FacedSolid& solid) {
   Mesh mesh{.vertices = solid.vertices, .triangles = {}, .attributes = {}};
   for (const std::vector<std::uint32_t>& face : solid.faces) {
@@ -105,22 +105,22 @@ inline Mesh triangulated(const FacedSolid& solid) {
   return mesh;
 }
 
-// What is rare in files, and harder.
+// Configurations that are rare in files, and harder.
 enum class CadRarity {
   kNone,
-  kSliversMeet,  // the slivers of both faces of an edge
+  kSliversMeet,  // slivers of both faces meet at an edge
   kJunctions,    // T-junctions at bodies of every kind
 };
 
-// Puts vertices on some edges of a solid, in both faces of the edge, or for T-junctions in one.
-// Unless slivers may meet, the fan of a face begins at a vertex whose edges no other face has
-// slivers on, if there is one, and about a new vertex otherwise.
+// Puts vertices on some edges, in both faces of an edge, or in one face for T-junctions. Unless
+// slivers may meet, the fan of a face begins at a vertex on whose edges no other face has slivers.
+// If every vertex has slivers, the fan begins at a new vertex in the middle of the face.
 inline FacedSolid with_split_edges(const FacedSolid& given, double share, bool junctions,
                                    bool slivers_meet, std::uint64_t seed) {
   std::uint64_t counter = 0;
   const auto random = [&] { return random_uniform(seed, counter++); };
   struct SplitEdge {
-    std::vector<std::uint32_t> inner;  // in the order of the face that came first
+    std::vector<std::uint32_t> inner;  // in the order of the first face of the edge
     bool has_slivers = false;
   };
   std::map<std::pair<std::uint32_t, std::uint32_t>, SplitEdge> edges;
@@ -172,7 +172,7 @@ inline FacedSolid with_split_edges(const FacedSolid& given, double share, bool j
   return solid;
 }
 
-// Volatile: GCC 12 leaves the conversion out in the last rounds of a loop that it makes vectors of.
+// `volatile` is needed: GCC 12 omits the conversion in the last rounds of a vectorised loop.
 inline double to_single(double x) {
   const volatile float single = static_cast<float>(x);
   return single;
@@ -180,12 +180,12 @@ inline double to_single(double x) {
 
 struct CadBody {
   std::string name;
-  Mesh exact;    // in double precision, without vertices on edges
-  Mesh written;  // in single precision, with them: closed but for T-junctions
+  Mesh exact;    // double precision, without vertices on edges
+  Mesh written;  // single precision, with them: closed but for T-junctions
   bool junctions = false;
 };
 
-// Body i of 300.
+// Returns body i of 300.
 inline CadBody cad_body(int i, CadRarity rarity = CadRarity::kNone) {
   const auto seed = 1000 + static_cast<std::uint64_t>(i);
   std::uint64_t counter = 0;
@@ -277,7 +277,7 @@ inline CadBody cad_body(int i, CadRarity rarity = CadRarity::kNone) {
                                             rarity == CadRarity::kSliversMeet, seed);
   body.exact = triangulated(solid);
   body.written = triangulated(split);
-  // Turned about a random axis, in millimetres, up to ten sizes away.
+  // The body is turned at random and shifted by up to ten sizes; the unit is the millimetre.
   const Vec3 x = random_direction(seed, 900);
   const Vec3 y = normalized(cross(x, random_direction(seed, 901))), z = cross(x, y);
   const double scale = std::exp(random(-4, 6));

@@ -1,5 +1,5 @@
-// The largest radial error of an expansion, slowly: dense points on each face and its edges, then
-// random steps uphill from the worst.
+// A slow search for the largest radial error of an expansion. Errors are computed at dense points
+// on each face and its edges, then at random steps uphill from the worst points.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace rholm::test {
 
-// A point of a face by the weights of its corners.
+// A point of a face, given by the weights of the face's corners.
 struct FacePoint {
   std::size_t face = 0;
   std::array<double, 3> weights = {};
@@ -38,8 +38,8 @@ inline std::vector<double> radial_errors(const Mesh& mesh, const Coefficients& c
   return errors;
 }
 
-// About the origin. Edges of faces are divided into n parts; the surface between the points must be
-// smooth enough that the largest error is uphill of one of the worst. `rounds`: of steps.
+// Returns the largest error about the origin. Edges of faces are divided into n parts; between the
+// points the surface must be so smooth that climbing finds the maximum. `rounds`: number of steps.
 inline double largest_error_of_dense_points(const Mesh& mesh, const Coefficients& c, int n,
                                             int rounds = 150) {
   std::vector<FacePoint> points;
@@ -68,7 +68,7 @@ inline double largest_error_of_dense_points(const Mesh& mesh, const Coefficients
   for (int round = 0; round < rounds; ++round) {
     std::vector<FacePoint> trial = at;
     for (std::size_t k = 0; k < best; ++k) {
-      // Every other step along an edge, if the point lies on one: a weight of 0 stays.
+      // Every second step keeps weights of 0, so that a point on an edge moves along the edge.
       const bool along = round % 2 == 1;
       double sum = 0;
       for (double& w : trial[k].weights) {

@@ -1,4 +1,4 @@
-// An executor that runs parts by a function, as other processes would.
+// An executor that runs parts through a function, as another process would run them.
 #pragma once
 
 #include <functional>

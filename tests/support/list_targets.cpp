@@ -1,4 +1,4 @@
-// Prints the instruction sets that RHOLM_TEST_TARGET may name here, best first.
+// Prints the instruction sets that RHOLM_TEST_TARGET may name on this machine, best first.
 #include <cstdio>
 
 #include "support/targets.h"

@@ -1,4 +1,4 @@
-// A made-up struct of options, with a field of each kind, to see what is made of its list.
+// A made-up struct of options with a field of each kind, to test what its list of fields gives.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The program of the tests of a layer: googletest's own, which instruction set runs, and times.
+// The main() of test programs: runs googletest, reports the instruction set and notes times.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -24,7 +24,7 @@ class SayTarget : public testing::Environment {
 };
 
 // Notes the processor time and the duration of each test in the file that RHOLM_TEST_TIMES names,
-// if it names one (scripts/test-times; support/times.py does it for tests in Python).
+// if it is set (scripts/test-times). The Python version is in support/times.py.
 class NoteTimes : public testing::EmptyTestEventListener {
  public:
   NoteTimes(const char* file, const char* program)
@@ -41,7 +41,7 @@ class NoteTimes : public testing::EmptyTestEventListener {
   void OnTestProgramEnd(const testing::UnitTest&) override { note(spent() - noted_, "(start)"); }
 
  private:
-  // In seconds.
+  // Both fields are in seconds.
   struct Times {
     double processor, duration;
 
@@ -53,8 +53,8 @@ class NoteTimes : public testing::EmptyTestEventListener {
     }
   };
 
-  // Of this process, its threads, and the processes that it has waited for; since the listener was
-  // made.
+  // Returns the times of this process, its threads, and the processes that it has waited for, since
+  // the listener was made.
   [[nodiscard]] Times spent() const {
     double seconds = 0;
     for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
@@ -68,7 +68,7 @@ class NoteTimes : public testing::EmptyTestEventListener {
     return {seconds, duration.count()};
   }
 
-  // Many processes write at once: one line is one call, at the end of the file.
+  // Many processes append at once: each line is written by one call.
   void note(Times times, const std::string& name) const {
     std::array<char, 64> numbers{};
     std::snprintf(numbers.data(), numbers.size(), "%.4f\t%.4f", times.processor, times.duration);
@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
   testing::AddGlobalTestEnvironment(new SayTarget);  // googletest owns it
   const char* const times = std::getenv("RHOLM_TEST_TIMES");
   if (times != nullptr) {
-    // googletest owns it
+    // googletest owns the listener.
     testing::UnitTest::GetInstance()->listeners().Append(new NoteTimes(times, argv[0]));
   }
   return RUN_ALL_TESTS();

@@ -1,5 +1,5 @@
 // Slow, plain cubature over the flat faces of a star-shaped mesh: the reference for all methods.
-// Its nodes and weights are its own.
+// Its nodes and weights are independent of the library's.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace rholm::test {
 
-// Calls visit(x, dOmega) for n x n Gauss nodes x per face in coordinates collapsed at the face's
-// first corner.
+// Calls visit(x, dOmega) for n x n Gauss nodes x per face, in coordinates that are collapsed at the
+// first corner of the face.
 template <typename Visit>
 void visit_oracle_nodes(const Mesh& mesh, int n, const Visit& visit) {
   const GaussRule rule = gauss_legendre(n);
@@ -37,7 +37,7 @@ inline double value_at(const Vec3& x, RadialFunction function) {
   return function == RadialFunction::kRadius ? norm(x) : 1 / norm(x);
 }
 
-// int f conj(Y) dOmega.
+// Returns int f conj(Y) dOmega.
 inline Coefficients oracle_coefficients(const Mesh& mesh, int degree, RadialFunction function,
                                         int n) {
   Coefficients sum(degree);
@@ -51,7 +51,7 @@ inline Coefficients oracle_coefficients(const Mesh& mesh, int degree, RadialFunc
   return sum;
 }
 
-// The same for one order m only, the others zero: cheap at high degrees.
+// Adds the coefficients of one order m only, which is cheap at high degrees.
 inline void add_oracle_order(const Mesh& mesh, int m, RadialFunction function, int n,
                              Coefficients& sum) {
   std::vector<double> x, s, re, im;
@@ -79,7 +79,7 @@ inline void add_oracle_order(const Mesh& mesh, int m, RadialFunction function, i
   }
 }
 
-// l2 norm of the difference over 1 <= l <= L, relative to the norm of `b` without b_00.
+// Returns the l2 norm of the difference over 1 <= l <= L, relative to the norm of `b` without b_00.
 inline double relative_error(const Coefficients& a, const Coefficients& b) {
   double difference = 0, norm = 0;
   for (int l = 1; l <= b.degree(); ++l) {

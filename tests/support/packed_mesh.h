@@ -10,11 +10,11 @@
 namespace rholm::test {
 
 struct PackedMesh {
-  std::vector<std::byte> vertices, triangles;  // not a byte more than needed
+  std::vector<std::byte> vertices, triangles;  // exactly as many bytes as needed
   MeshView view;
 };
 
-// Coordinates of type T, with `gap` bytes between one vertex and the next; 13 bytes a face.
+// Packs coordinates of type T, with `gap` bytes between vertices; a face takes 13 bytes.
 template <class T>
 PackedMesh packed(const Mesh& mesh, std::size_t gap = 0) {
   const std::size_t row = 3 * sizeof(T), stride = row + gap, n = mesh.vertices.size();
@@ -39,7 +39,7 @@ PackedMesh packed(const Mesh& mesh, std::size_t gap = 0) {
   return result;
 }
 
-// The mesh that a view shows.
+// Returns a copy of the mesh that a view shows.
 inline Mesh unpacked(const MeshView& view) {
   Mesh mesh;
   for (std::size_t i = 0; i < view.n_vertices; ++i) mesh.vertices.push_back(view.vertex(i));

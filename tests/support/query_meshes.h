@@ -1,4 +1,4 @@
-// Meshes for tests of queries, drawn here, so that the claims do not rest on other code of the
+// Meshes for tests of queries, built here so that the tests do not rest on other code of the
 // library.
 #pragma once
 
@@ -25,8 +25,8 @@ inline Vec3 random_point(std::uint64_t seed, std::uint64_t k) {
           2 * random_uniform(seed, 3 * k + 2) - 1};
 }
 
-// A soup of triangles of very different sizes, every fifth one without area (a needle folded onto
-// itself, or a point).
+// Returns unconnected triangles of very different sizes. Every fifth triangle has no area: it is a
+// needle folded onto itself, or a point.
 inline Mesh soup(std::uint64_t seed, std::uint32_t n) {
   Mesh mesh;
   for (std::uint32_t t = 0; t < n; ++t) {

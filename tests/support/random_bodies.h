@@ -1,4 +1,4 @@
-// Random star-shaped bodies of families that are hard to sum: errors of their faces may all add up.
+// Random star-shaped bodies that are hard to integrate: errors of their faces may have one sign.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace rholm::test {
 
-// Numbers in [0, 1) that a body is made of: near ones give bodies that are alike.
+// Numbers in [0, 1) that determine a body. Similar numbers give similar bodies.
 struct BodyGenes {
   std::array<double, 16> u = {};
 };
@@ -28,7 +28,7 @@ inline BodyGenes random_genes(std::uint64_t seed) {
   return genes;
 }
 
-// The same but for a change of some of them; the family stays.
+// Changes some of the numbers at random; the family of the body stays the same.
 inline BodyGenes mutated(BodyGenes genes, std::uint64_t seed) {
   const double size = std::pow(10.0, -3 * random_uniform(seed, 0));
   for (std::size_t i = 1; i < genes.u.size(); ++i) {
@@ -42,7 +42,7 @@ inline BodyGenes mutated(BodyGenes genes, std::uint64_t seed) {
 struct RandomBody {
   std::string family;
   Mesh mesh;
-  Vec3 center;  // sees all of it
+  Vec3 center;  // sees the whole surface
   int degree = 0;
   double precision = 0;
 };
@@ -57,7 +57,7 @@ inline int whole(double low, double high, double u) {
   return static_cast<int>(std::lround(log_between(low, high, u)));
 }
 
-// Rings of as many points, from the top down; caps are fans about points on the axis.
+// Joins rings of equally many points, from the top down; caps are fans about points on the axis.
 inline Mesh of_rings(const std::vector<std::vector<Vec3>>& rings, double top, double bottom) {
   Mesh mesh;
   mesh.vertices.push_back({0, 0, top});
@@ -98,8 +98,8 @@ inline Mesh prism(const BodyGenes& g) {
   return of_rings(rings, 1, -1);
 }
 
-// `depth`: of the gaps, for a radius of 1; `wall`: how wide walls are, seen from the axis, in
-// teeth.
+// Returns a gear of outer radius 1. `depth` is the depth of its gaps. `wall` is the angle that a
+// wall takes as seen from the axis, in teeth.
 inline Mesh gear(int teeth, int layers, double height, double depth, double wall) {
   std::vector<Vec3> outline;
   for (int i = 0; i < teeth; ++i) {
@@ -133,7 +133,7 @@ inline Mesh terraces(const BodyGenes& g) {
   const int n = whole(4, 64, g.u[1]), steps = whole(2, 12, g.u[2]);
   const double height = log_between(0.1, 10, g.u[3]), slope = log_between(1e-4, 0.1, g.u[4]);
   std::vector<std::vector<Vec3>> rings;
-  for (int k = 0; k < steps; ++k) {  // walls and treads lean by `slope` of a step
+  for (int k = 0; k < steps; ++k) {  // walls and treads are inclined by `slope` times a step
     const double radius = (k + 1.0) / steps, z = height * (1 - 1.0 * k / steps);
     rings.push_back(ring(n, radius - slope / steps, z));
     rings.push_back(ring(n, radius, z - height * (1 - slope) / steps));
@@ -166,7 +166,7 @@ inline Mesh polyhedron(const BodyGenes& g) {
                          static_cast<std::uint64_t>(1e6 * g.u[4]));
 }
 
-// A point near a corner, the middle of an edge or that of a face of a convex body.
+// Returns a point near a corner, the middle of an edge or the middle of a face of a convex body.
 inline Vec3 near_surface(const Mesh& mesh, const BodyGenes& g) {
   const auto n = static_cast<double>(mesh.triangles.size());
   const Triangle& t = mesh.triangles[static_cast<std::size_t>(n * g.u[8])];
@@ -196,7 +196,7 @@ inline RandomBody random_body(const BodyGenes& g) {
   const Family& family = kFamilies[static_cast<std::size_t>(kFamilies.size() * g.u[0])];
   RandomBody body{.family = family.name, .mesh = family.mesh(g), .center = {}};
   if (family.convex && g.u[7] < 0.4) body.center = make::near_surface(body.mesh, g);
-  // Half of them as they are: along the axes.
+  // One half of the bodies is turned; the other half is aligned with the axes.
   Rotation rotation;
   if (g.u[6] < 0.5) {
     rotation = rotation_of(EulerAngles{6.2 * g.u[11], std::acos(2 * g.u[12] - 1), 12 * g.u[6]});
@@ -204,7 +204,7 @@ inline RandomBody random_body(const BodyGenes& g) {
   const double size = make::log_between(1e-3, 1e6, g.u[13]);
   for (Vec3& v : body.mesh.vertices) v = size * rotate(v, rotation);
   body.center = size * rotate(body.center, rotation);
-  // Direct sums are to take no more than some seconds.
+  // The degree is limited so that direct sums take at most some seconds.
   const double faces = static_cast<double>(body.mesh.triangles.size());
   const double most = std::clamp(std::sqrt(3e6 / faces), 4.0, 128.0);
   body.degree = make::whole(2, most, g.u[14]);

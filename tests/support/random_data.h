@@ -19,7 +19,7 @@ inline double random_in(double low, double high, std::uint64_t seed, std::uint64
   return low + (high - low) * random_uniform(seed, counter);
 }
 
-// Uniform on the unit sphere.
+// Returns a direction that is uniform on the unit sphere.
 inline Vec3 random_direction(std::uint64_t seed, std::uint64_t counter) {
   const double z = random_in(-1, 1, seed, 2 * counter);
   const double phi = random_in(0, 2 * std::numbers::pi, seed, 2 * counter + 1);
@@ -27,7 +27,7 @@ inline Vec3 random_direction(std::uint64_t seed, std::uint64_t counter) {
   return normalized({s * std::cos(phi), s * std::sin(phi), z});
 }
 
-// Random directions, the first of them the poles and points very near to them.
+// Returns random directions. The poles and points very near to them come first.
 inline std::vector<Vec3> random_directions(std::size_t n, std::uint64_t seed) {
   std::vector<Vec3> directions = {{0, 0, 1},
                                   {0, 0, -1},
@@ -75,7 +75,7 @@ inline double inner(std::span<const double> a, std::span<const double> b) {
 
 inline double norm_of(std::span<const double> a) { return std::sqrt(inner(a, a)); }
 
-// |a - b| / |b|, over all coefficients; both of one degree.
+// Returns |a - b| / |b| over all coefficients; both have the same degree.
 inline double relative_difference(const Coefficients& a, const Coefficients& b) {
   double square = 0;
   for (std::size_t i = 0; i < a.values().size(); ++i) {

@@ -1,4 +1,4 @@
-// What every reconstruction is asked for.
+// Checks that every reconstruction must pass.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ inline Inspection expect_closed_manifold(const Mesh& mesh) {
   return found;
 }
 
-// What a clear refusal says, or "" if there is none.
+// Returns the message of the expected error, or "" if no error is thrown.
 inline std::string refusal(PointCloud cloud, const ReconstructOptions& options = {},
                            ErrorCode code = ErrorCode::kInvalidInput) {
   try {

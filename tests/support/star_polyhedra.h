@@ -1,4 +1,4 @@
-// Random polyhedra that are star-shaped about the origin: steep and coarse ones.
+// Random polyhedra that are star-shaped about the origin, steep and coarse.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +22,8 @@ inline Vec3 random_direction(std::uint64_t seed, std::uint64_t i) {
   return {s * std::cos(phi), s * std::sin(phi), z};
 }
 
-// The hull of points, each outside what there is joined to the horizon that it sees. The first four
-// must not lie in a plane.
+// Returns the convex hull: each point outside is joined to the horizon that it sees. The first four
+// points must not lie in a plane.
 inline std::vector<Triangle> hull(const std::vector<Vec3>& p) {
   const auto sees = [&](const Triangle& t, const Vec3& x) {
     return dot(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]), x - p[t[0]]) > 1e-12;
@@ -50,9 +50,9 @@ inline std::vector<Triangle> hull(const std::vector<Vec3>& p) {
   return faces;
 }
 
-// n + 4 vertices, 2n + 4 faces: a convex polyhedron about the origin, whose vertices are then moved
-// along their rays by up to the factor 1 -+ `roughness`; stretched, and moved towards a random
-// direction by the part `offset` (below 1) of where it would no longer be star-shaped.
+// Returns a polyhedron with n + 4 vertices and 2n + 4 faces. Vertices of a convex hull are moved
+// along their rays by up to the factor 1 -+ `roughness`, then stretched. The body is shifted at
+// random by the part `offset` (below 1) of the way to where it is no longer star-shaped.
 inline Mesh star_polyhedron(std::size_t n, double roughness, double offset, std::uint64_t seed) {
   std::vector<Vec3> p = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   for (Vec3& v : p) v = v / std::sqrt(3.0);

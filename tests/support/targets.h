@@ -1,5 +1,5 @@
-// Instruction sets, forced at run time. The program of the tests takes the one that
-// RHOLM_TEST_TARGET names for all of a run (force_target_of_environment()).
+// Forces instruction sets at run time. The main() of the tests forces the instruction set that
+// RHOLM_TEST_TARGET names for the whole run (force_target_of_environment()).
 #pragma once
 
 #include <hwy/targets.h>
@@ -10,13 +10,13 @@
 
 namespace rholm::test {
 
-// Every kernel takes the best of these from now on. Nothing else may run meanwhile.
+// Makes every kernel use the best of `targets` from now on. No other thread may run meanwhile.
 inline void force_targets(std::int64_t targets) {
   hwy::SetSupportedTargetsForTest(targets);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-// Instruction sets for the life of the object, then those from before; 0 stands for all.
+// Forces instruction sets until its destructor restores the previous ones; 0 stands for all.
 class ForcedTargets {
  public:
   explicit ForcedTargets(std::int64_t targets) : before_(hwy::SupportedTargets()) {
@@ -30,13 +30,13 @@ class ForcedTargets {
   std::int64_t before_;
 };
 
-// What this machine has and the library was compiled for, best first, whatever is forced.
+// Returns what both this machine and the build support, best first, even if others are forced.
 inline std::vector<std::int64_t> available_targets() {
   const ForcedTargets all(0);
   return hwy::SupportedAndGeneratedTargets();
 }
 
-// Calls visit(name) with one of these after the other.
+// Calls visit(name) with each available instruction set forced in turn.
 template <typename Visit>
 void for_each_target(const Visit& visit) {
   for (const std::int64_t target : available_targets()) {
@@ -45,11 +45,11 @@ void for_each_target(const Visit& visit) {
   }
 }
 
-// Forces the instruction set that the environment variable RHOLM_TEST_TARGET names; with no such
-// variable the best one stays. Returns what is wrong, if anything is.
+// Forces the instruction set that the environment variable RHOLM_TEST_TARGET names; without the
+// variable the best one is used. Returns an error message, or "" if there is no error.
 std::string force_target_of_environment();
 
-// The one that kernels take.
+// Returns the name of the instruction set that kernels use.
 inline std::string running_target() {
   return hwy::TargetName(hwy::SupportedAndGeneratedTargets().front());
 }

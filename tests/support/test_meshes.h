@@ -1,4 +1,4 @@
-// Small meshes drawn by hand, and ways to move them.
+// Small meshes written out by hand, and motions of meshes.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace rholm::test {
 
-// Corners at the origin and on the axes at 1: volume 1/6, area 3/2 + sqrt(3)/2.
+// Corners are the origin and the unit points of the axes: volume 1/6, area 3/2 + sqrt(3)/2.
 inline Mesh tetrahedron() {
   return {.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
           .triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}},
@@ -22,8 +22,8 @@ struct Point2 {
   double y = 0;
 };
 
-// Prism over a polygon (counter-clockwise) of which `apex` sees every edge, -height/2 <= z <=
-// height/2. Vertices: bottom, top, apex of the bottom, apex of the top.
+// Returns a prism, |z| <= height/2, over a counter-clockwise polygon; `apex` sees all its edges.
+// Vertices are in the order bottom, top, apex of the bottom, apex of the top.
 inline Mesh prism(const std::vector<Point2>& polygon, const Point2& apex, double height) {
   Mesh mesh;
   const auto n = static_cast<std::uint32_t>(polygon.size());
@@ -47,7 +47,7 @@ inline Mesh l_prism(double height) {
   return prism({{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}, {0.5, 0.5}, height);
 }
 
-// The same surface, its vertices in the order that `order` has them in.
+// Returns the same surface with its vertices in the order `order`.
 inline Mesh renumbered(const Mesh& mesh, const std::vector<std::uint32_t>& order) {
   Mesh result = mesh;
   std::vector<std::uint32_t> number(order.size());
@@ -61,7 +61,7 @@ inline Mesh renumbered(const Mesh& mesh, const std::vector<std::uint32_t>& order
   return result;
 }
 
-// Each triangle with three vertices of its own.
+// Gives each triangle three vertices of its own.
 inline Mesh exploded(const Mesh& mesh) {
   Mesh soup;
   for (const Triangle& t : mesh.triangles) {
@@ -72,7 +72,7 @@ inline Mesh exploded(const Mesh& mesh) {
   return soup;
 }
 
-// Both meshes in one, not connected.
+// Returns both meshes in one mesh, without a connection.
 inline Mesh joined(const Mesh& a, const Mesh& b) {
   Mesh both = a;
   const auto first = static_cast<std::uint32_t>(a.vertices.size());
@@ -83,7 +83,7 @@ inline Mesh joined(const Mesh& a, const Mesh& b) {
   return both;
 }
 
-// x -> scale * rotation(x) + shift.
+// The map x -> scale * rotation(x) + shift.
 struct Motion {
   double scale = 1;
   std::array<Vec3, 3> rows = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
@@ -94,7 +94,7 @@ struct Motion {
   }
 };
 
-// The rotation by `angle` about an axis (Rodrigues).
+// Returns the rotation by `angle` about an axis (Rodrigues' formula).
 inline Motion rotation(const Vec3& axis, double angle) {
   const Vec3 k = normalized(axis);
   const double c = std::cos(angle), s = std::sin(angle);

@@ -1,4 +1,4 @@
-// Points for tests.
+// Point clouds for tests.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace rholm::test {
 
-// So many points, one for each number.
+// Returns point(0), ..., point(n - 1).
 inline std::vector<Vec3> points_of(std::size_t n, const std::function<Vec3(std::size_t)>& point) {
   std::vector<Vec3> points;
   points.reserve(n);
@@ -25,7 +25,7 @@ inline std::vector<Vec3> points_of(std::size_t n, const std::function<Vec3(std::
 
 inline double uniform(std::uint64_t seed, std::size_t i) { return random_in(-1, 1, seed, i); }
 
-// Random points of the unit sphere with their normals.
+// Returns random points of the unit sphere with their normals.
 inline PointCloud sphere_points(std::size_t n, std::uint64_t seed = 1) {
   PointCloud cloud;
   for (std::size_t i = 0; i < n; ++i) cloud.points.push_back(random_direction(seed, i));
@@ -33,14 +33,14 @@ inline PointCloud sphere_points(std::size_t n, std::uint64_t seed = 1) {
   return cloud;
 }
 
-// Normally distributed, deviation 1 (Box and Muller).
+// Returns a normally distributed number of standard deviation 1 (Box and Muller).
 inline double random_normal(std::uint64_t seed, std::uint64_t counter) {
   const double u = 1 - random_in(0, 1, seed, 2 * counter);
   return std::sqrt(-2 * std::log(u)) *
          std::cos(random_in(0, 2 * std::numbers::pi, seed, 2 * counter + 1));
 }
 
-// Points and normals in the order of a tree over them.
+// Points and normals, sorted in the order of a tree over the points.
 struct OrderedCloud {
   explicit OrderedCloud(const PointCloud& cloud) : tree(cloud.points) {
     for (const std::uint32_t i : tree.order()) {
@@ -51,7 +51,7 @@ struct OrderedCloud {
   explicit OrderedCloud(const std::vector<Vec3>& given)
       : OrderedCloud(PointCloud{.points = given, .normals = {}, .attributes = {}}) {}
 
-  // Flags of that order, in the order of what was given.
+  // Returns flags of the sorted points in the order of the original cloud.
   std::vector<std::uint8_t> as_given(const std::vector<std::uint8_t>& flags) const {
     std::vector<std::uint8_t> result(flags.size());
     for (std::size_t i = 0; i < flags.size(); ++i) result[tree.order()[i]] = flags[i];
@@ -62,7 +62,7 @@ struct OrderedCloud {
   std::vector<Vec3> points, normals;
 };
 
-// Both clouds in one; attributes are left out.
+// Returns both clouds in one cloud, without attributes.
 inline PointCloud joined(PointCloud a, const PointCloud& b) {
   a.points.insert(a.points.end(), b.points.begin(), b.points.end());
   a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
@@ -70,7 +70,7 @@ inline PointCloud joined(PointCloud a, const PointCloud& b) {
   return a;
 }
 
-// A box of edge 2 with a bore of radius 0.4 from above, 1.5 deep, whose wall no scanner has met.
+// Returns a box of edge 2 with a bore from above: radius 0.4, depth 1.5, no points on its wall.
 inline PointCloud bored_box(bool sensors) {
   PointCloud cloud;
   std::vector<double> at[3];

@@ -1,4 +1,4 @@
-// Shapes that tests share.
+// Shapes that several tests use.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace rholm::test {
 
-// A rotation without special angles.
+// Applies a rotation without special angles.
 inline Vec3 rotated(const Vec3& u) {
   const double a = 0.6, b = 1.3;
   const Vec3 v = {std::cos(a) * u.x - std::sin(a) * u.y, std::sin(a) * u.x + std::cos(a) * u.y,
@@ -26,7 +26,7 @@ inline Mesh rotated(Mesh mesh) {
   return mesh;
 }
 
-// A torus whose tube is `narrow` times as wide at one place as elsewhere.
+// Returns a torus whose tube is narrower at one place, by the factor `narrow`.
 inline Mesh ring_with_neck(double narrow) {
   Mesh ring = torus(2, 0.5, 400, 50);
   for (Vec3& v : ring.vertices) {
@@ -37,7 +37,7 @@ inline Mesh ring_with_neck(double narrow) {
   return ring;
 }
 
-// Random radii: every edge is a crease.
+// Returns a sphere of random radii, so that every edge is a crease.
 inline Mesh rough_sphere(int subdivisions) {
   Mesh mesh = icosphere(subdivisions);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -46,7 +46,7 @@ inline Mesh rough_sphere(int subdivisions) {
   return mesh;
 }
 
-// Vertices on both poles and four on the equator, edges through the poles, random radii.
+// Vertices are both poles and four points of the equator, with random radii; edges meet the poles.
 inline Mesh random_octahedron(std::uint64_t seed) {
   Mesh mesh;
   mesh.vertices = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -56,7 +56,7 @@ inline Mesh random_octahedron(std::uint64_t seed) {
   return mesh;
 }
 
-// Attributes nx, ny, nz: of each vertex the mean of its triangles' normals.
+// Adds attributes nx, ny, nz: the mean normal of the triangles at each vertex.
 inline void add_normals(Mesh& mesh) {
   const std::vector<Vec3> sums = area_normals(mesh.vertices, mesh.triangles);
   std::vector<double> axes[3];

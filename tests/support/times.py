@@ -1,6 +1,6 @@
-"""Processor time and duration of tests, for scripts/test-times: each test adds a line to the file that
-RHOLM_TEST_TIMES names, if it names one. A line has the two times in seconds, the group of the test and its name,
-between tabs; main.cpp writes the same."""
+"""Notes processor time and duration of tests for scripts/test-times. Each test adds a line to the file that
+RHOLM_TEST_TIMES names, if the variable is set. A line has the two times in seconds, the group of the
+test and its name, separated by tabs. main.cpp writes the same format."""
 
 import os
 import resource
@@ -16,8 +16,8 @@ STARTED = time.monotonic()
 
 
 def spent():
-    """Processor time of this process, its threads and the processes that it has waited for; time since this file was
-    read. Both in seconds."""
+    """Returns two times in seconds. The first is the processor time of this process, its threads and the
+    processes that it has waited for. The second is the time since this file was read."""
     used = sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
     return used, time.monotonic() - STARTED
 
@@ -31,9 +31,9 @@ def plus(a, b):
 
 
 def note(seconds, group, name):
-    """`seconds`: a difference of two results of spent()."""
+    """Appends the line of one test. `seconds` is a difference of two results of spent()."""
     if "RHOLM_TEST_TIMES" in os.environ:
-        # Many processes write at once: one line is one call, at the end of the file.
+        # Many processes append at once: each line is written by one call.
         file = os.open(os.environ["RHOLM_TEST_TIMES"], os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o644)
         try:
             os.write(file, "{:.4f}\t{:.4f}\t{}\t{}\n".format(*seconds, group, name).encode())
@@ -42,7 +42,8 @@ def note(seconds, group, name):
 
 
 class Result(unittest.TextTestResult):
-    """Notes each test, and what a process takes besides: the start of Python and what classes share."""
+    """Notes the times of each test, and of the process besides: start of Python, shared set-up of
+    classes."""
 
     noted = (0.0, 0.0)
 
@@ -62,7 +63,7 @@ class Result(unittest.TextTestResult):
 
 
 def group():
-    """The script that runs, from tests/ on, without its ending: cli/atlas."""
+    """Returns the running script relative to tests/, without its ending, for example cli/atlas."""
     return str(Path(sys.argv[0]).resolve().relative_to(TESTS)).removesuffix("_test.py")
 
 
@@ -71,5 +72,5 @@ class Runner(unittest.TextTestRunner):
 
 
 def main(**options):
-    """unittest.main() that notes."""
+    """Runs unittest.main() with a runner that notes times."""
     unittest.main(testRunner=Runner, **options)

@@ -1,6 +1,6 @@
-// Distances between a mesh of few faces and a model by closest points, as plainly as can be: from
-// points of the model to every triangle; from points of the mesh to a dense net of triangles of the
-// model. An oracle.
+// An oracle for distances between a mesh of few faces and a model, computed from closest points.
+// Distances are taken from points of the model to every triangle, and from points of the mesh to a
+// dense triangulation of the model.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +34,8 @@ inline std::vector<Vec3> model_points(const Coefficients& c, const std::vector<V
   return points;
 }
 
-// A root mean square with weights, and its relative standard error: by the scatter of 20 parts,
-// every 20th point each.
+// A weighted root mean square and its relative standard error, from the scatter of 20 parts. Part k
+// has the points k, k + 20, k + 40, ...
 struct WeightedMean {
   std::array<double, 20> squares = {}, weights = {};
   std::size_t n = 0;
@@ -60,15 +60,15 @@ struct WeightedMean {
   }
 };
 
-// The model as triangles with edges of 1/230: of waves of degree 64 they miss less than a
-// hundredth. From a point to those at the eight nearest vertices. (Steps downhill in the direction
-// end in narrow valleys of steep models: 5 % too far.)
+// The model as triangles with edges of 1/230: for waves of degree 64 the error is below 1 %. The
+// triangles at the eight nearest vertices are compared. (Descent over directions alone ends in
+// narrow valleys of steep models, where distances are 5 % too large.)
 class ModelNet {
  public:
   explicit ModelNet(const Coefficients& c)
       : c_(c), points_(model_points(c, sphere().vertices)), tree_(points_) {}
 
-  // Points of the net are trusted up to that distance; what is farther goes to the model itself.
+  // Distances up to `trusted` are taken from the triangles; larger ones from the model itself.
   std::vector<double> distances(const std::vector<Vec3>& x, double trusted) const {
     std::vector<double> result;
     std::vector<Neighbor> found;
@@ -90,7 +90,7 @@ class ModelNet {
   }
 
  private:
-  // From x to the model itself, from a point of the net on: no less than the distance.
+  // Descends from a vertex to the point of the model nearest to x. The result is an upper bound.
   double downhill(const Vec3& x, std::size_t at) const {
     Vec3 u = sphere().vertices[at];
     double nearest = norm(x - points_[at]);
@@ -131,10 +131,10 @@ class ModelNet {
   PointTree tree_;
 };
 
-// `n` points on each surface; those of the mesh by area, those of the model on a net of directions
-// with the area it has there. The net of triangles is flat between its points, a little within the
-// model: points of the mesh that are farther than `trusted` from it are tried with the model
-// itself.
+// Compares `n` points on each surface. Points of the mesh are distributed by area; points of the
+// model have equal solid angles and are weighted by area. The flat triangles of the model lie a
+// little within it. Points of the mesh that are farther than `trusted` from the triangles are
+// therefore compared with the model itself.
 inline TrueDistance true_distance(const Mesh& mesh, const Coefficients& c, std::size_t n,
                                   double trusted = INFINITY) {
   const ModelNet net(c);

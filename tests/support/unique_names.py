@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""No two tests of a build have the same name: labels go by name, and one would have the other's.
+"""Fails if two tests of a build have the same name: ctest sets labels by name, so that one test would get
+the other's label.
 
 Usage: unique_names.py CTEST BUILD
 """

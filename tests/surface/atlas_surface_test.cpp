@@ -60,7 +60,7 @@ TEST(AtlasSurface, of_a_sphere_is_closed_at_every_step) {
     const AtlasSurface made = extract_atlas(atlas, {.step = part * spacing});
     const Inspection found = expect_closed(made.mesh);
     EXPECT_EQ(found.euler_characteristic, 2);
-    // Half the step, four times the triangles.
+    // Half the step gives four times the triangles.
     if (before > 0) {
       EXPECT_NEAR(static_cast<double>(found.triangles) / static_cast<double>(before), 4, 0.5);
     }
@@ -89,12 +89,12 @@ TEST(AtlasSurface, holes_are_closed_or_cut_out) {
   const Atlas atlas = atlas_of(open);
   const AtlasSurface closed = extract_atlas(atlas, {.step = 0.035});
   EXPECT_EQ(expect_closed(closed.mesh).euler_characteristic, 2);
-  EXPECT_GE(closed.holes, 2U);  // and gaps that random points leave
+  EXPECT_GE(closed.holes, 2U);  // the hole and gaps between random points
   expect_unit_normals(closed.mesh);
   const AtlasSurface kept = extract_atlas(atlas, {.step = 0.035, .keep_holes = true});
   const Inspection found = inspect(kept.mesh);
   EXPECT_TRUE(found.manifold && found.oriented);
-  EXPECT_EQ(found.euler_characteristic, 0);  // a ring: two borders
+  EXPECT_EQ(found.euler_characteristic, 0);  // a ring with two borders
   EXPECT_GT(found.boundary_edges, 0U);
 }
 
@@ -122,7 +122,7 @@ TEST(AtlasSurface, is_simplified_as_far_as_wanted) {
   EXPECT_LE(tenth.mesh.triangles.size(), full.faces / 10);
   EXPECT_EQ(expect_closed(tenth.mesh).euler_characteristic, 2);
   expect_unit_normals(tenth.mesh);
-  // Without a number the step says how far.
+  // Without a number, the step determines the allowed error.
   const AtlasSurface chosen = extract_atlas(atlas, {.step = 0.05, .simplify = SimplifyOptions{}});
   EXPECT_GT(chosen.simplify_error, 0);
   EXPECT_LE(chosen.simplify_error, 0.05 / 50 * (1 + 1e-5));

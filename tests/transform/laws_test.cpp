@@ -29,7 +29,7 @@ std::array<Vec3, 3> random_triangle(std::uint64_t seed) {
   return p;
 }
 
-// Angle of a spherical triangle at p between the arcs to q and r.
+// Returns the angle of a spherical triangle at p between the arcs to q and r.
 double corner_angle(const Vec3& p, const Vec3& q, const Vec3& r) {
   const Vec3 a = cross(p, q), b = cross(p, r);
   return std::atan2(norm(cross(a, b)), dot(a, b));
@@ -58,7 +58,7 @@ TEST(solid_angle, of_a_closed_mesh_is_4_pi_from_inside_and_0_from_outside) {
   }
 }
 
-// Lambert: int_T u dOmega = 1/2 sum over the edges of angle times inward normal of the arc.
+// Lambert: int_T u dOmega is half the sum over edges of angle times inward normal of the arc.
 TEST(visit_triangle, integrates_u_over_a_spherical_triangle_as_lambert_says) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const auto p = random_triangle(1000 * seed);
@@ -67,7 +67,8 @@ TEST(visit_triangle, integrates_u_over_a_spherical_triangle_as_lambert_says) {
       const Vec3 n = cross(p[i], p[(i + 1) % 3]);
       expected += 0.5 * std::atan2(norm(n), dot(p[i], p[(i + 1) % 3])) * normalized(n);
     }
-    // dOmega = d dS / |x|^3; the bound is for 1/|x|^2, so one more power is asked 100-fold.
+    // dOmega = d dS / |x|^3. The bound is for 1/|x|^2, so that 100 times the precision is
+    // requested.
     const double volume = dot(p[0], cross(p[1], p[2]));
     Vec3 sum;
     visit_triangle(p, {.allowed = 1e-14, .degree = 1, .growth = Growth::kFlatInverseSquare},
@@ -79,7 +80,7 @@ TEST(visit_triangle, integrates_u_over_a_spherical_triangle_as_lambert_says) {
   }
 }
 
-// The claimed bound E(p; l) against the true error of the mean of all 2l+1 harmonics together.
+// Compares the bound E(p; l) with the true error of the mean of all 2l+1 harmonics.
 TEST(quadrature_error, bounds_the_error_on_random_segments_and_triangles) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const auto big = random_triangle(1000 * seed);
@@ -132,7 +133,7 @@ TEST(quadrature_error, bounds_the_error_on_random_segments_and_triangles) {
       const Coefficients exact_face = triangle(kMaxExactness);
       const double face_away = triangle_distance(p);
       if (quadrature_error(kMaxExactness, longest / 2, face_away, l, Growth::kFlat) > 1e-13) {
-        continue;  // no reference: such a triangle is halved before a rule is used
+        continue;  // no reference: these triangles are halved first
       }
       for (const int exactness : {1, 2, 3, 4, 5, 6, 7, 8, 10, 15, 20, 30, 40}) {
         EXPECT_LE(error_of(triangle(exactness), exact_face),
@@ -192,13 +193,13 @@ TEST(analyze, cube_has_even_degrees_and_orders_that_are_multiples_of_4_only) {
         EXPECT_NEAR(c.s(l, m), 0, 1e-12) << to_string(method);
       }
     }
-    // The cube has no quadrupole.
+    // The cube has no quadrupole moment.
     EXPECT_NEAR(c.c(2, 0), 0, 1e-12);
   }
 }
 
-// r(u) = 1/|u - d| has the coefficients 4 pi/(2l+1) |d|^l Y_lm(d/|d|). A mesh through its points
-// at spacing h differs by O(h^2): a quarter at each subdivision.
+// r(u) = 1/|u - d| has the coefficients 4 pi/(2l+1) |d|^l Y_lm(d/|d|). A mesh through its points at
+// spacing h differs by O(h^2): each subdivision divides the error by four.
 TEST(analyze, sampled_inverse_distance_converges_to_its_closed_form) {
   const Vec3 d = {0.2, -0.3, 0.25};
   constexpr int L = 10;
@@ -243,7 +244,7 @@ TEST(norm_squared, closed_forms_agree_with_cubature) {
   }
 }
 
-// Parseval: what the first L degrees leave of (M7) is the tail, about S/(3 pi (L+1/2)^3).
+// Parseval: the remainder of (M7) after L degrees is the tail, about S/(3 pi (L+1/2)^3).
 TEST(analyze, truncation_error_is_the_predicted_tail_on_a_coarse_mesh) {
   const StarChart chart = chart_about(test::rotated(bumpy_sphere(0, 0.3)), {0.1, 0.05, -0.2});
   for (const Method method : {Method::kEdge, Method::kGauge}) {
@@ -256,7 +257,7 @@ TEST(analyze, truncation_error_is_the_predicted_tail_on_a_coarse_mesh) {
   }
 }
 
-// Degree 1 of the edge sums vanishes identically on a closed mesh; a flipped face breaks it.
+// On a closed mesh, degree 1 of the edge sums vanishes identically; a missing edge breaks this.
 TEST(closure_residual, is_rounding_for_closed_meshes_and_large_for_a_broken_one) {
   StarChart chart = chart_about(bumpy_sphere(3), {0.1, 0.2, 0});
   EXPECT_LT(closure_residual(star_geometry(chart)), 1e-14);

@@ -1,7 +1,7 @@
-// How long people wait in the page: from an input event until the answer is there and until its picture
-// has been handed to the screen, by the page's own clock (src/latency.ts). Prints a table.
-//   RHOLM_PROGRAM  the program; needed
-//   RHOLM_DATA     a folder with asteroid-bennu.ply and igea.ply; without it made shapes of their size
+// Measures how long people wait in the page, by its own clock (src/latency.ts), and prints a table.
+// Times run from an input event to the answer, and to its picture on the screen.
+//   RHOLM_PROGRAM the program; needed
+//   RHOLM_DATA folder with asteroid-bennu.ply and igea.ply; without it, generated shapes of their size
 import { cpus, loadavg } from "node:os";
 import { join } from "node:path";
 import type { Page, Response } from "playwright-core";
@@ -27,10 +27,10 @@ import {
 
 const data = process.env.RHOLM_DATA;
 const moves = 100;
-const pause = 250; // ms between two moves: each is answered before the next
+const pause = 250; // ms between two moves, so that each is answered before the next
 let studio: Studio;
 let page: Page;
-let moving = 0; // vertices of the last live answer that names some
+let moving = 0; // number of vertices in the last live answer with vertices
 const rows: string[] = [];
 
 function shape(name: string, degree: string): string {
@@ -55,7 +55,7 @@ async function open(path: string): Promise<number> {
   return (await page.evaluate(() => performance.now())) - begin;
 }
 
-// Moves a slider as a hand does, waiting for each answer, and lets it go.
+// Moves a slider like a drag, waits for each answer, and releases it.
 async function slide(label: string, values: readonly number[]): Promise<void> {
   const slider = page.getByRole("slider", { name: label, exact: true });
   for (const value of values) {
@@ -66,7 +66,7 @@ async function slide(label: string, values: readonly number[]): Promise<void> {
   await settled(page);
 }
 
-// How many vertices an answer moves, from the head of its bytes.
+// Reads how many vertices an answer moves, from the head of its bytes.
 async function readMoving(response: Response): Promise<void> {
   if (!response.url().endsWith("/api/live") || response.status() !== 200) return;
   const bytes = await response.body().catch(() => null);

@@ -1,4 +1,4 @@
-// The page's own times, measured in a browser: npm run latency. Nothing is asserted.
+// Measures the page's own times in a browser: npm run latency. Nothing is asserted.
 import { defineConfig } from "vitest/config";
 
 export default defineConfig({

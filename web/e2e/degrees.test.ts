@@ -1,4 +1,4 @@
-// Degrees, filters, errors, and files: the bytes are those that the program writes.
+// Tests degrees, filters, errors and files: the bytes are equal to the program's.
 import { writeFileSync } from "node:fs";
 import { afterAll, beforeAll, expect, it } from "vitest";
 import {
@@ -52,7 +52,7 @@ async function save(format: string): Promise<Buffer> {
   return bytes;
 }
 
-// What a report says and shows, without its title and the commands that made it: those of the studio are its steps.
+// Returns a report without its title and commands, because the studio's commands are its own steps.
 function shownBy(report: Buffer): string {
   return report
     .toString("utf8")
@@ -121,7 +121,7 @@ it("an equaliser's gains change the shape", async () => {
   await picture(page, "equaliser");
 });
 
-// Names of the windows that the program has.
+// Returns the names of the program's filter windows.
 function windowsOf(program: Studio): string[] {
   const section = rholm(program, "reference").split("## Filter windows")[1]?.split("\n## ")[0] ?? "";
   return [...section.matchAll(/^\| `(\w+)` \|/gm)].map(([, name]) => name ?? "");
@@ -181,7 +181,7 @@ it("finds the degree for an error", async () => {
   const degree = Number(await page.getByLabel("Degree, exactly", { exact: true }).inputValue());
   expect(degree).toBeGreaterThan(2);
   expect(degree).toBeLessThan(40);
-  // What was allowed does not follow the size of what is shown.
+  // The allowed error does not depend on the shown degree.
   const allowed = page.getByLabel("Allowed error, rms, exactly", { exact: true });
   expect(await allowed.inputValue()).toBe("0.015");
   await setNumber(page, "Degree", 1);
@@ -194,7 +194,7 @@ it("an allowed error in percent is a share of the mean radius", async () => {
   await allowed.fill("2 %");
   await allowed.press("Enter");
   await page.getByText(/This is 2\s% of the mean radius/).waitFor();
-  // In this file, whose functions have a mean square of 1, the coefficient of degree 0 is the mean radius.
+  // In this file functions have a mean square of 1, so the coefficient of degree 0 is the mean radius.
   const npy = await save("npy");
   const mean = npy.readDoubleLE(npy.indexOf("\n") + 1);
   await openTab(page, "Degrees");
@@ -215,8 +215,8 @@ it("a picture has the size that was asked for", async () => {
   expect([png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual([3000, 2500]);
 });
 
-// Of the left and the right half of a picture: the share that is drawn on, and how much of that is more blue than
-// red, as stone never is, but half of the errors.
+// Returns, for the left and the right half of a picture, the share of drawn pixels, and
+// the share of these that are more blue than red. Stone never is; half of the errors are.
 async function halvesOf(png: Buffer): Promise<{ drawn: number; blue: number }[]> {
   const pixels = await pixelsOf(now.page, png);
   const { width, height, data } = pixels;
@@ -243,10 +243,10 @@ it("a picture of what is compared has both, and their colours", async () => {
   await picture(page, "comparison-saved");
   if (!left || !right) throw new Error("there is no picture");
   expect(left.drawn).toBeGreaterThan(0.1);
-  expect(right.drawn / left.drawn).toBeCloseTo(1, 1); // a shape, and the same one smoother
+  expect(right.drawn / left.drawn).toBeCloseTo(1, 1); // a shape, and a smoother one
   expect(left.blue).toBe(0);
   expect(right.blue).toBeGreaterThan(0.2);
-  // And it goes with the panel, by whatever way.
+  // The comparison also disappears with the panel.
   await openTab(page, "Degrees");
   expect(await page.getByLabel("Beside the original").isChecked()).toBe(true);
   await page.locator("figure.legend").waitFor();

@@ -1,4 +1,4 @@
-// Smoothing under the brush, textures: what is kept is what the recipe's commands make.
+// Tests the brush and textures: kept edits are equal to the results of the recipe's commands.
 import { afterAll, beforeAll, expect, it } from "vitest";
 import { placed } from "../src/geometry/colors";
 import {
@@ -38,7 +38,7 @@ afterAll(async () => {
   expect(now.complaints).toEqual([]);
 });
 
-// The file that the last command of the recipe writes, and what the page saves.
+// Returns the file that the last command of the recipe writes, and the file that the page saves.
 async function recipeAndSaved(): Promise<[Buffer, Buffer]> {
   const { page } = now;
   await openTab(page, "Save");
@@ -115,7 +115,7 @@ it("undoing takes back what was painted last, before any step", async () => {
 
 it("discarding brings the surface back", async () => {
   const { page } = now;
-  await page.locator(".canvas canvas").blur(); // its frame is no part of the surface
+  await page.locator(".canvas canvas").blur(); // its frame is not a part of the surface
   await page.mouse.move(...(await at(page, 0.1, 0.1)));
   await settled(page);
   const before = await canvas(page);

@@ -1,5 +1,5 @@
-// The page in Firefox: that it draws, and that shapes, sliders, brush and files do what they do elsewhere.
-//   RHOLM_FIREFOX  the browser; without it these tests are skipped
+// Tests in Firefox that the page draws, and that shapes, sliders, brush and files work as elsewhere.
+//   RHOLM_FIREFOX the browser; without it these tests are skipped
 // Firefox draws with WebGL in software on a display in memory (Xvfb), which is started here.
 import { spawn, type ChildProcess } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -18,7 +18,7 @@ let display: ChildProcess;
 let browser: Browser;
 let page: Page;
 
-// The number of a display that is free, as Xvfb finds it.
+// Returns the number of a free display, found by Xvfb.
 async function startDisplay(): Promise<string> {
   display = spawn("Xvfb", ["-displayfd", "1", "-screen", "0", "1400x1000x24", "-nolisten", "tcp"], {
     stdio: ["ignore", "pipe", "ignore"],
@@ -66,7 +66,7 @@ describe.skipIf(!firefox)("in Firefox", () => {
     browser = await puppeteer.launch({
       browser: "firefox",
       executablePath: firefox ?? "",
-      headless: false, // which has no WebGL 2 without a card
+      headless: false, // a headless one has no WebGL 2 without a graphics card
       env: environment,
       extraPrefsFirefox: {
         "webgl.force-enabled": true,

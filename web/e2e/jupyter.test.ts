@@ -1,4 +1,4 @@
-// rholm.view and rholm.studio in JupyterLab.
+// Tests rholm.view and rholm.studio in JupyterLab.
 //   RHOLM_JUPYTER  the program jupyter-lab; without it these tests are skipped
 //   RHOLM_MODULE   the folder of the Python package
 import { execFileSync, spawn, type ChildProcess } from "node:child_process";
@@ -29,7 +29,7 @@ function notebook(name: string, ...cells: string[]): void {
   writeFileSync(join(folder, name), JSON.stringify(content));
 }
 
-// It asks otherwise whether to tell news.
+// Without this setting JupyterLab asks whether to show news.
 function wantNoNews(): void {
   const settings = join(folder, ".jupyter/lab/user-settings/@jupyterlab/apputils-extension");
   mkdirSync(settings, { recursive: true });
@@ -56,18 +56,18 @@ async function openNotebook(name: string): Promise<void> {
   const context = await browser.newContext({ viewport: { width: 1600, height: 1000 } });
   page = await context.newPage();
   page.setDefaultTimeout(patience);
-  // A workspace of its own: nothing of another test is opened again.
+  // A separate workspace, so that nothing of another test is opened again.
   await page.goto(address.replace("/lab?", `/lab/workspaces/${name}/tree/${name}.ipynb?`));
   await page.locator(".jp-Notebook .jp-CodeCell").first().waitFor();
   await page.locator('.jp-Notebook-ExecutionIndicator[data-status="idle"]').waitFor({ timeout: patience });
 }
 
-// Until it has run; JupyterLab loses a key that comes while it sets up.
+// Runs a cell and waits for its end; JupyterLab loses keys that arrive while it starts.
 async function run(cell: number): Promise<void> {
   const place = page.locator(".jp-CodeCell").nth(cell);
   const prompt = place.locator(".jp-InputPrompt");
   for (let tries = 0; tries < 30 && (await prompt.textContent()) === "[ ]:"; ++tries) {
-    await place.locator(".cm-content").focus(); // a click would wait for what lies over it
+    await place.locator(".cm-content").focus(); // a click would wait for overlays
     await page.keyboard.press("Control+Enter");
     await page.waitForTimeout(2000);
   }

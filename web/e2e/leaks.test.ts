@@ -1,5 +1,5 @@
-// Memory comes back: over many loads of the page, and many shapes in one.
-//   RHOLM_LOADS  how many, 20 by default
+// Tests that memory is released, over many loads of the page and many shapes in one page.
+//   RHOLM_LOADS number of loads, 20 by default
 import type { CDPSession } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
 import {
@@ -16,7 +16,7 @@ import {
 } from "./studio";
 
 const loads = Number(process.env.RHOLM_LOADS ?? 20);
-const first = Math.ceil(loads / 4); // what is kept for good is there by then
+const first = Math.ceil(loads / 4); // permanent data exist by then
 const patience = 180_000 + 9_000 * loads; // ms; chosen, as in vitest.config.ts
 const mebibyte = 2 ** 20;
 let studio: Studio;
@@ -35,7 +35,7 @@ beforeEach(async () => {
   return () => now.page.context().close();
 });
 
-// Bytes of the page's objects and arrays that something still refers to.
+// Returns the bytes of the page's objects and arrays that are still referenced.
 async function held(): Promise<number> {
   await tools.send("HeapProfiler.collectGarbage");
   const usage = await tools.send("Runtime.getHeapUsage");
@@ -62,7 +62,7 @@ it("over many loads", async () => {
   });
 }, patience);
 
-// Removed ones can be brought back, a hundred steps: the program keeps those.
+// Removed shapes can be restored for a hundred steps, so the program keeps them.
 it("over many shapes", async () => {
   await measured(async () => {
     await openFile(studio, now.page, "torus.ply");

@@ -1,5 +1,4 @@
-// What people meet who are new to the page: files of the command line, names, fields, what cannot be done, which way
-// is up.
+// Tests what new users meet: files of the command line, names, fields, impossible steps, the upward axis.
 import { execFileSync } from "node:child_process";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -114,7 +113,7 @@ it("does not leave a value in a field that cannot be", async () => {
     await settled(page);
     expect(await field("Degree").inputValue(), typed).toBe(becomes);
   }
-  // Keys of the slider go by degrees.
+  // Keys of the slider change the degree.
   const slider = page.getByRole("slider", { name: "Degree", exact: true });
   await slider.focus();
   await page.keyboard.press("ArrowRight");
@@ -135,7 +134,7 @@ it("figures are of the degree that is shown", async () => {
   };
   const before = [await value("Volume"), await value("Error, rms")];
   await openTab(page, "Degrees");
-  // Also while the slider is held.
+  // The text also changes while the slider is held.
   await moveSlider(page.getByRole("slider", { name: "Degree", exact: true }), 2);
   await page.getByText("· degree 2 of 12").waitFor();
   await drag(page, "Degree", [2]);
@@ -204,7 +203,7 @@ it("begins every panel at its top", async () => {
   expect(await top()).toBe(0);
 });
 
-// The boxes of what is cut off at its right or left within the page, or has text that its field does not show.
+// Returns the boxes that the page cuts off at the left or right, and fields that do not show all their text.
 const cutOff = () =>
   now.page.evaluate(() => {
     const inside = document.querySelectorAll<HTMLElement>(".panel *, .items li.chosen, .items li.chosen *, header *");
@@ -238,7 +237,7 @@ it.each([
     await settled(page);
     expect(await cutOff(), name).toEqual([]);
   }
-  // Gains stand on one line.
+  // Gains are on one line.
   await openTab(page, "Degrees");
   const heights = await page.locator(".bands span").evaluateAll((all) => all.map((one) => one.getClientRects().length));
   expect(new Set(heights)).toEqual(new Set([1]));

@@ -1,4 +1,4 @@
-// The page itself: first look, sizes, themes, keys, what goes wrong.
+// Tests the page itself: first view, sizes, themes, keys, errors.
 import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
 import { writeFileSync } from "node:fs";
 import type { Dialog, Page } from "playwright-core";
@@ -115,7 +115,7 @@ it.each([
   }
 });
 
-// What is wider than the place that it has, of words: those that only readers of screens get have none.
+// Returns words wider than their place; words for screen readers have no place.
 function cutWords(): string[] {
   const words = document.querySelectorAll<HTMLElement>("button, label, p, dt, dd, summary, li, h2, h3, small, .name");
   return [...words]
@@ -156,7 +156,7 @@ it("obeys its keys", async () => {
   expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
   await setNumber(page, "Degree", 8);
   await page.getByText("· degree 8 of 32").waitFor();
-  await page.locator(".canvas canvas").focus(); // in a field the keys are the field's
+  await page.locator(".canvas canvas").focus(); // in a field, keys belong to the field
   await page.keyboard.press("Control+z");
   await settled(page);
   await page.getByText(/· degree 32$/).waitFor();
@@ -228,8 +228,8 @@ it("opens the others of several files when one is broken", async () => {
   now.complaints = []; // the browser logs the refusal
 });
 
-// Of the pixels of the view: how many are stone, less how many are blue as the other shape of two. The
-// ground behind is neither.
+// Returns the number of stone pixels of the view, minus the number
+// of blue pixels of the second shape. The background is neither.
 async function warmth(page: Page): Promise<number> {
   const pixels = await pixelsOf(page, await canvas(page));
   let sum = 0;
@@ -240,7 +240,7 @@ async function warmth(page: Page): Promise<number> {
   return sum;
 }
 
-// Of other sizes and elsewhere: what the camera saw before is no measure for it.
+// The shapes have other sizes and positions, so the previous view does not fit them.
 it("shows shapes of any size, wherever they are", async () => {
   const { page } = now;
   await openFile(studio, page, "far.ply");
@@ -294,7 +294,7 @@ it("says that there is no WebGL 2, and lists what is open all the same", async (
   await page.getByText("no WebGL 2").waitFor();
   expect(await page.locator(".items li").count()).toBe(1);
   await picture(page, "no-webgl");
-  now.complaints = []; // three.js says it as well
+  now.complaints = []; // three.js reports it as well
 });
 
 it("says that the program has gone", async () => {

@@ -1,4 +1,4 @@
-// Points to surfaces, caps, and two shapes.
+// Tests surfaces from points, caps, and two shapes.
 import { writeFileSync } from "node:fs";
 import { afterAll, beforeAll, expect, it } from "vitest";
 import { number } from "../src/format";
@@ -108,7 +108,7 @@ it("a shape is compressed to caps, shown in colours", async () => {
   await openTab(page, "Caps");
   await press(page, "Compress");
   expect(await page.locator(".items li.chosen small").innerText()).toMatch(/caps/);
-  // What the program says of the same file.
+  // The program reports the same for the same file.
   const said = await page.getByRole("tabpanel").innerText();
   await openTab(page, "Save");
   await page.getByLabel("Format").selectOption("h5");
@@ -164,7 +164,7 @@ it("of two shapes one is turned onto the other, and what lies between is shown",
   await settled(page);
   await drag(page, "Blend towards the other", [0.2, 0.5]);
   expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
-  // Larger than what was there before, it is in view as both were: at the sides there is no stone.
+  // The blend is larger than the first shape, and in view like both: there is no stone at the sides.
   const pixels = await pixelsOf(page, await canvas(page));
   const sides = Array.from({ length: 2 * pixels.height }, (_, k) => Math.floor((k + 1) / 2) * pixels.width - (k % 2));
   expect(Math.max(...sides.map((i) => Math.abs(warmthAt(pixels, i))))).toBeLessThan(15);

@@ -1,6 +1,6 @@
-// The Python of the recipe makes what the page saves, byte by byte. And what else is done by buttons alone.
-//   RHOLM_MODULE   the folder of the Python package; without it the Python is not run
-//   RHOLM_JUPYTER  a program beside the Python that has what the package needs
+// Tests that the Python of the recipe makes the files that the page saves, byte by byte, and other buttons.
+//   RHOLM_MODULE folder of the Python package; without it the Python is not run
+//   RHOLM_JUPYTER a program beside the Python that has the package's dependencies
 import { execFileSync } from "node:child_process";
 import { dirname, join } from "node:path";
 import type { Page } from "playwright-core";
@@ -38,7 +38,7 @@ beforeAll(async () => {
 });
 afterAll(() => stopStudio(studio));
 
-// Runs the recipe's Python; what its last line makes is written.
+// Runs the recipe's Python, and writes the result of its last line.
 async function python(file: string): Promise<Buffer> {
   await openTab(page, "Save");
   const lines = (await page.locator(".copy pre").nth(1).innerText()).trim();
@@ -83,7 +83,7 @@ it.skipIf(!module)("of caps", async () => {
 });
 
 it("of a texture from another shape, as a shell's", async () => {
-  if (!module) await openFile(studio, page, "rock.ply"); // else a test before this one has opened it
+  if (!module) await openFile(studio, page, "rock.ply"); // otherwise an earlier test has opened it
   await openFile(studio, page, "rough.ply");
   await openTab(page, "Texture");
   await page.mouse.click(...(await at(page, 0.45, 0.45)));
@@ -119,7 +119,7 @@ it("the program ends where the page tells it to, and the page says so", async ()
   await page.keyboard.press("Escape");
   await page.getByRole("button", { name: "Quit" }).click();
   await picture(page, "quit");
-  // What loses nothing has the focus.
+  // The button that loses nothing has the focus.
   await page.locator("dialog button:focus", { hasText: "Keep working" }).waitFor();
   await page.keyboard.press("Enter");
   await page.getByRole("dialog").waitFor({ state: "hidden" });

@@ -1,7 +1,7 @@
-// The program, a browser and a page of the studio in it.
-//   RHOLM_PROGRAM   the program; needed
-//   RHOLM_PICTURES  a folder for pictures of what is seen; none without it
-//   RHOLM_CHROMIUM  the browser; /usr/bin/chromium by default
+// Starts the program, a browser and a page of the studio.
+//   RHOLM_PROGRAM the program; needed
+//   RHOLM_PICTURES folder for pictures of the page; without it there are none
+//   RHOLM_CHROMIUM the browser; /usr/bin/chromium by default
 import { execFileSync, spawn, type ChildProcess } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -13,8 +13,7 @@ import { sessionKey } from "../src/transport";
 import { toPlace, type Scale } from "../src/format";
 import { toSrgb, type Rgb } from "../src/geometry/colors";
 
-// Chosen: a browser that draws in software, on a machine that does other things. Nothing waits for it where
-// all is well.
+// Chosen for a browser that draws in software on a busy machine. A test without errors does not wait.
 export const patience = 120_000;
 
 const dist = fileURLToPath(new URL("../dist", import.meta.url));
@@ -28,7 +27,7 @@ export function programPath(): string {
 
 export interface Program {
   address: string;
-  folder: string; // for files of the test
+  folder: string; // folder for files of the test
   process: ChildProcess;
 }
 
@@ -36,13 +35,13 @@ export interface Studio extends Program {
   browser: Browser;
 }
 
-// Runs the program to its end; throws where it fails.
+// Runs the program to its end; throws if it fails.
 export function rholm(studio: Program, ...words: string[]): string {
   const options = { cwd: studio.folder, encoding: "utf8", stdio: "pipe" } as const;
   return execFileSync(programPath(), words, options);
 }
 
-// What a shell makes of these lines, `rholm` being the program.
+// Runs these lines in a shell, where `rholm` is the program.
 export function shell(studio: Studio, lines: string): void {
   const script = `set -e\nrholm() { "$RHOLM_PROGRAM" "$@"; }\n${lines}\n`;
   execFileSync("/bin/sh", ["-c", script], { cwd: studio.folder, stdio: "pipe" });
@@ -55,7 +54,7 @@ export async function startStudio(prepare?: (folder: string) => string[]): Promi
   return { ...(await startProgram(prepare)), browser: await launch() };
 }
 
-// `prepare` makes files in the folder, and names those that the studio begins with.
+// `prepare` makes files in the folder, and returns the names of the files that the studio opens at its start.
 export async function startProgram(prepare: (folder: string) => string[] = () => []): Promise<Program> {
   const folder = mkdtempSync(join(tmpdir(), "rholm-studio-"));
   const words = ["studio", "--no-open", "--page", dist, ...prepare(folder)];
@@ -76,8 +75,8 @@ export function launch(): Promise<Browser> {
   return chromium.launch({
     executablePath: process.env.RHOLM_CHROMIUM ?? "/usr/bin/chromium",
     timeout: patience,
-    // WebGL in software: pictures do not depend on the machine's card. No sandbox, and no shared memory to
-    // speak of: containers have none.
+    // WebGL runs in software, so that pictures do not depend on the machine's graphics
+    // card. There is no sandbox and hardly any shared memory, as in containers.
     args: ["--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
   });
 }
@@ -96,7 +95,7 @@ export async function stopProgram(program: Program): Promise<void> {
   rmSync(program.folder, { recursive: true, force: true });
 }
 
-// Bytes of memory that the program has.
+// Returns the bytes of memory that the program uses.
 export function resident(studio: Studio): number {
   const status = readFileSync(`/proc/${studio.process.pid}/status`, "utf8");
   return 1024 * Number(/VmRSS:\s+(\d+)/.exec(status)?.[1]);
@@ -104,8 +103,8 @@ export function resident(studio: Studio): number {
 
 export interface Visit {
   page: Page;
-  // What the browser's console said of errors, the content policy among them. A test that ends with some which it
-  // expects puts an empty list here: what is still on its way goes to the one before.
+  // Errors in the browser's console, including violations of the content policy. A test that
+  // expects errors puts an empty list here at its end; late errors then go to the old list.
   complaints: string[];
 }
 
@@ -126,7 +125,7 @@ export async function visit(studio: Studio, options: BrowserContextOptions = {})
   return { page, complaints };
 }
 
-// Closes a page, and ends its session: a studio has sixteen at most, and one that nobody is at stays for a minute.
+// Closes a page and ends its session, because a studio has at most sixteen, and abandoned ones stay for a minute.
 export async function leave(studio: Studio, { page }: Visit): Promise<void> {
   const session = page.isClosed() ? null : await page.evaluate((key) => sessionStorage.getItem(key), sessionKey);
   await page.context().close();
@@ -134,7 +133,7 @@ export async function leave(studio: Studio, { page }: Visit): Promise<void> {
   await fetch(`${studio.address}api/session/close`, { method: "POST", headers: { "X-Session": session } });
 }
 
-// Until the page is at rest.
+// Resolves when the page is at rest.
 export async function settled(page: Page): Promise<void> {
   const late = new Promise<never>((_, fail) =>
     setTimeout(() => fail(new Error("the page does not come to rest")), patience).unref(),
@@ -155,7 +154,7 @@ export async function openTab(page: Page, name: string): Promise<void> {
   await page.getByRole("tab", { name }).click();
 }
 
-// By the field beside the slider.
+// Uses the field beside the slider.
 export async function setNumber(page: Page, label: string, value: number): Promise<void> {
   const field = page.getByLabel(`${label}, exactly`, { exact: true });
   await field.fill(String(value));
@@ -163,7 +162,7 @@ export async function setNumber(page: Page, label: string, value: number): Promi
   await settled(page);
 }
 
-// Puts the handle where a value is.
+// Moves the handle to a value.
 export async function moveSlider(slider: Locator, value: number): Promise<void> {
   const [scale, min, max] = ((await slider.getAttribute("data-scale")) ?? "").split(" ");
   const places = Number(await slider.getAttribute("max"));
@@ -174,7 +173,7 @@ export async function moveSlider(slider: Locator, value: number): Promise<void> 
   }, place);
 }
 
-// Moves the slider itself, as a drag does: input after input, then its change.
+// Moves the slider itself like a drag: several inputs, then a change.
 export async function drag(page: Page, label: string, values: readonly number[]): Promise<void> {
   const slider = page.getByRole("slider", { name: label, exact: true });
   for (const value of values) {
@@ -196,7 +195,7 @@ export async function openFile(studio: Studio, page: Page, ...names: string[]): 
   await settled(page);
 }
 
-// Files dropped on the page, by name and content.
+// Drops files on the page, given by name and content.
 export async function drop(page: Page, files: readonly (readonly [string, Buffer])[]): Promise<void> {
   const plain = files.map(([name, bytes]) => [name, bytes.toString("base64")] as const);
   const transfer = await page.evaluateHandle((list) => {
@@ -210,7 +209,7 @@ export async function drop(page: Page, files: readonly (readonly [string, Buffer
   await settled(page);
 }
 
-// What a click on this button gives to save.
+// Returns the file that a click on this button saves.
 export async function saved(page: Page, name: string | RegExp): Promise<Buffer> {
   const [download] = await Promise.all([
     page.waitForEvent("download"),
@@ -219,8 +218,8 @@ export async function saved(page: Page, name: string | RegExp): Promise<Buffer> 
   return readFileSync(await download.path());
 }
 
-// The canvas as pixels, to see that it changes, or is the same to the last bit. On an even ground: browsers dither
-// a gradient, each tile of it anew when they like, by one of 255.
+// Returns the canvas as an image, to detect changes to the last bit. The background is
+// uniform, because browsers dither a gradient by one of 255, differently each time.
 export async function canvas(page: Page): Promise<Buffer> {
   return page.locator(".canvas canvas").screenshot({ style: ":root { --stage: #dedcd6 !important }" });
 }
@@ -228,7 +227,7 @@ export async function canvas(page: Page): Promise<Buffer> {
 export interface Pixels {
   width: number;
   height: number;
-  data: Buffer; // red, green, blue, alpha of each, row by row
+  data: Buffer; // red, green, blue, alpha of each pixel, row by row
 }
 
 export async function pixelsOf(page: Page, png: Buffer): Promise<Pixels> {
@@ -248,17 +247,18 @@ export async function pixelsOf(page: Page, png: Buffer): Promise<Pixels> {
   return { width, height, data: Buffer.from(text.slice(text.indexOf(",") + 1), "base64") };
 }
 
-// How much more red than blue a pixel is: stone is by far, the ground hardly, a second shape is bluer.
+// Returns how much more red than blue a pixel is: large for stone, near 0 for the background, less for a second
+// shape.
 export const warmthAt = ({ data }: Pixels, i: number): number => (data[4 * i] ?? 0) - (data[4 * i + 2] ?? 0);
 
-// The middle of what has that colour (sRGB, within 8 of 255) on the page; null if nothing has.
+// Returns the middle of the pixels of this colour (sRGB, within 8 of 255) on the page; null if there are none.
 export async function whereIs(page: Page, color: Rgb): Promise<[number, number] | null> {
   const { width, height, data } = await pixelsOf(page, await page.screenshot());
   const wanted = color.map((x) => 255 * toSrgb(x));
   const has = (i: number) => wanted.every((c, k) => Math.abs(c - (data[4 * i + k] ?? 0)) <= 8);
   let [x, y, n] = [0, 0, 0];
   for (let i = 0; i < width * height; ++i) {
-    // Rings are as thin as a pixel: only what has the same to the right and below counts.
+    // Rings are as thin as a pixel, so only pixels with the same colour to the right and below count.
     if (!has(i) || !has(i + 4) || !has(i + 4 * width)) continue;
     x += i % width;
     y += Math.floor(i / width);
@@ -267,15 +267,15 @@ export async function whereIs(page: Page, color: Rgb): Promise<[number, number] 
   return n > 0 ? [x / n, y / n] : null;
 }
 
-// A place on the canvas, in parts of its size.
+// Returns a position on the canvas, given in parts of its size.
 export async function at(page: Page, x: number, y: number): Promise<[number, number]> {
   const box = await page.locator(".canvas canvas").boundingBox();
   if (!box) throw new Error("there is no canvas");
   return [box.x + x * box.width, box.y + y * box.height];
 }
 
-// A shape for startLongJob(), and that: caps of degree 2 at most for a small error, which takes more than a
-// minute of processor time. Whoever starts it ends it, and sees it, however slowly the page draws.
+// Opens a shape for startLongJob(): caps of degree 2 at most for a small error, which take more than a minute of
+// processor time. The test that starts the job must end it. The job is visible, however slowly the page draws.
 export async function openForLongJob(studio: Studio, page: Page): Promise<void> {
   rholm(studio, "make", "torus", "--segments", "384x192", "-o", "fine.ply");
   await openFile(studio, page, "fine.ply");

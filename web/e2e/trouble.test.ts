@@ -1,5 +1,5 @@
-// What goes wrong: files that are none or too many bytes, pages loaded again while something is worked
-// on, two pages, other people's pages, a program that dies. The page says so, and nothing is lost.
+// Tests failures: invalid and too large files, pages reloaded during work, two pages, other
+// people's pages, a program that dies. The page reports the failure, and nothing is lost.
 import { createServer } from "node:http";
 import { once } from "node:events";
 import type { AddressInfo } from "node:net";
@@ -38,7 +38,7 @@ beforeAll(async () => {
   rholm(studio, "make", "torus", "-o", "torus.ply");
   rholm(studio, "make", "bumpy", "-o", "rock.ply");
   const huge = openSync(inFolder(studio, "huge.ply"), "w");
-  ftruncateSync(huge, 2 ** 31); // no block of the disk is taken
+  ftruncateSync(huge, 2 ** 31); // uses no block of the disk
   closeSync(huge);
 });
 afterAll(() => stopStudio(studio));
@@ -120,7 +120,7 @@ it("comes back as it was when it is loaded again while a slider is held", async 
   expect([await names(page), await recipe(page)]).toEqual(before);
   await openTab(page, "Degrees");
   expect(await page.getByLabel("Degree, exactly", { exact: true }).inputValue()).toBe("32");
-  // And with the button of the mouse down, in the middle of a stroke of the brush.
+  // The next reload happens with the mouse button down, in the middle of a stroke of the brush.
   await openTab(page, "Smooth");
   const box = await page.locator(".canvas canvas").boundingBox();
   if (!box) throw new Error("there is no canvas");
@@ -187,7 +187,7 @@ it("does nothing for another page, even one that knows its address", async () =>
   expect(statuses.length).toBeGreaterThanOrEqual(3);
   expect(statuses.filter((status) => status !== 403)).toEqual([]);
   const wrong = studio.address.replace(/[0-9a-f]{32}/, "0".repeat(32));
-  await expect(other.goto(wrong)).rejects.toThrow("ERR_HTTP_RESPONSE_CODE_FAILURE"); // 404, without a word
+  await expect(other.goto(wrong)).rejects.toThrow("ERR_HTTP_RESPONSE_CODE_FAILURE"); // 404, without a body
   await other.close();
   server.close();
 });
@@ -195,7 +195,7 @@ it("does nothing for another page, even one that knows its address", async () =>
 it("says that the program was killed during a job, and hangs nowhere", async () => {
   const { page } = now;
   await openTab(page, "Degrees");
-  await setNumber(page, "Degree", 8); // something to undo
+  await setNumber(page, "Degree", 8); // a step to undo
   await openForLongJob(studio, page);
   await startLongJob(page);
   studio.process.kill("SIGKILL");
@@ -210,7 +210,7 @@ it("says that the program was killed during a job, and hangs nowhere", async () 
   await openTab(page, "Save");
   await press(page, "Save the session");
   await page.getByText("The studio does not answer").waitFor();
-  // What is there can still be looked at.
+  // The shape can still be viewed.
   await page.locator(".canvas canvas").focus();
   await page.keyboard.press("ArrowLeft");
   await settled(page);

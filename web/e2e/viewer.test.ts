@@ -1,4 +1,4 @@
-// The viewer against the program: the same surface from the same coefficients; and as a static page.
+// Tests the viewer against the program (same surface from the same coefficients), and as a static page.
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -12,7 +12,7 @@ import { gridFor, startSynthesis, sumTo, type Coefficients } from "../src/harmon
 import { launch, patience, picture, programPath } from "./studio";
 
 const degree = 48;
-// That of the report's page.
+// The policy of the report's page.
 const policy =
   "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 let folder = "";
@@ -49,12 +49,12 @@ afterAll(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-// Until what was done is drawn.
+// Resolves when all changes are drawn.
 async function frames(page: Page): Promise<void> {
   for (let k = 0; k < 4; ++k) await page.evaluate(() => new Promise(requestAnimationFrame));
 }
 
-// The function in a direction, term by term.
+// Sums the function in a direction, term by term.
 function direct(cut: number, direction: readonly number[]): number {
   const [x = 0, y = 0, z = 0] = direction;
   const column = startColumn(Math.acos(z), degree);

@@ -1,6 +1,6 @@
-// Writes the licences of the packages that are bundled to dist/LICENSES.txt: all dependencies of
-// package.json and what these need. Fails for a licence that is not one of the permissive ones below,
-// and for a package without a licence's text.
+// Writes the licences of the bundled packages to dist/LICENSES.txt: all dependencies
+// of package.json and their dependencies. Fails for a licence that is not one of the
+// permissive ones below, and for a package without the text of its licence.
 import { existsSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";

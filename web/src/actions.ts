@@ -1,4 +1,4 @@
-// What people do, as requests to the studio.
+// Sends what people do as requests to the studio.
 import { count } from "./format";
 import { PortTransport } from "./messages";
 import type { Controls, Fields, FilterWindows, Item, Job, State } from "./protocol";
@@ -13,12 +13,12 @@ import {
   type Transport,
 } from "./transport";
 
-// A frame of a notebook says that it is one.
+// The frame of a notebook has this tag.
 const framed = document.querySelector('meta[name="rholm-frame"]') !== null;
 export const transport: Transport = framed ? new PortTransport(window) : new HttpTransport();
 let unsubscribe: (() => void) | null = null;
 
-// Takes up the session of this tab, or a new one; with nothing open, asks for a shape.
+// Opens the session of this tab, or a new one. If no shape is open, makes one.
 export async function start(): Promise<void> {
   try {
     await openSession();
@@ -30,7 +30,7 @@ export async function start(): Promise<void> {
     listen();
     if (items.value.length === 0) {
       demo.value = true;
-      // What the page does by itself is nothing to undo.
+      // Steps that the page does by itself cannot be undone.
       await step({ op: "make", shape: "bumpy", amplitude: 0.45, seed: 5, first: true }, "Making a shape");
       const made = items.value.at(-1);
       if (made) await step({ op: "analyze", item: made.id, degree: 32, center: "auto", first: true }, "Analysing");
@@ -71,8 +71,8 @@ function listen(): void {
   });
 }
 
-let expected = false; // a job has ended, and the state it leaves has not come yet
-let ended = 0; // the last job that has ended: the answer to a step may come after that
+let expected = false; // true after a job has ended, until its state arrives
+let ended = 0; // last job that has ended; the answer to its step may arrive later
 
 function takeJob(told: Job): void {
   if (told.id <= ended) return;
@@ -85,7 +85,7 @@ function takeJob(told: Job): void {
   if (told.state !== "running") job.value = null;
 }
 
-// A new item is selected; so is another one when the selected one goes.
+// Selects a new item, or another item if the selected one is gone.
 export function take(state: State): void {
   const before = new Set(items.value.map(({ id }) => id));
   const added = state.items.findLast(({ id }) => !before.has(id));
@@ -98,12 +98,12 @@ export function take(state: State): void {
   else if (!there) selected.value = state.items.at(-1)?.id ?? null;
 }
 
-// Whether all that was asked for has come.
+// Returns true if all answers have arrived.
 export function quiet(): boolean {
   return transport.pending === 0 && !working.value && !expected;
 }
 
-// What was worked on may still be, or not: the state tells, if it ever comes.
+// It is unknown whether the job still runs; a later state shows this, if one arrives.
 function lose(): void {
   lost.value = true;
   job.value = null;
@@ -135,7 +135,7 @@ async function during(label: string, work: () => Promise<void>): Promise<boolean
   }
 }
 
-// Whether it was done, or goes on as a job.
+// Returns true if the step is done, or continues as a job.
 export function step(fields: Fields, label: string): Promise<boolean> {
   return during(label, async () => {
     const answer = await postJson<State | { job: Job }>(transport, "step", fields);
@@ -144,7 +144,7 @@ export function step(fields: Fields, label: string): Promise<boolean> {
   });
 }
 
-// A question: nothing changes by it. Null where there is no answer.
+// Asks a question that changes nothing. Returns null without an answer.
 export async function ask<T>(fields: Fields, label: string): Promise<T | null> {
   let answer: T | null = null;
   await during(label, async () => {
@@ -153,15 +153,15 @@ export async function ask<T>(fields: Fields, label: string): Promise<T | null> {
   return answer;
 }
 
-// What its reader said of an item.
+// Returns the messages of an item's reader.
 function toldOf(one: Item): string[] {
   return [...(one.table ? [one.table.note] : []), ...(one.warnings ?? [])].map((text) => `${one.name}: ${text}`);
 }
 
-// Items that the file brought.
+// Returns the items that the file adds.
 async function openFile(file: File, columns = ""): Promise<readonly Item[]> {
   const most = studio.value?.max_upload ?? Infinity;
-  // Sent all the same, it would be hung up on, without an answer that browsers read.
+  // A larger upload would be cut off without an answer that browsers can read.
   if (file.size > most) {
     throw new Error(`it has ${count(file.size)} bytes; the studio takes ${count(most)} (--max-upload).`);
   }
@@ -174,7 +174,7 @@ async function openFile(file: File, columns = ""): Promise<readonly Item[]> {
   return brought;
 }
 
-// All of them; of those that are refused it says why.
+// Opens all files; for refused files it shows the reason.
 export async function openFiles(files: Iterable<File>): Promise<void> {
   if (busy.value !== null) {
     fail(new Error(`${busy.value}: wait for that first.`));
@@ -206,7 +206,7 @@ export async function openFiles(files: Iterable<File>): Promise<void> {
 // Names of files that may be tables of points.
 const tableNames = /\.(asc|csv|dat|pts|pwn|tab|tsv|txt|xyz)$/i;
 
-// A table that was refused, with what its columns are.
+// Opens a refused table with the given columns.
 export async function openTable(file: File, columns: string): Promise<boolean> {
   let told: string[] = [];
   const done = await during(`Reading ${file.name}`, async () => {
@@ -244,7 +244,7 @@ export async function quit(): Promise<void> {
   lose();
 }
 
-// Fetches a file and gives it to the browser to save; these items are in it.
+// Fetches a file and offers it to the browser to save; marks the items in `kept` as saved.
 export function saveAs(path: string, name: string, kept: readonly Item[] = []): Promise<boolean> {
   return during(`Writing ${name}`, async () => {
     const { bytes, type } = await transport.request("GET", path);
@@ -255,14 +255,14 @@ export function saveAs(path: string, name: string, kept: readonly Item[] = []): 
 
 export const saveSession = () => saveAs("session-file", "session.rholm", items.peek());
 
-// Items, as they are now, that are in a file, or were there before anything was done.
+// States of items that are saved in a file, or existed before any step.
 const files = new Set<string>();
 const stateOf = ({ id, revision, name, unit, look }: Item) => JSON.stringify([id, revision, name, unit, look]);
 function keep(kept: readonly Item[]): void {
   for (const one of kept) files.add(stateOf(one));
 }
 
-// What closing the page would lose: a session of a notebook stays where it is.
+// Returns the items that closing the page would lose. The session of a notebook is kept.
 export function unsaved(): readonly Item[] {
   if (!transport.endsProgram || lost.peek()) return [];
   return items.peek().filter((one) => !files.has(stateOf(one)));

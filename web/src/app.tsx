@@ -1,4 +1,4 @@
-// The page: what is open on the left, the shape, a rail of activities, the panel of one of them.
+// The page: open items on the left, the shape, tabs of activities, the panel of the chosen tab.
 import type { Signal } from "@preact/signals";
 import type { ComponentChildren, ComponentType } from "preact";
 import { useEffect, useRef } from "preact/hooks";
@@ -167,7 +167,7 @@ function Tabs() {
   );
 }
 
-// A dialog that is open while the signal is true.
+// Dialog that is open while the signal is true.
 function Dialog({ open, label, children }: { open: Signal<boolean>; label: string; children: ComponentChildren }) {
   const dialog = useRef<HTMLDialogElement>(null);
   const wanted = open.value;
@@ -214,7 +214,7 @@ async function saveAndStop(): Promise<void> {
   else quitOpen.value = false;
 }
 
-// The first button is the one that loses nothing: it has the focus.
+// The first button loses nothing, so it has the focus.
 function QuitQuestion() {
   const losing = unsaved();
   const [first, ...others] = losing.map(nameOf);
@@ -251,7 +251,7 @@ export function App() {
       <Items />
       <Stage />
       <Tabs />
-      {/* Each from its top, however far the one before was scrolled. */}
+      {/* A new panel starts at its top; the scroll position is not kept. */}
       <div key={tab.value} id="panel" role="tabpanel" aria-labelledby={`tab-${tab.value}`} class="panel">
         <Panel />
       </div>

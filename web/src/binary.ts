@@ -38,8 +38,8 @@ function isEntry(value: unknown): value is Entry {
   );
 }
 
-// Views of `bytes` where they are aligned, else copies. Throws Error for bytes that are cut off or
-// say what cannot be.
+// Returns views of `bytes` where they are aligned, otherwise
+// copies. Throws Error for incomplete or inconsistent bytes.
 export function decodeBinary(bytes: Uint8Array): Binary {
   const head = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const start = String.fromCharCode(...bytes.subarray(0, magic.length));
@@ -68,7 +68,7 @@ function viewOf(bytes: Uint8Array, entry: Entry, least: number): Numbers {
   return new type(bytes.slice(entry.offset, entry.offset + length).buffer, 0, count);
 }
 
-// The bytes of arrays, as decodeBinary reads them.
+// Returns the bytes of arrays in the format of decodeBinary().
 export function encodeBinary(
   arrays: readonly { name: string; shape: number[]; values: Numbers }[],
   meta: Record<string, unknown> = {},
@@ -79,7 +79,7 @@ export function encodeBinary(
     return values instanceof Uint32Array ? "u32" : "u8";
   };
   const up = (length: number) => Math.ceil(length / 8) * 8;
-  // Offsets of 15 digits, so that the text's length does not depend on them.
+  // Offsets are padded to 15 characters, so that the text's length does not depend on them.
   const describe = (first: number) => {
     let offset = first;
     const entries = arrays.map(({ name, shape, values }) => {
@@ -107,7 +107,7 @@ export function encodeBinary(
 
 type Type<T> = new (length: number) => T;
 
-// The array of that name and type; null if there is none.
+// Returns the array of this name and type, or null if there is none.
 export function arrayOf<T extends Numbers>(binary: Binary, name: string, type: Type<T>): T | null {
   const values = binary.arrays.get(name)?.values;
   if (values === undefined) return null;
@@ -115,14 +115,14 @@ export function arrayOf<T extends Numbers>(binary: Binary, name: string, type: T
   return values;
 }
 
-// The same; throws Error if there is none.
+// Returns the array of this name and type; throws Error if there is none.
 export function needArray<T extends Numbers>(binary: Binary, name: string, type: Type<T>): T {
   const values = arrayOf(binary, name, type);
   if (values === null) throw new Error(`array ${name} is missing`);
   return values;
 }
 
-// The surface in the answer to api/item/ID/surface; indices are checked.
+// Returns the surface in the answer to api/item/ID/surface; checks indices.
 export function surfaceOf(binary: Binary): Surface {
   const positions = needArray(binary, "positions", Float32Array);
   const triangles = arrayOf(binary, "triangles", Uint32Array);

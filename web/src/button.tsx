@@ -1,4 +1,4 @@
-// A button of the studio's page: it rests while something is worked on.
+// Button of the studio's page; it is disabled while work runs.
 import type { ComponentChildren } from "preact";
 import { working } from "./state";
 
@@ -8,7 +8,7 @@ interface ButtonProps {
   disabled?: boolean;
   main?: boolean;
   title?: string;
-  always?: boolean; // also while something is worked on
+  always?: boolean; // enabled also while work runs
 }
 
 export function Button({ children, onClick, disabled = false, main = false, title, always }: ButtonProps) {

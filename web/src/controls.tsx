@@ -1,4 +1,4 @@
-// Controls of options, as the studio describes them.
+// Controls for options, as described by the studio.
 import { number, typedNumber } from "./format";
 import { others, type Option } from "./options";
 import type { Control, Item, Value } from "./protocol";
@@ -8,7 +8,7 @@ import { Check, Select, Slider, TextField } from "./widgets";
 interface NumberFieldProps {
   label: string;
   value: number | undefined;
-  placeholder: string; // what is taken where nothing is typed
+  placeholder: string; // the value used if the field is empty
   least: number | null;
   most: number | null;
   whole: boolean;
@@ -40,8 +40,8 @@ export function NumberField({ label, value, placeholder, least, most, whole, onC
 
 interface Props<T extends Value> {
   of: Option<T>;
-  one?: Item; // whose diagonal lengths are parts of
-  most?: number; // of a number whose list has none
+  one?: Item; // lengths are parts of its diagonal
+  most?: number; // maximum of a number without one in the list
   disabled?: boolean;
   after?: (since: number) => void;
 }
@@ -122,7 +122,7 @@ function Other({ of, control, after }: Props<Value> & { control: Control }) {
   );
 }
 
-// All that a panel does not show by itself.
+// Shows all options that the panel does not show by itself.
 export function MoreOptions(props: { op: string; label?: string; after?: (since: number) => void }) {
   const { op, label = "More options", after } = props;
   const more = others(op);

@@ -1,13 +1,13 @@
-// Numbers for people.
+// Formats numbers for display.
 
-// What stands for a figure that nobody has.
+// Text for an unknown figure.
 export const notKnown = "not known";
 
 function isKnown(value: number | null | undefined): value is number {
   return value !== null && value !== undefined && Number.isFinite(value);
 }
 
-// Three significant digits, exponents where that is shorter to read.
+// Returns three significant digits, with an exponent where that is shorter to read.
 export function number(value: number | null | undefined): string {
   if (!isKnown(value)) return notKnown;
   const size = Math.abs(value);
@@ -15,12 +15,12 @@ export function number(value: number | null | undefined): string {
   return String(Number(value.toPrecision(3)));
 }
 
-// A share of a whole.
+// Formats a share of a whole.
 export function percent(share: number): string {
   return `${number(100 * share)}\u00a0%`;
 }
 
-// The number that was typed: with a decimal comma, or as percents of `whole`, where there is one. NaN: it is none.
+// Parses a typed number, with a decimal point or comma, or as a percentage of `whole` if given. NaN: no number.
 export function typedNumber(typed: string, whole?: number): number {
   const text = typed.trim();
   const share = whole !== undefined && text.endsWith("%");
@@ -30,7 +30,7 @@ export function typedNumber(typed: string, whole?: number): number {
   return share ? (value / 100) * whole : value;
 }
 
-// All digits, in groups of three.
+// Returns all digits in groups of three.
 export function count(value: number): string {
   return value.toLocaleString("en").replaceAll(",", "\u202f");
 }
@@ -46,11 +46,11 @@ export function bytes(count: number): string {
   return `${number(count / 1000 ** power)} ${units[power] ?? ""}`;
 }
 
-// How places of a slider are values: "linear"; "log", equal ways are equal ratios; "root", the value grows with the
-// square of the place, which gives small values more room and has 0.
+// Scales of a slider. With "linear", values are proportional to places. With "log", equal distances are equal ratios.
+// With "root", the value grows with the square of the place, which gives small values more room and includes 0.
 export type Scale = "linear" | "log" | "root";
 
-// The place 0 ... 1 of a value, and the value of a place.
+// Return the place 0 ... 1 of a value, and the value at a place.
 export function toPlace(scale: Scale, value: number, min: number, max: number): number {
   if (!(max > min)) return 0;
   if (scale === "log") return Math.log(Math.max(value, min) / min) / Math.log(max / min);
@@ -62,13 +62,13 @@ export function fromPlace(scale: Scale, at: number, min: number, max: number): n
   return min + (max - min) * (scale === "root" ? at * at : at);
 }
 
-// The name without its ending.
+// Returns the name without its ending.
 export function stem(name: string): string {
   return name.replace(/\.[^.]*$/, "") || "shape";
 }
 
-// Names that fit in `most` letters and can still be told apart: what is too long loses its middle, or what is around
-// the first letter that makes it different; equal names are numbered.
+// Returns distinct names of at most `most` letters. Long names lose their middle,
+// or keep the part around the first different letter. Equal names are numbered.
 export function shortNames(names: readonly string[], most: number): string[] {
   const seen = new Map<string, number>();
   const own = names.map((name) => {
@@ -106,8 +106,7 @@ function around(name: string, at: number, most: number): string {
   return `${from > 0 ? "…" : ""}${letters.slice(from, to).join("")}${to < letters.length ? "…" : ""}`;
 }
 
-// What is said at once of a message, and what of a long one is read only by who wants to. Of several lines each has
-// its first sentence.
+// Splits a message into a part shown at once and a rest to expand. Each of several lines shows its first sentence.
 const mostAtOnce = 160; // letters; chosen: two lines or three
 export function shortened(text: string): { first: string; rest: string } {
   const lines = text.split("\n");

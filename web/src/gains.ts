@@ -1,5 +1,5 @@
-// Gains of low-pass filters, as the studio computes them. What was asked for is kept, so that a slider that comes back
-// waits for nothing.
+// Gains of low-pass filters, computed by the studio. Results are
+// kept, so that a slider that returns to a value does not wait.
 import { signal } from "@preact/signals";
 import { transport } from "./actions";
 import { getJson } from "./transport";
@@ -11,7 +11,7 @@ export interface LowPass {
   parameters: Readonly<Record<string, number>>;
 }
 
-const mostKept = 256; // chosen: two megabytes where there are a thousand degrees
+const mostKept = 256; // chosen: two megabytes for a thousand degrees
 const kept = signal<ReadonlyMap<string, readonly number[]>>(new Map());
 
 function addressOf({ window, cutoff, degree, parameters }: LowPass): string {
@@ -20,12 +20,12 @@ function addressOf({ window, cutoff, degree, parameters }: LowPass): string {
   return `gains?${query.toString()}`;
 }
 
-// Null until needGains() has brought them.
+// Returns null until needGains() has loaded the gains.
 export function gainsOf(one: LowPass): readonly number[] | null {
   return kept.value.get(addressOf(one)) ?? null;
 }
 
-// Rejects where the studio refuses.
+// Loads the gains; rejects if the studio refuses.
 export async function needGains(one: LowPass): Promise<void> {
   const address = addressOf(one);
   if (kept.peek().has(address)) return;

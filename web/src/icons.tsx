@@ -1,4 +1,4 @@
-// Small pictures beside words: lines on a ground of 20 by 20, drawn for this page.
+// Icons beside words: lines in a square of 20 by 20, drawn for this page.
 const paths = {
   figures: "M4 5h12M4 10h12M4 15h7",
   degrees: "M2 10c2-8 4-8 6 0s3 6 4.5 0 2.5-4 3.5 0 1.5 2.5 2 0",

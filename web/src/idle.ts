@@ -1,10 +1,10 @@
-// When the page is at rest: for those that drive it.
+// Tells test drivers when the page is at rest.
 import { quiet } from "./actions";
 import { theView } from "./show";
 
 const frames = 3; // chosen: an answer becomes a surface, an effect and a picture
 
-// Until nothing is asked for, worked on or moving, for some frames.
+// Resolves when no request, work or motion has been pending for some frames.
 export async function idle(): Promise<void> {
   for (let still = 0; still < frames; ) {
     await new Promise((next) => requestAnimationFrame(next));

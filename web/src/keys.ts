@@ -88,7 +88,7 @@ export function listenToKeys(): void {
   document.addEventListener("keydown", onKey);
 }
 
-// The brush's wheel, and files dropped anywhere on the page.
+// Listens to the brush's wheel, and to files dropped anywhere on the page.
 export function listenToPointer(stage: HTMLElement, over: (yes: boolean) => void): void {
   const wheel = (event: WheelEvent) => {
     if (!event.altKey) return;

@@ -1,9 +1,9 @@
-// Times from an input event until its answer is there, and until it is on the screen, by kind.
+// Measures times from an input event to its answer, and to its picture on the screen, by kind.
 
-const kept = 500; // chosen: the last ones of a kind, a minute of dragging
+const kept = 500; // chosen: the last times of a kind, a minute of dragging
 const times = new Map<string, number[]>();
 
-// `since`: the time stamp of the input event (of performance.now()).
+// `since`: the time stamp of the input event (on the clock of performance.now()).
 export function recordLatency(kind: string, since: number): void {
   const end = performance.now();
   performance.mark(`rholm:${kind}`, { startTime: end, detail: end - since });
@@ -19,7 +19,7 @@ export interface Latency {
   p95: number; // ms
 }
 
-// The nearest-rank percentile of times in any order; NaN of none.
+// Returns the nearest-rank percentile of unsorted times; NaN if there are none.
 export function percentile(list: readonly number[], share: number): number {
   const sorted = [...list].sort((a, b) => a - b);
   return sorted[Math.max(0, Math.ceil(share * sorted.length) - 1)] ?? NaN;

@@ -1,15 +1,15 @@
-// One request in flight, and of those that wait only the latest.
+// Runs one request at a time, and keeps only the latest of the waiting ones.
 
 export interface Latest<T> {
   (wish: T): void;
-  // When nothing is in flight and nothing waits.
+  // Resolves when nothing runs and nothing waits.
   idle(): Promise<void>;
-  // Forgets what waits, and the answer to what is in flight is none of ours: see `current`.
+  // Forgets the waiting wish, and marks the answer of the running one as unwanted: see `current`.
   drop(): void;
 }
 
-// `run` works on a wish; `current()` says whether its answer is still wanted. What `run` rejects with
-// goes to `fail`.
+// `run` processes a wish; `current()` returns true if its
+// answer is still wanted. `fail` receives the errors of `run`.
 export function latestWins<T>(
   run: (wish: T, current: () => boolean) => Promise<void>,
   fail: (error: unknown) => void,

@@ -1,4 +1,4 @@
-// Live answers: the slider moves, the surface follows. One request in flight, the latest wish wins.
+// Live answers during dragging. One request runs at a time; of the waiting ones the latest is kept.
 import { fail, transport } from "./actions";
 import type { Binary } from "./binary";
 import { recordLatency } from "./latency";
@@ -10,15 +10,15 @@ import { postLive } from "./transport";
 
 interface Wish {
   fields: Fields;
-  since: number; // the input event's time stamp, ms
+  since: number; // time stamp of the input event, ms
 }
 
-// A channel for one kind of request. `apply` puts the answer on the screen.
+// Makes a channel for one kind of request. `apply` shows the answer.
 export function liveChannel(
   kind: string,
   apply: (answer: Binary, fields: Fields) => void,
 ): Latest<Wish> {
-  let refused: typeof notice.value = null; // what the last refusal said: gone with the next answer
+  let refused: typeof notice.value = null; // notice of the last refusal; removed by the next answer
   const refuse = (error: unknown) => {
     fail(error);
     refused = notice.peek();

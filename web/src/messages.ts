@@ -1,9 +1,9 @@
-// The studio of a frame in a notebook: requests and events through the window around it, which hands
-// them on to Python (notebook.ts).
+// The studio in a frame of a notebook: requests and events pass through
+// the surrounding window, which forwards them to Python (notebook.ts).
 import type { Job, State } from "./protocol";
 import { accepted, LostError, type Answer, type Listener, type Transport } from "./transport";
 
-// What the frame asks.
+// Request of the frame.
 export interface Asked {
   id: number;
   method: string;
@@ -13,7 +13,7 @@ export interface Asked {
   body: Uint8Array | null;
 }
 
-// What it is told. The first message is a Welcome and has the port for all others.
+// Messages to the frame. The first one is a Welcome with the port for all others.
 export interface Welcome {
   welcome: { session: string };
 }
@@ -21,11 +21,11 @@ export interface Answered {
   answer: { id: number; status: number; type: string; bytes: Uint8Array };
 }
 export interface Told {
-  event: string; // "state", "job"; "beat" says that Python is there
+  event: string; // "state", "job"; "beat" means that Python is alive
   data: string;
 }
 
-const silence = 25_000; // ms; chosen: Python says every ten seconds that it is there
+const silence = 25_000; // ms; chosen: Python sends a beat every ten seconds
 
 export class PortTransport implements Transport {
   session = "";
@@ -57,7 +57,7 @@ export class PortTransport implements Transport {
   }
 
   remember(): void {
-    // The widget knows its session.
+    // The widget stores the session.
   }
 
   async request(method: string, path: string, body?: BodyInit): Promise<Answer> {
@@ -97,7 +97,7 @@ export class PortTransport implements Transport {
     }
   }
 
-  // Whatever is heard: Python is there, and may be silent for a while again.
+  // Any message shows that Python is alive, and restarts the time limit of silence.
   private alive(): void {
     clearTimeout(this.watch);
     for (const listener of this.listeners) listener.connected(true);

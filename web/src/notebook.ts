@@ -1,5 +1,5 @@
-// The studio in a notebook, for anywidget: the page in a frame of its own, with its keys, styles and
-// dialogs, and what carries its messages to Python and back.
+// The studio in a notebook, for anywidget. The page has its own frame for its
+// keys, styles and dialogs; its messages are forwarded to Python and back.
 import page from "../dist/assets/studio.js?raw";
 import style from "../dist/assets/studio.css?raw";
 import type { Answered, Asked, Told, Welcome } from "./messages";
@@ -11,12 +11,12 @@ export interface MessageModel {
   off(event: "msg:custom", listener: (content: FromPython, buffers: DataView[]) => void): void;
 }
 
-// The bytes of an answer are the buffer beside it.
+// The bytes of an answer are in the buffer beside it.
 export type FromPython =
   | { answer: { view: number; id: number; status: number; type: string } }
   | Told;
 
-// A document that holds all it needs.
+// Returns a self-contained document.
 export function frameDocument(script: string, sheet: string): string {
   const safe = script.replaceAll("</script", "<\\/script");
   return `<!doctype html>
@@ -39,9 +39,9 @@ function bytesOf(buffer: DataView | undefined): Uint8Array {
   return new Uint8Array(buffer.buffer, buffer.byteOffset, buffer.byteLength).slice();
 }
 
-let views = 0; // of this model: answers are for one of them, events for all
+let views = 0; // number of views of this model: an answer belongs to one view, events to all
 
-// Hands on what the frame behind the port asks, and what Python says; returns what ends that.
+// Forwards requests of the frame behind the port, and Python's messages; returns a function that stops this.
 export function relay(model: MessageModel, port: MessagePort): () => void {
   const view = (views += 1);
   port.onmessage = ({ data: { body, ...asked } }: MessageEvent<Asked>) => {

@@ -1,15 +1,15 @@
-// Options of steps: what the studio says of each, and what was chosen of them.
+// Options of steps: their descriptions by the studio, and the chosen values.
 import { signal } from "@preact/signals";
 import type { Control, Fields, Value } from "./protocol";
 import { controls } from "./state";
 
-const chosen = signal<Readonly<Fields>>({}); // by "op.name"
+const chosen = signal<Readonly<Fields>>({}); // keys are "op.name"
 
 export function controlOf(op: string, name: string): Control | undefined {
   return controls.value[op]?.find((one) => one.name === name);
 }
 
-// What was chosen, or the default; as a signal.
+// The chosen value, or the default; as a signal.
 export class Option<T extends Value> {
   constructor(
     readonly op: string,
@@ -36,12 +36,12 @@ export class Option<T extends Value> {
   }
 }
 
-// Those that no panel shows by itself.
+// Returns the options that no panel shows by itself.
 export function others(op: string): Option<Value>[] {
   return (controls.value[op] ?? []).filter(({ shown }) => !shown).map(({ name }) => new Option(op, name));
 }
 
-// What was chosen of them, as fields of the step.
+// Returns the chosen ones of these options, as fields of the step.
 export function othersChosen(op: string): Fields {
   return Object.fromEntries(others(op).flatMap((one) => (one.chosen ? [[one.name, one.value]] : [])));
 }

@@ -1,4 +1,4 @@
-// What the studio and the page say to each other: docs/studio.md.
+// Messages between the studio and the page: docs/studio.md.
 
 export interface Fact {
   label: string;
@@ -23,12 +23,12 @@ export interface ItemExpansion {
 }
 
 export interface ItemAtlas {
-  bytes: number; // of its file
-  degree: number; // the highest of a cap
-  error: { rms: number; max: number } | null; // of the whole surface, as measured, in the unit of lengths
+  bytes: number; // size of its file
+  degree: number; // the highest degree of a cap
+  error: { rms: number; max: number } | null; // errors of the whole surface, measured, in the unit of lengths
 }
 
-// What the columns of a text table were taken for; `note` says so, and how it was decided.
+// Assumed meaning of a text table's columns; `note` says what was assumed and why.
 export interface Table {
   columns: { name: string; taken_for: string }[];
   note: string;
@@ -46,30 +46,30 @@ export interface Item {
   facts: Fact[];
   vertices: number;
   faces: number;
-  diagonal: number; // of the bounding box
+  diagonal: number; // diagonal of the bounding box
   center: Vector;
   unit: string;
   closed: boolean;
   star: Star | null;
   expansion: ItemExpansion | null;
-  table?: Table | null; // of points as a text table has them
-  warnings?: string[]; // of the reader of its file
+  table?: Table | null; // only for points read from a text table
+  warnings?: string[]; // warnings by the reader of its file
   normals?: boolean;
   caps?: number;
-  placed?: string | null; // how it was laid on another one, for people
+  placed?: string | null; // text on how it was aligned with another item
   atlas?: ItemAtlas | null;
   look: { degree: number; gains: number[] | null } | null;
   saved_as: SavedFormat[];
 }
 
-// A format that an item can be saved in; its files end in `extension`.
+// Format in which an item can be saved; its files end in `extension`.
 export interface SavedFormat {
   format: string;
   label: string;
   extension: string;
 }
 
-// A format of files that can be opened, and what comes of them.
+// Format of files that can be opened, and the kinds of items it gives.
 export interface OpenedFormat {
   format: string;
   title: string;
@@ -99,7 +99,7 @@ export interface State {
   job: Job | null;
 }
 
-// A parameter of a filter window. Where `default` is null the degree of the filter decides.
+// Parameter of a filter window. If `default` is null, the degree of the filter determines it.
 export interface WindowParameter {
   name: string;
   symbol: string;
@@ -108,14 +108,14 @@ export interface WindowParameter {
   min: number;
   max: number;
   default: number | null;
-  replaces_cutoff: boolean; // the degree of the filter is not used where the parameter is given
+  replaces_cutoff: boolean; // if given, the degree of the filter is ignored
 }
 
 export interface FilterWindow {
   name: string;
   formula: string; // the gain of degree l
   help: string;
-  overshoot: number; // of a step at degree 64, in parts of its height
+  overshoot: number; // overshoot of a step at degree 64, in parts of its height
   parameters: WindowParameter[];
 }
 
@@ -126,7 +126,7 @@ export interface FilterWindows {
 
 export type Value = number | string | boolean | null;
 
-// An option of a step, of GET api/controls.
+// Option of a step, from GET api/controls.
 export interface Control {
   name: string;
   label: string;
@@ -135,24 +135,24 @@ export interface Control {
   default: Value; // null: the library decides
   least: number | null;
   most: number | null;
-  step: number | null; // of a slider
+  step: number | null; // step of a slider
   scale: "linear" | "log";
-  unit: "" | "diagonal" | "degrees"; // a part of the item's diagonal
+  unit: "" | "diagonal" | "degrees"; // "diagonal": as a part of the item's diagonal
   choices: { value: string; label: string }[];
-  shown: boolean; // a panel has it at its place; else it is one of more options
+  shown: boolean; // true: a panel shows it; false: it is under more options
 }
 
-export type Controls = Readonly<Record<string, Control[]>>; // by the op of the step
+export type Controls = Readonly<Record<string, Control[]>>; // keys are the ops of steps
 
-// A request of POST api/step or api/live: its fields are those of docs/studio.md.
+// Request of POST api/step or api/live; docs/studio.md lists its fields.
 export type Fields = Record<string, unknown>;
 
-// What is drawn of an item. Lengths are in the unit of the item.
+// Drawn data of an item. Lengths are in the unit of the item.
 export interface Surface {
   positions: Float32Array; // [n, 3]
   normals: Float32Array | null; // [n, 3]
   triangles: Uint32Array | null; // [m, 3]; null: points
   colors: Uint8Array | null; // [n, 3], sRGB
-  labels: Uint32Array | null; // [n], the cap a vertex belongs to
+  labels: Uint32Array | null; // [n], the cap of each vertex
   offending: Uint32Array | null; // faces not seen from the centre
 }

@@ -1,4 +1,4 @@
-// Which surface is on the screen, and in which colours: follows the selected item and its revision.
+// Selects the surface on the screen and its colours; follows the selected item and its revision.
 import { computed, effect, signal, untracked } from "@preact/signals";
 import { fail, transport } from "./actions";
 import { surfaceOf } from "./binary";
@@ -15,14 +15,14 @@ export const legend = signal<{ range: Range; label: string; unit: string } | nul
 export const layout = signal<Layout>("one");
 export const shown = signal<{ id: number; revision: number } | null>(null);
 export const markOffending = signal(true);
-export const up = signal<Up>("z"); // of the shape on the screen
+export const up = signal<Up>("z"); // upward axis of the shape on the screen
 
 let view: View | null = null;
 export const theView = (): View | null => view;
 
 const cache = new Map<string, Surface>();
 
-// The surface of an item as it is now, or as it was read.
+// Returns the current surface of an item, or the surface that was read.
 export async function surfaceFor(one: Item, original = false): Promise<Surface> {
   const key = `${one.id}/${one.revision}/${original}`;
   const kept = cache.get(key);
@@ -30,7 +30,7 @@ export async function surfaceFor(one: Item, original = false): Promise<Surface> 
   const path = `item/${one.id}/surface?revision=${one.revision}${original ? "&original=1" : ""}`;
   const surface = surfaceOf(await getBinary(transport, path));
   cache.set(key, surface);
-  // The item's own and the other one's, now and as read.
+  // Keeps four surfaces: of two items, the current one and the one that was read.
   for (const old of cache.keys()) if (cache.size > 4) cache.delete(old);
   return surface;
 }
@@ -68,14 +68,14 @@ async function showItem(one: Item | null): Promise<void> {
   }
 }
 
-// The camera stays where it is between shapes with the same way up.
+// The camera stays in place between shapes with the same upward axis.
 function turnUp(wanted: Up): void {
   if (wanted === up.peek()) return;
   up.value = wanted;
   view?.setUp(wanted);
 }
 
-// By hand; it is remembered for shapes of that name.
+// Sets the axis by hand; it is remembered for shapes of this name.
 export function setUp(wanted: Up): void {
   const one = item.peek();
   if (one) chooseUp(one.name, wanted);
@@ -89,7 +89,7 @@ function naturalColoring(surface: Surface): Coloring {
   return surface.colors ? "own" : "plain";
 }
 
-// Colours that are the surface's; errors are painted by those who know them.
+// Paints the surface's own colours; panels that have errors paint them.
 export function repaint(): void {
   const surface = view?.surface("main");
   if (!view || !surface) return;
@@ -109,15 +109,15 @@ export function repaint(): void {
   markFaces(surface);
 }
 
-// Elsewhere than where a centre is wanted the surface is looked at.
+// Faces are marked only in panels where a centre matters.
 const marking = computed(() => markOffending.value && ["figures", "degrees"].includes(tab.value));
 
-// Caps take shapes that no centre sees: nothing offends them.
+// Caps need no centre, so no face of an atlas is marked.
 function markFaces(surface: Surface): void {
   view?.mark(marking.value && item.peek()?.kind !== "atlas" ? surface.offending : null);
 }
 
-// What is on the screen again as the studio has it.
+// Shows the surface of the studio again, without previews.
 export function restoreSurface(): void {
   const surface = view?.surface("main");
   if (!view || !surface) return;
@@ -131,7 +131,7 @@ export function restoreSurface(): void {
   repaint();
 }
 
-// A second shape: the selected item's original, or another item.
+// Shows a second shape: the selected item's original, or another item.
 export async function showOther(one: Item, original: boolean, how: Layout): Promise<void> {
   try {
     const surface = await surfaceFor(one, original);
@@ -144,19 +144,19 @@ export async function showOther(one: Item, original: boolean, how: Layout): Prom
   }
 }
 
-// The view stays where what is shown next takes the room of both.
+// Hides the second shape. With `stay`, the camera does not move, since the next shape fills the same space.
 export function hideOther(stay = false): void {
   view?.show("other", null);
   otherId = null;
   arrange("one", false, stay);
 }
 
-let otherId: number | null = null; // of the second shape that is shown
+let otherId: number | null = null; // id of the second shape shown
 
 function arrange(how: Layout, another: boolean, stay = false): void {
   const fresh = another || layout.peek() !== how;
   layout.value = how;
-  // Through the one the other is seen; chosen: both can be told.
+  // The other shape is seen through this one; chosen: both can be distinguished.
   view?.arrange(how, how === "over" ? 0.45 : 1);
   if (fresh && !stay) view?.fit();
 }
@@ -169,10 +169,10 @@ export function paintValues(values: Float32Array, label: string, range: Range): 
 
 export function attach(made: View): void {
   view = made;
-  let compared = tab.peek(); // the panel of what is compared
+  let compared = tab.peek(); // the panel of the comparison
   effect(() => void showItem(item.value));
   effect(() => {
-    // What is compared stays for a picture of it, and goes where another panel is opened.
+    // A comparison stays for a picture of it, and disappears when another panel is opened.
     if (tab.value === "save" || tab.value === compared) return;
     compared = tab.value;
     if (layout.peek() !== "one") hideOther();

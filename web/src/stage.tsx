@@ -1,4 +1,4 @@
-// The canvas and what lies over it: legend, progress, notices.
+// The canvas and the elements over it: legend, progress, notices.
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { cancelJob, start, transport } from "./actions";
@@ -74,7 +74,7 @@ function Notice() {
   );
 }
 
-// The camera's buttons, axes and scale: below the shape, and not over it.
+// Buttons of the camera, axes and scale, below the shape so that they do not cover it.
 function ViewBar() {
   const view = theView();
   const sight = view?.sight.value;
@@ -121,7 +121,7 @@ function ViewBar() {
   );
 }
 
-// Where nothing is open.
+// Shown if nothing is open.
 function Empty() {
   if (!studio.value || items.value.length > 0 || working.value || lost.value) return null;
   return (

@@ -1,4 +1,4 @@
-// What the page knows: signals that panels read and actions.ts sets.
+// State of the page: signals that panels read and actions.ts sets.
 import { computed, signal } from "@preact/signals";
 import { shortNames } from "./format";
 import { ups, type Up } from "./geometry/up";
@@ -20,23 +20,23 @@ export const studio = signal<State | null>(null);
 export const filterWindows = signal<FilterWindows>({ windows: [], default: "" });
 export const controls = signal<Controls>({});
 export const lost = signal(false);
-export const stopped = signal(false); // the program has ended as it was told
+export const stopped = signal(false); // the program has ended on request
 export const tab = signal<Tab>("figures");
 export const selected = signal<number | null>(null);
 export const busy = signal<string | null>(null); // what the page waits for
 export const job = signal<Job | null>(null);
 export const notice = signal<{ text: string; bad: boolean } | null>(null);
-export const unread = signal<File | null>(null); // refused, and it may be a table whose columns have to be said
+export const unread = signal<File | null>(null); // a refused file that may be a table with unknown columns
 export const helpOpen = signal(false);
-export const quitOpen = signal(false); // whether to end the program is asked
-export const demo = signal(false); // the shape is the page's own, to play with
+export const quitOpen = signal(false); // true while the page asks whether to end the program
+export const demo = signal(false); // the shape is the page's own example
 
 export const items = computed<Item[]>(() => studio.value?.items ?? []);
 export const item = computed<Item | null>(
   () => items.value.find(({ id }) => id === selected.value) ?? null,
 );
 
-// What items are called where there is little room: no two alike.
+// Distinct short names of items.
 const mostLetters = 60; // chosen: three lines of the list
 export const names = computed<ReadonlyMap<number, string>>(() => {
   const short = shortNames(items.value.map(({ name }) => name), mostLetters);
@@ -46,7 +46,7 @@ export const nameOf = (one: Item): string => names.value.get(one.id) ?? one.name
 
 export const working = computed(() => busy.value !== null || job.value?.state === "running");
 
-// The last item but that one that has faces: the other shape of two.
+// Returns the last item with faces except `than`: the other shape of two.
 export function otherItem(than: number | null): Item | null {
   return items.value.findLast((one) => one.id !== than && one.faces > 0) ?? null;
 }
@@ -60,7 +60,7 @@ function readTheme(): Theme {
   return kept === "light" || kept === "dark" ? kept : "auto";
 }
 
-// Which way is up in the shape of a name, as it was chosen by hand, the last ones of many.
+// Upward axes chosen by hand, by name of shape; only the last ones are kept.
 const upKey = "rholm-up";
 const mostUps = 200; // chosen
 const chosenUps = signal<[name: string, up: Up][]>(readUps());
@@ -93,7 +93,7 @@ export function setTheme(wanted: Theme): void {
   document.documentElement.dataset.theme = wanted;
 }
 
-// Null where the browser keeps nothing.
+// Returns null if the browser keeps nothing.
 function storage(): Storage | null {
   try {
     return window.localStorage;

@@ -1,4 +1,4 @@
-// The way to the studio: requests and events. Pages use HTTP; frames of notebooks messages.ts.
+// Connection to the studio: requests and events. Pages use HTTP; frames of notebooks use messages.ts.
 import type { Fields, Job, State } from "./protocol";
 import { decodeBinary, type Binary } from "./binary";
 
@@ -15,22 +15,22 @@ export interface Listener {
 }
 
 export interface Transport {
-  // Addresses are relative to api/. Rejects with LostError where there is no answer.
+  // Addresses are relative to api/. Rejects with LostError if there is no answer.
   request(method: "GET" | "POST" | "DELETE", path: string, body?: BodyInit): Promise<Answer>;
   subscribe(listener: Listener): () => void;
   session: string;
-  // The session that this page had before, or was given; "" for none.
+  // Returns the session that this page had before, or was given; "" for none.
   remembered(): Promise<string>;
   remember(session: string): void;
-  readonly program: string; // what answers: may it still be running?
-  readonly endsProgram: boolean; // whether the page may end it
+  readonly program: string; // name of what answers, for messages
+  readonly endsProgram: boolean; // true if the page may end it
   readonly pending: number; // requests without an answer yet
 }
 
-// Nobody answers.
+// There is no answer.
 export class LostError extends Error {}
 
-// The studio says no, and why.
+// The studio refuses, with a reason.
 export class RefusedError extends Error {
   constructor(
     readonly status: number,
@@ -102,7 +102,7 @@ export class HttpTransport implements Transport {
   }
 }
 
-// The answer itself; throws RefusedError for a no.
+// Returns the answer; throws RefusedError for a refusal.
 export function accepted(answer: Answer): Answer {
   const { status, bytes } = answer;
   if (status < 400) return answer;
@@ -127,7 +127,7 @@ export async function postJson<T>(transport: Transport, path: string, fields: Fi
   return json((await transport.request("POST", path, JSON.stringify(fields))).bytes) as T;
 }
 
-// `columns` are those of a text table, if they are said.
+// `columns` are the columns of a text table, if known.
 export async function postFile<T>(transport: Transport, name: string, file: Blob, columns = ""): Promise<T> {
   const said = columns ? `&columns=${encodeURIComponent(columns)}` : "";
   const path = `file?name=${encodeURIComponent(name)}${said}`;

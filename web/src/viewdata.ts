@@ -1,5 +1,5 @@
-// What the viewer shows, and its bytes: arrays "coefficients" f64 [2][L+1][L+1], "positions" and
-// "triangles" of the shape it was made of (if they go along), and as meta
+// Data of the viewer, and their bytes: arrays "coefficients" f64 [2][L+1][L+1], and "positions" and
+// "triangles" of the original shape (if included). The meta data are
 //   {title, unit, expansion: {degree, function, center}, error: [[degree, rms, max] ...],
 //    power: [...], tail: {strength} | null}; error, power and tail may be left out.
 import { arrayOf, decodeBinary, needArray } from "./binary";
@@ -8,7 +8,7 @@ import type { Vector } from "./protocol";
 
 export interface ViewData {
   title: string;
-  unit: string; // of lengths, or empty
+  unit: string; // unit of lengths, or empty
   expansion: {
     degree: number;
     function: string; // "radius", "gauge", "log radius"
@@ -34,7 +34,7 @@ export function coefficientsOf({ expansion }: ViewData): Coefficients {
   return { degree: expansion.degree, values: expansion.coefficients };
 }
 
-// Throws Error for bytes that are no such data.
+// Throws Error for other bytes.
 export function decodeViewData(bytes: Uint8Array): ViewData {
   const binary = decodeBinary(bytes);
   const meta = binary.meta as Meta;
@@ -65,7 +65,7 @@ export function decodeViewData(bytes: Uint8Array): ViewData {
   };
 }
 
-// The bytes of base64, as a page's <script> holds them.
+// Returns the bytes of base64 text, as in a page's <script>.
 export function fromBase64(text: string): Uint8Array {
   return Uint8Array.from(atob(text.trim()), (letter) => letter.charCodeAt(0));
 }

@@ -1,7 +1,7 @@
-// The viewer of static pages and notebooks, one module without a server:
-//   default.render({model, el})  for anywidget: `data` of the model are the bytes of src/viewdata.ts
-//   mount(element, data)  anywhere; returns what takes it away again
-//   mountPage()           a page that has the bytes as base64 in #rholm-data and a place #rholm-view
+// The viewer of static pages and notebooks is one module without a server:
+// - default.render({model, el}) is for anywidget. The model's `data` are the bytes of src/viewdata.ts.
+// - mount(element, data) is for any element. It returns a function that removes the viewer.
+// - mountPage() is for a page with the bytes as base64 in #rholm-data, and a place #rholm-view.
 import { render as draw } from "preact";
 import plotStyle from "uplot/dist/uPlot.min.css?inline";
 import style from "./style.css?inline";
@@ -60,5 +60,5 @@ export function mountPage(): void {
 
 export default { render };
 
-// A static page has its data in it: nothing else needs to be said.
+// A static page contains its data and starts by itself.
 if (document.getElementById("rholm-data") && document.getElementById("rholm-view")) mountPage();

@@ -1,4 +1,4 @@
-// The few controls that all panels are made of.
+// The small set of controls that all panels use.
 import type { ComponentChildren } from "preact";
 import { useId, useState } from "preact/hooks";
 import { fromPlace, number, toPlace, typedNumber, type Scale } from "./format";
@@ -8,13 +8,13 @@ interface SliderProps {
   value: number;
   min: number;
   max: number;
-  step?: number | undefined; // of what is set by the slider; whole steps hold for typed values as well
+  step?: number | undefined; // step of the slider; whole steps also hold for typed values
   scale?: Scale;
   unit?: string;
-  whole?: number; // what typed percentages are of; without it they are no numbers
+  whole?: number; // base of typed percentages; without it, percentages are no numbers
   disabled?: boolean;
   onInput: (value: number, since: number) => void; // while it moves; since: time stamp of the event, ms
-  onChange?: (value: number) => void; // where it comes to rest
+  onChange?: (value: number) => void; // when it is released
 }
 
 const places = 1000; // chosen: finer than a pixel
@@ -46,7 +46,7 @@ export function Slider(props: SliderProps) {
     props.onInput(wish, since);
     props.onChange?.(wish);
   };
-  // While it is typed the field has what is typed; then the value again: what cannot be is not left standing.
+  // During typing the field has the typed text; afterwards it shows the value, so invalid text disappears.
   const typed = (since: number) => {
     if (draft === null) return;
     const wish = typedNumber(draft, props.whole);
@@ -64,7 +64,7 @@ export function Slider(props: SliderProps) {
     if (rest) props.onChange?.(wish);
     else props.onInput(wish, since);
   };
-  // Places of a curved scale are not steps of the value: keys go by the value.
+  // Slider places on a curved scale are not steps of the value, so keys change the value.
   const key = (event: KeyboardEvent) => {
     const steps = keySteps(event.key);
     if (steps === 0 || !integer) return;
@@ -160,8 +160,8 @@ interface TextProps {
   label: string;
   value: string;
   placeholder?: string;
-  offers?: readonly string[]; // to choose from; anything else can be typed
-  onChange: (value: string) => Promise<boolean>; // whether it was taken
+  offers?: readonly string[]; // suggestions; other text can be typed
+  onChange: (value: string) => Promise<boolean>; // resolves to true if the value was taken
 }
 
 export function TextField({ label, value, placeholder = "", offers = [], onChange }: TextProps) {
@@ -202,7 +202,7 @@ export function Copy({ label, text }: { label: string; text: string }) {
     } catch {
       say("Select it and copy by hand");
     }
-    setTimeout(() => say("Copy"), 2000); // chosen: long enough to be read
+    setTimeout(() => say("Copy"), 2000); // chosen: long enough to read
   };
   return (
     <div class="copy">

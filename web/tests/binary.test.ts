@@ -39,7 +39,7 @@ describe("arrays as bytes", () => {
 
   it("are refused when cut off anywhere", () => {
     const bytes = encodeBinary(arrays);
-    const end = bytes.length - 5; // the last array's last byte: 3 of 8 are used
+    const end = bytes.length - 5; // the last byte of the last array: 3 of 8 are used
     for (let length = 0; length < end; ++length) {
       expect(() => decodeBinary(bytes.slice(0, length))).toThrow();
     }

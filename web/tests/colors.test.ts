@@ -10,7 +10,7 @@ import {
   type Rgb,
 } from "../src/geometry/colors";
 
-// Ottosson's forward transform, the inverse of what is tested.
+// Ottosson's forward transform, the inverse of the tested one.
 function oklab([r, g, b]: Rgb): [number, number, number] {
   const l = Math.cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
   const m = Math.cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
@@ -34,7 +34,7 @@ describe("colour maps", () => {
     ["diverging above 0", diverging, 0, 1],
   ] as const)("%s: equal steps are equal to the eye", (_, map, from, to) => {
     const sizes = steps(map, from, to);
-    // Clipping to sRGB may take a little of the ends.
+    // Clipping to sRGB may shorten the ends slightly.
     expect(Math.max(...sizes) / Math.min(...sizes)).toBeLessThan(1.05);
   });
 

@@ -18,7 +18,7 @@ function set(c: Coefficients, part: 0 | 1, l: number, m: number, value: number):
   const side = c.degree + 1;
   c.values[(part * side + l) * side + m] = value;
 }
-// Numbers in -1 ... 1 that look random, alike in every run (a linear congruence, Knuth's MMIX).
+// Returns pseudo-random numbers in -1 ... 1, equal in every run (linear congruence, Knuth's MMIX).
 function* numbers(): Generator<number, never> {
   for (let state = 1n; ; ) {
     state = (state * 6364136223846793005n + 1442695040888963407n) & 0xffffffffffffffffn;
@@ -36,7 +36,7 @@ function random(degree: number): Coefficients {
   }
   return c;
 }
-// The first rule of Fejér on the grid's colatitudes: exact to degree rings - 1 (Waldvogel 2006).
+// Returns the weights of Fejér's first rule on the grid's colatitudes: exact to degree rings - 1 (Waldvogel 2006).
 function weights(rings: number): number[] {
   return Array.from({ length: rings }, (_, j) => {
     const theta = ((j + 0.5) * Math.PI) / rings;
@@ -86,7 +86,7 @@ describe("harmonics of low degrees are their closed forms", () => {
 });
 
 describe("the recurrence", () => {
-  // At the poles' nearest rings, where sines are small, in between and at the equator.
+  // The colatitudes are near the poles, where sines are small, in between, and at the equator.
   it.each([1e-4, 0.003, 0.1, 0.7, Math.PI / 2, 3.1])(
     "keeps the addition theorem to degree 512 at colatitude %f",
     (theta) => {
@@ -95,7 +95,7 @@ describe("the recurrence", () => {
         nextDegree(column, factors(l));
         let sum = 0;
         for (let m = 0; m <= l; ++m) sum += (column.now[m] ?? NaN) ** 2;
-        // Where cos theta = 1 a step's rounding grows with each later step: l^2 / 2 of 1.1e-16.
+        // Where cos theta = 1, the rounding of a step grows with each later step: l^2 / 2 of 1.1e-16.
         expect(Math.abs((sum * 4 * Math.PI) / (2 * l + 1) - 1)).toBeLessThan(1.5e-11);
       }
     },
@@ -167,7 +167,7 @@ describe("sums on the grid", () => {
           sum += (column.now[m] ?? NaN) * (cos * Math.cos(m * phi) + sin * Math.sin(m * phi));
         }
       }
-      // 131 000 terms of size 1: rounding of some 1e-16 times their root, times what grows.
+      // There are 131 000 terms of size 1: rounding is about 1e-16 times their root, times its growth.
       expect(values[j * grid.meridians + k]).toBeCloseTo(sum, 9);
     }
   });
@@ -178,7 +178,7 @@ describe("sums on the grid", () => {
     const values = sumTo(startSynthesis(c, fine), 3);
     const mean = (ring: number) =>
       values.slice(8 * ring, 8 * ring + 8).reduce((sum, value) => sum + value, 0) / 8;
-    // The mean over a ring is that at the pole but for the square of its angle, here 6e-7 x l(l+1)/4.
+    // The mean over a ring differs from the value at the pole by the square of its angle, here 6e-7 x l(l+1)/4.
     expect(values[8 * 2048]).toBeCloseTo(mean(0), 4);
     expect(values[8 * 2048 + 1]).toBeCloseTo(mean(2047), 4);
   });
@@ -272,7 +272,7 @@ describe("the surface", () => {
     for (const edge of edges) {
       expect(edges.has((edge % count) * count + Math.floor(edge / count))).toBe(true);
     }
-    // Inscribed: smaller, by some (2 pi / 64)^2.
+    // The surface is inscribed, so its volume is smaller, by some (2 pi / 64)^2.
     const share = six / 6 / ((32 * Math.PI) / 3);
     expect(share).toBeLessThan(1);
     expect(share).toBeGreaterThan(1 - ((2 * Math.PI) / 64) ** 2);

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { latestWins } from "../src/latest";
 
-// A run that ends when told.
+// Returns a run that ends on command.
 function stage() {
   const begun: number[] = [];
   const ends: (() => void)[] = [];

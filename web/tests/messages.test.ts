@@ -1,4 +1,4 @@
-// The studio of a frame: what it asks through a port, what it hears, and the way from there to Python.
+// Tests the studio of a frame: requests and messages through a port, and the way to Python.
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { PortTransport, type Asked } from "../src/messages";
 import { frameDocument, relay, type FromPython, type MessageModel } from "../src/notebook";
@@ -9,7 +9,7 @@ vi.mock("../dist/assets/studio.css?raw", () => ({ default: "" }));
 
 const text = (value: unknown) => new TextEncoder().encode(JSON.stringify(value));
 
-// A frame that has been welcomed, and who is at the other end of its port.
+// Returns a frame that has received its welcome, and the other end of its port.
 function frame() {
   let listen: (event: unknown) => void = () => undefined;
   const transport = new PortTransport({
@@ -109,7 +109,7 @@ describe("silence", () => {
   });
 });
 
-// Python's end: answers what it is asked with its own words, and can tell.
+// Stands for Python: answers requests with given texts, and can send messages.
 function python() {
   const listeners = new Set<(content: FromPython, buffers: DataView[]) => void>();
   const sent: { content: Record<string, unknown>; buffers: ArrayBufferView[] }[] = [];

@@ -21,7 +21,7 @@ it("normals of an octahedron are its corners", () => {
 });
 
 it("larger faces weigh more", () => {
-  // Two faces at vertex 0: one in the plane z = 0 of area 1/2, one in x = 0 of area 2.
+  // Two faces meet at vertex 0: one in the plane z = 0 of area 1/2, one in x = 0 of area 2.
   const place = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 2]);
   const normals = new Float32Array(15);
   const faces = new Uint32Array([0, 1, 2, 0, 3, 4]);
@@ -43,7 +43,7 @@ it("of touched vertices only, they are those of all", () => {
 });
 
 it("a seam of the file is none of the surface", () => {
-  // Each face of the octahedron with corners of its own, some of their zeros negative.
+  // Each face of the octahedron has separate corners; some of their zeros are negative.
   const cut = new Float32Array([...triangles].flatMap((v) => [...positions.slice(3 * v, 3 * v + 3)]));
   cut.forEach((x, i) => (cut[i] = x === 0 && i % 2 === 0 ? -0 : x));
   const faces = triangles.map((_, i) => i);

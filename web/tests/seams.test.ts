@@ -1,7 +1,7 @@
 import { expect, it } from "vitest";
 import { atPieces, seamsOf } from "../src/geometry/seams";
 
-// A plane of n by n squares, each two triangles.
+// Returns a plane of n by n squares of two triangles each.
 function plane(n: number): { positions: Float32Array; triangles: Uint32Array } {
   const at = (i: number, j: number) => i * (n + 1) + j;
   const positions: number[] = [];
@@ -53,7 +53,7 @@ it("a border across the edges of the mesh has no teeth", () => {
   const from = 0.3;
   const seams = seamsOf(triangles, labelsBy((x, y) => Number(y > from + slope * x)));
   const pieces = atPieces(seams, positions);
-  // Corners within the plane that are no vertices are on the border.
+  // Corners within the plane that are no vertices lie on the border.
   let far = 0;
   let found = 0;
   for (let i = 0; i < pieces.length; i += 3) {
@@ -64,5 +64,5 @@ it("a border across the edges of the mesh has no teeth", () => {
     found += 1;
   }
   expect(found).toBeGreaterThan(20);
-  expect(far).toBeLessThan(0.5 / n); // teeth are as high as an edge is long
+  expect(far).toBeLessThan(0.5 / n); // a zigzag would be as high as an edge is long
 });

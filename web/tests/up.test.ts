@@ -19,8 +19,8 @@ it("z is up unless the box speaks for y", () => {
   expect(guessUp(box(about(4), about(0.1), about(4)))).toBe("y"); // a landscape
   expect(guessUp(box(about(4), about(4), about(0.1)))).toBe("z"); // a plate
   expect(guessUp(box(about(2), [0, 1], about(2)))).toBe("y"); // stands on y = 0
-  expect(guessUp(box(about(1), about(2), [0, 0.9]))).toBe("z"); // stands on z = 0, whatever its proportions
-  expect(guessUp(box([0, 2], [0, 1], [0, 2]))).toBe("z"); // lies in a corner: says nothing
+  expect(guessUp(box(about(1), about(2), [0, 0.9]))).toBe("z"); // stands on z = 0, for any proportions
+  expect(guessUp(box([0, 2], [0, 1], [0, 2]))).toBe("z"); // lies in a corner: no indication
 });
 
 it("bars have round lengths, as long as they may be", () => {

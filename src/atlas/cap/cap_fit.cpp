@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, kCapLanes>;
 using V = hn::Vec<D>;
 
-// What a point asks for: right-hand sides, already multiplied by their weights.
+// Equations of a point: right-hand sides, already multiplied by their weights.
 struct Asked {
   V value, slope1, slope2;
   V weight, slope_weight;
@@ -42,7 +42,7 @@ HWY_INLINE Asked Ask(D d, const LaneFrame<double>& f, const CapPoints& points,
   Asked asked;
   asked.weight = hn::IfThenElseZero(good, hn::Sqrt(row(6)));
   asked.usable = hn::IfThenElseZero(good, one);
-  // What is left out counts as on the axis: a weight of zero does not undo a division by it.
+  // Unusable points are moved to the axis, since a weight of 0 does not undo a division by 0.
   ray = {hn::IfThenElseZero(good, ray.x), hn::IfThenElseZero(good, ray.y),
          hn::IfThenElse(good, ray.z, one), hn::IfThenElse(good, ray.rho, one)};
   facing = hn::IfThenElseZero(good, facing);
@@ -61,9 +61,9 @@ HWY_INLINE Asked Ask(D d, const LaneFrame<double>& f, const CapPoints& points,
   return asked;
 }
 
-// Rows of the least squares, each multiplied by its weight: the right-hand sides, then for every
-// harmonic its value and two slopes at each point. All of a row is written, zeros beyond the last
-// point: what takes rows reads them whole, whatever the lanes. Returns how many points are usable.
+// Writes the rows of the least squares, multiplied by their weights: the right-hand sides, then
+// for each harmonic its value and two slopes at each point. Rows are written whole, with zeros
+// beyond the last point, because readers use whole vectors. Returns the number of usable points.
 std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
                      double* rows, std::size_t third) {
   const D d;
@@ -111,7 +111,7 @@ std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFi
   return static_cast<std::size_t>(hn::GetLane(hn::SumOfLanes(d, usable)) + 0.5);
 }
 
-// The points as EvenPoints has them, whole rows as above.
+// Writes the points as EvenPoints defines them, in whole rows like FillRows().
 std::size_t FillPoints(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
                        double* rows, std::size_t third) {
   const D d;
@@ -130,7 +130,7 @@ std::size_t FillPoints(const CapFrame& frame, const CapPoints& points, const Cap
   return static_cast<std::size_t>(hn::GetLane(hn::SumOfLanes(d, usable)) + 0.5);
 }
 
-// target = rows' sum with the coefficients, minus the right-hand side.
+// Computes target = sum of the rows times the coefficients, minus the right-hand side.
 void Residuals(const double* rows, const double* coefficients, std::size_t n, std::size_t length,
                std::size_t stride, double* target) {
   const D d;
@@ -143,7 +143,7 @@ void Residuals(const double* rows, const double* coefficients, std::size_t n, st
   }
 }
 
-// The same of values at points, kCount vectors at a time: one alone waits for its recurrence.
+// Does so for values at kCount vectors of points at once, as one waits for its recurrence.
 template <std::size_t kCount>
 HWY_INLINE void ValueResiduals(const EvenPoints& points, const double* coefficients, int degree,
                                std::size_t i, double* target) {
@@ -186,7 +186,7 @@ HWY_INLINE void ValueResiduals(const EvenPoints& points, const double* coefficie
   }
 }
 
-// The same of points: [value, slope 1, slope 2][length], or values alone.
+// Computes residuals of points: [value, slope 1, slope 2][length], or values alone.
 void EvenResiduals(const EvenPoints& points, const double* coefficients, int degree, bool slopes,
                    double* target) {
   const D d;
@@ -220,7 +220,7 @@ HWY_EXPORT(FillPoints);
 HWY_EXPORT(Residuals);
 HWY_EXPORT(EvenResiduals);
 
-// Pivots below that part of their diagonal element have lost all digits.
+// Pivots below this part of their diagonal element have lost all digits.
 constexpr double kLeastPivot = 1e-14;
 
 double sum_of_squares(const double* values, std::size_t n) {
@@ -249,7 +249,7 @@ void CapPoints::add(const Vec3& offset, const Vec3& normal, double weight) {
 
 void CapPoints::pad() {
   for (std::size_t i = n_; i < std::min(n_ + kCapLanes, capacity_); ++i) {
-    // A point on the axis, without weight: nothing to divide by zero.
+    // Padding points lie on the axis with weight 0, so that no division by 0 occurs.
     for (std::size_t which = 0; which < 7; ++which) data_[which * capacity_ + i] = 0;
   }
 }
@@ -268,7 +268,7 @@ void add_sunflower(const CapFrame& frame, std::size_t n, CapPoints& points) {
 
 namespace {
 
-// From the points or rows in the scratch memory, if they are enough.
+// Makes the matrix from the points or rows in the scratch memory, if there are enough.
 void make_matrix(CapSystem& system, CapFitScratch& scratch) {
   const CapFitOptions& options = system.options;
   const std::size_t n = system.n, third = system.third;

@@ -6,7 +6,7 @@
 namespace rholm {
 namespace {
 
-// Of a disc's covariance, both are R^2 / 4.
+// Returns the eigenvalue R^2 / 4 of a disc's covariance; both eigenvalues are equal.
 double eigenvalue_of_disc(const CapFrame& frame) { return frame.support * frame.support / 4; }
 
 }  // namespace
@@ -19,7 +19,7 @@ Vec3 support_gradient(const Cap& cap, const Vec3& offset) {
   return 2 * ((where.xx * p + where.xy * q) * f.x + (where.xy * p + where.yy * q) * f.y + h * f.z);
 }
 
-// 1 / sqrt of the form's smaller eigenvalue.
+// The result is 1 / sqrt of the form's smaller eigenvalue.
 double longer_half_axis(const CapSupport& where) {
   const double middle = (where.xx + where.yy) / 2;
   return 1 / std::sqrt(middle - std::hypot((where.xx - where.yy) / 2, where.xy));
@@ -51,11 +51,11 @@ PlaneMoments moments_of(const CapFrame& frame, const CapPoints& points) {
 }
 
 CapSupport ellipse_of(const CapFrame& frame, const PlaneMoments& m) {
-  // Axes between kThinnest and 1 of the support, squared.
+  // The half axes are bounded to sqrt(kThinnest) ... 1 of the support.
   const double most = eigenvalue_of_disc(frame), least = kThinnest * most;
   const double large = std::clamp(m.middle + m.radius, least, most);
   const double small = std::clamp(m.middle - m.radius, least, most);
-  // Directions of the axes.
+  // Computes the directions of the axes.
   const double angle = 0.5 * std::atan2(2 * m.xy, m.xx - m.yy);
   const double c = std::cos(angle), s = std::sin(angle);
   const double a = 1 / (4 * large), b = 1 / (4 * small);

@@ -24,7 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, kCapLanes>;
 using V = hn::Vec<D>;
 
-// `kCount` vectors of points at a time: sums are loaded and stored once for them.
+// Holds `kCount` vectors of points, so that sums are loaded and stored once for all of them.
 template <std::size_t kCount>
 using Several = std::array<V, kCount>;
 
@@ -35,7 +35,7 @@ HWY_INLINE void AddTo(D d, double* sum, const Several<kCount>& a, const Several<
   hn::Store(v, d, sum);
 }
 
-// Adds to the lanes of Sum() what the points from the i-th on are.
+// Adds the points from index i on to the lanes of Sum().
 template <std::size_t kCount>
 HWY_INLINE void SumSome(const EvenPoints& points, int degree, std::size_t i, double* lanes) {
   using Vs = Several<kCount>;
@@ -62,7 +62,7 @@ HWY_INLINE void SumSome(const EvenPoints& points, int degree, std::size_t i, dou
     re[g] = hn::Set(d, 1.0), im[g] = re_below[g] = im_below[g] = hn::Zero(d);
   }
   for (int m = 0; m <= 2 * degree; ++m) {
-    // Of p, and in the right-hand side of p and its derivative.
+    // Factors of p; in the right-hand side, factors of p and its derivative.
     Vs cosine, sine, right_cosine, right_sine, fall_cosine, fall_sine, p0, p1, d0, d1;
     const V order = hn::Set(d, static_cast<double>(m));
     for (std::size_t g = 0; g < kCount; ++g) {
@@ -106,8 +106,9 @@ HWY_INLINE void SumSome(const EvenPoints& points, int degree, std::size_t i, dou
   }
 }
 
-// sum w^2 Y_lm up to twice the degree, then the harmonics' rows times the right-hand side, by the
-// slopes of low_harmonics-inl.h, then that with itself; first in the lanes of a vector each.
+// Computes sum w^2 Y_lm up to twice the degree. Then the harmonics' rows times the right-hand side
+// (slopes of low_harmonics-inl.h), and the right-hand side times itself. Each sum is first kept in
+// the lanes of a vector.
 void Sum(const EvenPoints& points, int degree, double* lanes, double* sums) {
   const D d;
   const std::size_t n = hn::Lanes(d);
@@ -130,15 +131,15 @@ namespace rholm {
 namespace {
 HWY_EXPORT(Sum);
 
-// Of all even harmonics up to a degree.
+// Returns the number of even harmonics up to a degree.
 constexpr std::size_t n_even(int degree) { return even_index(degree + 1, 0); }
 
-// A product of two has the orders m + m' and |m - m'|, and of each the degrees lowest(), lowest() +
-// 2, ... l + l'.
+// A product of two harmonics has the orders m + m' and |m - m'|.
+// Each order has the degrees lowest(), lowest() + 2, ... l + l'.
 int lowest(int la, int lb, int order) { return std::max(std::abs(la - lb), order); }
 
-// Visits all pairs (l, m), (l', m') of even harmonics, the second one no later than the first:
-// those of lower degrees come first.
+// Visits all pairs (l, m), (l', m') of even harmonics with the
+// second no later than the first; pairs of lower degrees come first.
 template <class Visit>
 void visit_pairs(int degree, const Visit& visit) {
   for (int la = 0; la <= degree; ++la) {
@@ -150,12 +151,12 @@ void visit_pairs(int degree, const Visit& visit) {
   }
 }
 
-// p_a p_b (1 - Z^2)^((m + m')/2) as sums of p_lk (1 - Z^2)^(k/2), of both orders k of all pairs;
-// by Gauss's rule, which is exact for it.
+// Computes p_a p_b (1 - Z^2)^((m + m')/2) as sums of p_lk (1 -
+// Z^2)^(k/2), for both orders k of all pairs. Gauss's rule is exact here.
 std::vector<double> make_products() {
   const EvenHarmonics& h = even_harmonics();
   const GaussRule rule = gauss_legendre(2 * kMaxLowDegree + 1);
-  const std::size_t n = kMaxLowDegree + 1;  // nodes of the northern half, the equator last
+  const std::size_t n = kMaxLowDegree + 1;  // northern nodes, with the equator last
   const auto values_of = [&](auto& values, int l, int m) { return &values[even_index(l, m) * n]; };
   std::vector<double> values(n_even(kMaxEvenDegree) * n), factors;
   for (int m = 0; m <= kMaxEvenDegree; ++m) {
@@ -193,7 +194,7 @@ const std::vector<double>& products() {
   return factors;
 }
 
-// l (l + 1).
+// Values l (l + 1).
 constexpr std::array<double, kMaxEvenDegree + 1> kLaplacians = [] {
   std::array<double, kMaxEvenDegree + 1> all{};
   for (std::size_t l = 0; l < all.size(); ++l) all[l] = static_cast<double>(l * (l + 1));
@@ -227,10 +228,10 @@ void make_even_matrix(const EvenPoints& points, int degree, EvenMoments& scratch
         sum.cosine += times * moment[0];
         sum.sine += times * moment[1];
       }
-      if (k == 0) sum.sine = 0;  // it has none: what was read is something else
+      if (k == 0) sum.sine = 0;  // order 0 has no sine; the value read is another moment
       return sum;
     };
-    // cos a cos b = (cos(a + b) + cos(a - b)) / 2, and so on.
+    // Uses cos a cos b = (cos(a + b) + cos(a - b)) / 2 and the like.
     const OrderSum sum = sum_of(ma + mb), difference = sum_of(std::abs(ma - mb));
     const double turned = ma < mb ? -difference.sine : difference.sine;
     double* const to = matrix + (1 + even_index(lb, mb)) * (n + 1) + 1 + even_index(la, ma);

@@ -8,13 +8,13 @@
 
 namespace rholm {
 
-// Points as a fit of harmonics with l + m even sees them: rows of `length`, a multiple of
-// kCapLanes, zeros of weight beyond the last point.
+// Points for fits of harmonics with l + m even: rows of `length`,
+// a multiple of kCapLanes, with weight zero beyond the last point.
 struct EvenPoints {
   enum Row { kValue, kSlope1, kSlope2, kWeight, kX, kY, kZ, kS1, kS2, kRows };
-  const double* rows = nullptr;  // right-hand sides, times their weights; place on the sphere
+  const double* rows = nullptr;  // weighted right-hand sides; position on the sphere
   std::size_t length = 0;
-  double gradient_weight = 0;  // of a slope's weight, that of the value
+  double gradient_weight = 0;  // weight of a slope relative to the value's weight
   const double* row(Row which) const { return rows + which * length; }
 };
 
@@ -23,9 +23,9 @@ struct EvenMoments {  // scratch memory
   std::vector<double> sums;
 };
 
-// The matrix of normal_equations.h of all even harmonics up to a degree, without their rows: a
-// product of two is a sum of harmonics of up to twice the degree, so that all of the matrix follows
-// from the moments sum w^2 Y_lm of the points; and so do products of slopes, for
+// Computes the matrix of normal_equations.h for all even harmonics up to a degree, without rows.
+// A product of two harmonics is a sum of harmonics up to twice the degree. The matrix thus follows
+// from the points' moments sum w^2 Y_lm. Products of slopes follow too, because
 //   grad Y_a . grad Y_b = (Laplacian(Y_a Y_b) + (l_a (l_a + 1) + l_b (l_b + 1)) Y_a Y_b) / 2.
 void make_even_matrix(const EvenPoints& points, int degree, EvenMoments& scratch, double* matrix);
 

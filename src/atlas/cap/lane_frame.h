@@ -1,11 +1,11 @@
-// A cap's frame as kernels have it. Layer: atlas.
+// A cap's frame in the form that kernels use. Layer: atlas.
 #pragma once
 
 #include "rholm/cap_frame.h"
 
 namespace rholm {
 
-// In the kernel's type and unit of length; the seed, which it counts from, is not in it.
+// Frame in the kernel's type and unit of length, without the seed, which is its origin.
 template <class T>
 struct LaneFrame {
   T x[3], y[3], z[3];

@@ -18,13 +18,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, kCapLanes>;
 using V = hn::Vec<D>;
 
-// Pivots below that have no inverse.
+// Pivots below this bound have no inverse.
 constexpr double kSmallest = std::numeric_limits<double>::min();
 
-// The first column of the vector that holds column k.
+// Returns the first column of the vector that holds column k.
 HWY_INLINE std::size_t VectorOf(std::size_t k) { return k / hn::Lanes(D()) * hn::Lanes(D()); }
 
-// kRows rows, from the i-th on, by the four from the j-th on.
+// Multiplies kRows rows from index i on by the four rows from index j on.
 template <bool kWeighted, bool kAdd, std::size_t kRows>
 HWY_INLINE void ProductsOf(const NormalRows& given, std::size_t i, std::size_t j, double* matrix) {
   const D d;
@@ -47,7 +47,7 @@ HWY_INLINE void ProductsOf(const NormalRows& given, std::size_t i, std::size_t j
       for (std::size_t c = 0; c < 4; ++c) sum[r][c] = hn::MulAdd(left[r], right[c], sum[r][c]);
     }
   }
-  // Rows beyond the last may hold anything: their sums are not taken.
+  // Rows beyond the last have arbitrary content; their sums are not used.
   for (std::size_t c = 0; c < 4 && j + c < count; ++c) {
     double* const to = matrix + (j + c) * count + i;
     for (std::size_t r = 0; r < kRows && i + r < count; ++r) {
@@ -57,7 +57,7 @@ HWY_INLINE void ProductsOf(const NormalRows& given, std::size_t i, std::size_t j
   }
 }
 
-// Four rows by four others at a time. Of squares of numbers of harmonics, and one, one row is left.
+// Multiplies blocks of four rows. The number of harmonics is often a square, plus one row.
 template <bool kWeighted, bool kAdd>
 HWY_INLINE void Products(const NormalRows& given, double* matrix) {
   for (std::size_t i = 0; i < given.count; i += 4) {
@@ -80,7 +80,7 @@ void Add(const NormalRows& rows, double* matrix) {
                           : Products<false, true>(rows, matrix);
 }
 
-// row -= times other, in whole vectors of columns.
+// Computes row -= times other, in whole vectors of columns.
 HWY_INLINE void Subtract(double times, const double* other, double* row, std::size_t begin,
                          std::size_t end) {
   const D d;
@@ -90,7 +90,7 @@ HWY_INLINE void Subtract(double times, const double* other, double* row, std::si
   }
 }
 
-// The rows from `end` on lose those of the four before it: each is loaded and stored once.
+// Subtracts the four rows before `end` from all later rows; each is loaded and stored once.
 HWY_INLINE void SubtractFour(const double* inverses, std::size_t end, std::size_t n,
                              std::size_t stride, double* upper) {
   const D d;
@@ -110,9 +110,9 @@ HWY_INLINE void SubtractFour(const double* inverses, std::size_t end, std::size_
   }
 }
 
-// Rows from the vector of the diagonal on, with the right-hand side behind and zeros up to the end.
-// What is left of the diagonal in that vector has no meaning here and later: it never reaches other
-// columns.
+// Copies rows from the diagonal's vector on, with the right-hand side
+// behind and zeros up to the end. The entries left of the diagonal in this
+// vector have no meaning, here and later; they never affect other columns.
 HWY_INLINE void CopyRows(const double* matrix, std::size_t n, std::size_t stride, double* upper) {
   const D d;
   const std::size_t whole = VectorOf(n);
@@ -127,7 +127,7 @@ HWY_INLINE void CopyRows(const double* matrix, std::size_t n, std::size_t stride
   }
 }
 
-// The right-hand side is one more column, which is worked on like the others.
+// The right-hand side is one more column, treated like the others.
 std::size_t Factor(const double* matrix, std::size_t n, double least, double* upper) {
   const std::size_t stride = padded(n + 1);
   CopyRows(matrix, n, stride, upper);
@@ -147,8 +147,8 @@ std::size_t Factor(const double* matrix, std::size_t n, double least, double* up
   return n;
 }
 
-// R x = D R^-T A^T b of the first n of `all`; x is 0 as far as its last vector reaches. What is
-// found last is waited for: it comes last, and alone.
+// Solves R x = D R^-T A^T b for the first n unknowns of `all`; x is 0 up to the end of its last
+// vector. The unknown found last is subtracted last and alone, because the next step waits for it.
 void Solve(const double* upper, std::size_t all, std::size_t n, double* x) {
   const D d;
   const std::size_t stride = padded(all + 1);
@@ -165,13 +165,13 @@ void Solve(const double* upper, std::size_t all, std::size_t n, double* x) {
   }
 }
 
-// Solutions side by side: one alone is a chain of operations that wait for one another. x [the last
-// size][padded(n_sizes)].
+// Solves several sizes side by side, because one solution is a chain of
+// dependent operations. The result is x [the last size][padded(n_sizes)].
 void SolveNested(const double* upper, std::size_t all, const std::size_t* sizes,
                  std::size_t n_sizes, double* x) {
   const D d;
   const std::size_t stride = padded(all + 1), sets = padded(n_sizes), n = sizes[n_sizes - 1];
-  std::size_t lowest = n_sizes - 1;  // that has an i
+  std::size_t lowest = n_sizes - 1;  // smallest set with unknown i
   for (std::size_t i = n; i-- > 0;) {
     while (lowest > 0 && i < sizes[lowest - 1]) --lowest;
     const double* const row = upper + i * stride;
@@ -188,8 +188,8 @@ void SolveNested(const double* upper, std::size_t all, const std::size_t* sizes,
   }
 }
 
-// R^T D^-1 Y = 1, then R X = Y: X [n][padded(n)], of which the lower triangle counts. That of Y is
-// all there is of it, and that of X needs nothing else.
+// Solves R^T D^-1 Y = 1, then R X = Y. Only the lower triangle of X
+// [n][padded(n)] counts: Y has no other part, and X needs no other part.
 void Invert(const double* upper, std::size_t all, std::size_t n, double* x) {
   const D d;
   const std::size_t stride = padded(all + 1), width = padded(n), lanes = hn::Lanes(d);

@@ -1,6 +1,6 @@
-// Points beside a cap, in the lanes of a vector: where they are in its frame and on its opened
-// sphere, and what its surface is there (method 7.1, 7.5). In single or double precision. Included
-// once per target, by kernels.
+// Points near a cap, in the lanes of a vector: their positions in its frame
+// and on its opened sphere, and the cap's surface there (method 7.1, 7.5).
+// Works in single or double precision. Included once per target, by kernels.
 
 #if defined(RHOLM_ATLAS_OPENED_SPHERE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RHOLM_ATLAS_OPENED_SPHERE_INL_H_
@@ -25,32 +25,32 @@ struct Lanes3 {
   V x, y, z;
 };
 
-// Three numbers times a vector of each.
+// Returns a x + b y + c z for numbers a, b, c and vectors x, y, z.
 template <class D, class V = hn::Vec<D>, class T = hn::TFromD<D>>
 HWY_INLINE V Dot(D d, T a, T b, T c, V x, V y, V z) {
   return hn::MulAdd(hn::Set(d, a), x, hn::MulAdd(hn::Set(d, b), y, hn::Mul(hn::Set(d, c), z)));
 }
 
-// A vector in space along a cap's axes.
+// Converts a vector in space to components along a cap's axes.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Lanes3<V> ToFrame(D d, const LaneFrame<hn::TFromD<D>>& f, V x, V y, V z) {
   return {Dot(d, f.x[0], f.x[1], f.x[2], x, y, z), Dot(d, f.y[0], f.y[1], f.y[2], x, y, z),
           Dot(d, f.z[0], f.z[1], f.z[2], x, y, z)};
 }
 
-// And back: its component along an axis of space.
+// Converts back: returns the component along an axis of space.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V FromFrame(D d, const LaneFrame<hn::TFromD<D>>& f, int axis, const Lanes3<V>& v) {
   return Dot(d, f.x[axis], f.y[axis], f.z[axis], v.x, v.y, v.z);
 }
 
-// From the centre, along the cap's axes, and how far that is.
+// Vector from the centre along the cap's axes, and its length rho.
 template <class V>
 struct CapRay {
   V x, y, z, rho;
 };
 
-// To offsets from the seed, given along the axes: the seed is R_0 above the centre.
+// Returns the ray to an offset from the seed along the axes; the seed is R_0 above the centre.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE CapRay<V> RayTo(D d, const LaneFrame<hn::TFromD<D>>& f, const Lanes3<V>& at) {
   CapRay<V> ray{at.x, at.y, hn::Add(at.z, hn::Set(d, f.radius)), at.z};
@@ -58,16 +58,16 @@ HWY_INLINE CapRay<V> RayTo(D d, const LaneFrame<hn::TFromD<D>>& f, const Lanes3<
   return ray;
 }
 
-// Where a ray meets the sphere.
+// Position where a ray meets the sphere.
 template <class V>
 struct OpenedPlace {
-  V s1, s2;            // in the stereographic plane, not opened
-  LowDirection<V> at;  // on the opened sphere, and in its plane
+  V s1, s2;            // place in the stereographic plane, not opened
+  LowDirection<V> at;  // place on the opened sphere, and in its plane
   V shrink;            // 1 / (1 + |a s|^2)
 };
 
-// `below` is 1 / (rho + z): s = (x, y) / (rho + z). No number opposite the axis, and at the centre,
-// unless the caller bounds it.
+// `below` is 1 / (rho + z), so s = (x, y) / (rho + z). The result is not finite
+// opposite the axis and at the centre, unless the caller bounds `below`.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE OpenedPlace<V> OpenBelow(D d, const LaneFrame<hn::TFromD<D>>& f, const CapRay<V>& ray,
                                     V below) {
@@ -87,7 +87,7 @@ HWY_INLINE OpenedPlace<V> Open(D d, const LaneFrame<hn::TFromD<D>>& f, const Cap
   return OpenBelow(d, f, ray, hn::Div(one, hn::Add(ray.rho, ray.z)));
 }
 
-// kappa of (K1): how much lengths on the sphere grow when it is opened.
+// Returns kappa of (K1): the growth of lengths on the sphere when it is opened.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V ConformalFactor(D d, const LaneFrame<hn::TFromD<D>>& f, const OpenedPlace<V>& place) {
   const V one = hn::Set(d, hn::TFromD<D>(1));
@@ -103,7 +103,7 @@ struct CapLevel {
   V flatness;  // 1 / sqrt(1 + |grad_u r|^2 / r^2)
 };
 
-// From phi and its slopes on the opened sphere.
+// Computes the surface from phi and its slopes on the opened sphere.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE CapLevel<V> LevelOf(D d, const LaneFrame<hn::TFromD<D>>& f, const OpenedPlace<V>& place,
                                const LowSum<V>& phi) {
@@ -118,14 +118,14 @@ HWY_INLINE CapLevel<V> LevelOf(D d, const LaneFrame<hn::TFromD<D>>& f, const Ope
   return here;
 }
 
-// g of (K3).
+// Returns g of (K3).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Potential(D d, const LaneFrame<hn::TFromD<D>>& f, const CapRay<V>& ray,
                        const CapLevel<V>& here) {
   return hn::Mul(hn::NegMulAdd(hn::Set(d, f.radius), here.level, ray.rho), here.flatness);
 }
 
-// Where there is one: ahead of the centre, and the surface too.
+// Returns true where the potential exists: the point and the surface lie ahead of the centre.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> HasPotential(D d, const CapRay<V>& ray, const CapLevel<V>& here) {
   using T = hn::TFromD<D>;
@@ -133,15 +133,15 @@ HWY_INLINE hn::Mask<D> HasPotential(D d, const CapRay<V>& ray, const CapLevel<V>
                  hn::Gt(here.level, hn::Set(d, static_cast<T>(kLeastLevel))));
 }
 
-// The unit vector along the ray.
+// Returns the unit vector along the ray.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Lanes3<V> DirectionOf(D d, const CapRay<V>& ray) {
   const V inverse = hn::Div(hn::Set(d, hn::TFromD<D>(1)), ray.rho);
   return {hn::Mul(ray.x, inverse), hn::Mul(ray.y, inverse), hn::Mul(ray.z, inverse)};
 }
 
-// The unit normal of the surface in the direction u, along the cap's axes: u - grad_u r / r, where
-// the tangents of the plane's axes are e_i - s_i (u + e_3).
+// Returns the surface's unit normal in the direction u, along the cap's axes:
+// u - grad_u r / r. The tangents of the plane's axes are e_i - s_i (u + e_3).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Lanes3<V> NormalOf(D d, const Lanes3<V>& u, const OpenedPlace<V>& place,
                               const CapLevel<V>& here) {

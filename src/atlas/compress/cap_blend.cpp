@@ -10,7 +10,7 @@
 namespace rholm {
 namespace {
 
-// Of all points with s < 1 about the seed.
+// Returns a radius around the seed that contains all points with s < 1.
 double reach(const Cap& cap) {
   const CapSupport& where = cap.where;
   return std::hypot(std::hypot(where.px, where.py) + longer_half_axis(where), cap.frame.support);
@@ -41,7 +41,7 @@ CapWeights weights_of(const Cap& cap, std::span<const double> coefficients, cons
   std::size_t kept = 0;
   for (std::size_t i = 0; i < within.size(); ++i) {
     const double part = distances[i] / band, in_band = 1 - part * part;
-    if (!(in_band > 0)) continue;  // also where the cap has no potential
+    if (!(in_band > 0)) continue;  // also skips points without a potential
     own.samples[kept++] = own.samples[i];
     own.weights.push_back(
         static_cast<float>(cap.weight * rests[i] * rests[i] * rests[i] * in_band * in_band));

@@ -1,5 +1,5 @@
-// How far the blend of an atlas is from samples of the surface, as the grid has it (method 7.5).
-// Layer: atlas.
+// Measures the distance of an atlas's blend from samples of the
+// surface, with the weights of the grid (method 7.5). Layer: atlas.
 #pragma once
 
 #include <cstdint>
@@ -21,20 +21,20 @@ struct CapWeights {
 
 struct Blend {
   std::vector<CapWeights> caps;
-  std::vector<double> weight, sum;  // per sample: sum of w, of w g
-  double rms = 0, max = 0;          // of the blended distance, over samples with a weight
-  std::size_t weightless = 0;       // samples without one
+  std::vector<double> weight, sum;  // sum of w and sum of w g per sample
+  double rms = 0, max = 0;          // error of the blended distance, over samples with a weight
+  std::size_t weightless = 0;       // number of samples without a weight
   double error(std::uint32_t sample) const { return sum[sample] / weight[sample]; }
   bool is_weightless(std::uint32_t sample) const { return !(weight[sample] > kLeastWeight); }
 };
 
-// Caps farther from a sample than `band` have no weight there.
-// `points` are in the order of the tree.
+// Computes a cap's weights; samples beyond `band` from the
+// cap have no weight. `points` are in the order of the tree.
 CapWeights weights_of(const Cap& cap, std::span<const double> coefficients, const PointTree& tree,
                       std::span<const Vec3> points, double band);
 Blend blend(const Atlas& atlas, const SampleLevel& samples, double band, const Context& context);
 
-// Weights that let small caps override large ones: (largest support / support)^power.
+// Sets weights (largest support / support)^power, so that small caps override large ones.
 void set_weights(std::span<Cap> caps, double power);
 
 }  // namespace rholm

@@ -13,34 +13,33 @@
 namespace rholm {
 namespace {
 
-constexpr double kOverlap = 1.3;  // radius of the fit over that of the support (method 7.8)
-// Of the rim of the fit: the even harmonics are those of a hemisphere, which it nearly fills. (The
-// full basis of small caps has no such bound; that of patches, which has a few odd ones besides, is
-// opened to 85 degrees: patch_cover.cpp.)
+constexpr double kOverlap = 1.3;  // radius of the fit over radius of the support (method 7.8)
+// Angle to which the fit's rim is opened: even harmonics live on a hemisphere, which
+// the fit nearly fills. (The full basis of small caps has no bound like this. Patches,
+// whose basis has some odd harmonics too, are opened to 85 degrees: patch_cover.cpp.)
 constexpr double kOpened = 88 * std::numbers::pi / 180;
 constexpr double kGradientWeight = 0.3;
-constexpr double kMiss = 4;          // tolerances: samples farther off are left to smaller caps
-constexpr double kMostMissed = 0.1;  // of the samples within the support
+constexpr double kMiss = 4;          // in tolerances; samples farther off are left to smaller caps
+constexpr double kMostMissed = 0.1;  // share of the samples within the support
 constexpr int kLeastDegree = 2;
 constexpr int kLowDegree = 7;
 constexpr double kHopeless = 0.3;
-// n . u of samples that belong to a cap: 78 degrees off the ray.
+// Least n . u of samples that belong to a cap: 78 degrees off the ray.
 constexpr double kFacing = 0.2;
-// Samples around a seed whose mean normal is a first axis.
+// Least cosine of the angle between a sample's normal and the seed's, to count for the axis.
 constexpr double kSameSide = 0.2;
 constexpr double kLeastProbes = 150, kMostProbes = 20000;
-constexpr double kAgree = -0.2;  // of normals: those of creases differ
-// Spacings of random samples across which there is none: less than once in 10^8 discs of that
-// radius.
+constexpr double kAgree = -0.2;  // least cosine of two normals; at creases normals differ
+// Radius, in spacings, of discs without random samples: they occur less than once in 10^8 discs.
 constexpr double kVoid = 2.5;
 
-// How much a sample counts at the square of its distance from the seed, the cosine of its lean left
-// out: its row's factor, so that the square of it is its weight. Not that of many small caps
-// (cap_seed.cpp), which falls faster: measured with it, igea and the Armadillo come out 1 % worse,
-// fandisk 5 %.
+// Returns the square root of a sample's weight at this squared
+// distance from the seed, without the cosine of the angle to the
+// ray. The weight of small caps (cap_seed.cpp) falls faster: with
+// it, igea and the Armadillo are 1 % worse, fandisk 5 %, measured.
 double rim_factor(double distance2, double fit2) { return 1.15 - distance2 / fit2; }
 
-// The patch around the seed that a centre below it sees from inside, as points to fit.
+// Gathers the patch around the seed that is visible from a centre below, as points to fit.
 CapFrame gather(const SampleLevels& samples, const CandidatePlace& place, double half_angle,
                 CandidateScratch& scratch) {
   const SampleLevel& level = *place.level;
@@ -69,11 +68,11 @@ CapFrame gather(const SampleLevels& samples, const CandidatePlace& place, double
 
 struct Misses {
   std::size_t within = 0, missed = 0;
-  double rms = 0;  // of those that are not missed
+  double rms = 0;  // rms over the samples that are not missed
 };
 
-// Distances of the samples within the support: the rows' residuals without rim_factor(), but with
-// the cosine, which makes distances along rays those from the surface.
+// Computes distances of the samples within the support: residuals without rim_factor().
+// They keep the cosine, which converts distances along rays to distances from the surface.
 Misses misses_of(const CapSystem& system, const CapFrame& frame, const CandidateOptions& options,
                  CandidateScratch& scratch) {
   const double* const rest = residuals(system, scratch.coefficients, false, scratch.fit);
@@ -104,22 +103,22 @@ bool good(const Misses& misses, double tolerance) {
          static_cast<double>(misses.missed) <= kMostMissed * static_cast<double>(misses.within);
 }
 
-// At the low degree: the high one has never been seen to make up for so many (0.3 is met in 2 of
-// 1000 cases; scripts/constants).
+// Applies at the low degree: no high degree was seen to recover from this
+// share of misses (0.3 occurs in 2 of 1000 cases; scripts/constants).
 bool hopeless(const Misses& misses) {
   return static_cast<double>(misses.missed) > kHopeless * static_cast<double>(misses.within);
 }
 
 struct Fitted {
-  int degree = 0;  // 0: none meets the tolerance
+  int degree = 0;  // 0: no degree meets the tolerance
   Misses misses;
 };
 
-// The least degree that meets the tolerance; its coefficients and distances stay in the scratch.
+// Finds the least degree within the tolerance; its coefficients and distances stay in scratch.
 Fitted fit_least_degree(const CapFrame& frame, const CandidateOptions& options,
                         CandidateScratch& scratch) {
   CapSystem system;
-  int last = 0;  // tried
+  int last = 0;  // last tried degree
   const auto try_degree = [&](int degree) {
     const std::size_t n = n_coefficients(CapBasis::kEven, degree);
     if (n > scratch.fit.factor.regular()) return Misses{};
@@ -127,9 +126,9 @@ Fitted fit_least_degree(const CapFrame& frame, const CandidateOptions& options,
     scratch.fit.factor.solve(n, scratch.coefficients);
     return misses_of(system, frame, options, scratch);
   };
-  // A matrix of low degree first: it costs a third, often does, and tells the hopeless.
-  int low = kLeastDegree - 1, high = 0;  // low misses, high meets
-  Misses best;                           // of the high
+  // A matrix of low degree comes first: it costs a third, often suffices, and shows hopeless fits.
+  int low = kLeastDegree - 1, high = 0;  // `low` fails, `high` meets the tolerance
+  Misses best;                           // misses at the degree `high`
   for (const int degree : {std::min(kLowDegree, options.max_degree), options.max_degree}) {
     system = system.n > 0 ? with_degree(system, degree, scratch.fit)
                           : make_system(frame, scratch.points,
@@ -159,8 +158,8 @@ Fitted fit_least_degree(const CapFrame& frame, const CandidateOptions& options,
   return {high, best};
 }
 
-// The highest degree that is worth more than a rival if all samples of the points count that are
-// within the support.
+// Returns the highest degree that would beat the rival
+// if all samples within the support were covered.
 int degree_worth_it(const CandidatePlace& place, double share, const Rival& rival,
                     const CandidateOptions& options, const CandidateScratch& scratch) {
   int degree = options.max_degree;
@@ -175,8 +174,8 @@ int degree_worth_it(const CandidatePlace& place, double share, const Rival& riva
   return degree;
 }
 
-// The samples within the support that are not missed; returns how far those within it are from the
-// plane of the seed.
+// Lists the samples within the support that are not missed. Returns the
+// largest distance of samples within the support from the seed's plane.
 double list_covered(const SampleLevel& level, const CapFrame& frame, double radius,
                     double tolerance, const CandidateScratch& scratch,
                     std::vector<std::uint32_t>& covered) {
@@ -244,7 +243,7 @@ bool make_candidate(const SampleLevels& samples, const CandidatePlace& place, do
   return !strays(samples, candidate.cap, candidate.coefficients, options.stray, radius, scratch);
 }
 
-// A sample's square is seen from its middle: half its diagonal.
+// A sample represents a square; the distance of its corner from its centre is half its diagonal.
 bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double> coefficients,
             double band, double spacing, CandidateScratch& scratch) {
   const CapFrame& f = cap.frame;
@@ -260,13 +259,13 @@ bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double>
   const std::span<double> values(scratch.surface);
   cap_surface(cap, coefficients, scratch.probes, values.first(3 * stride), values.last(3 * stride));
   const SampleLevel& level = samples.finest();
-  const double far = band + level.spacing;                   // of a sample, off the surface
-  const double wide = std::max(far, kVoid * level.spacing);  // and along it
+  const double far = band + level.spacing;                   // bound off the surface of a sample
+  const double wide = std::max(far, kVoid * level.spacing);  // bound along the surface
   CancelPoll poll;
   for (std::size_t k = 0; k < n; ++k) {
     poll();
     const Vec3 at{values[k], values[stride + k], values[2 * stride + k]};
-    if (!(dot(at, at) <= f.support * f.support)) continue;  // also behind the centre
+    if (!(dot(at, at) <= f.support * f.support)) continue;  // also skips points behind the centre
     const double* const across = &values[3 * stride + k];
     Neighbor near{};
     if (!level.tree.nearest_within(f.seed() + at, wide, near)) return true;

@@ -10,19 +10,20 @@
 namespace rholm {
 namespace {
 
-constexpr double kLadder = 1.3;     // of supports (method 7.8)
-constexpr std::size_t kBatch = 12;  // seeds at a time, each with memory of its own
-// After each cap; numbers scatter by 4 % with the seeds (scripts/constants): with 12 they are 2 %
-// fewer in the mean, for a quarter of the time more.
+constexpr double kLadder = 1.3;     // ratio of supports (method 7.8)
+constexpr std::size_t kBatch = 12;  // seeds per batch, each with its own memory
+// Number of seeds at first, and after each cap. Results scatter by 4 % with the seeds
+// (scripts/constants). With 12 after each cap they are 2 % smaller on average, for a quarter more
+// time.
 constexpr std::size_t kFirstSeeds = 256, kMoreSeeds = 6;
-// Caps that tell how many there will be.
+// Number of caps from which the total is estimated.
 constexpr std::size_t kTelling = 20;
 constexpr double kHalfAngles[] = {30 * std::numbers::pi / 180, 15 * std::numbers::pi / 180};
 
 struct Entry {
   Candidate candidate;
   std::uint32_t seed = 0;
-  double gain = 0;  // samples, when last counted
+  double gain = 0;  // number of samples, when last counted
   double value() const { return gain / static_cast<double>(candidate.cost()); }
 };
 
@@ -63,9 +64,9 @@ class Greedy {
     return static_cast<double>(left_) / static_cast<double>(samples_.size());
   }
 
-  // Whether all caps will take more numbers than allowed, which the cover then says. Foreseen are
-  // those of the caps chosen, and once these are enough to tell, as many for each of the samples
-  // left: the dearest are left to the end, so it will be more.
+  // Returns true, and sets cover_.foreseen, if all caps will take more numbers than
+  // allowed. The estimate takes the chosen caps and, after kTelling caps, the same
+  // cost for each open sample. Costly samples come last, so the estimate is too low.
   bool too_many() {
     if (options_.most_numbers == 0) return false;
     double foreseen = static_cast<double>(numbers_);
@@ -77,7 +78,7 @@ class Greedy {
     return true;
   }
 
-  // Supports up from the middle of the ladder while they are good, or down until they are.
+  // Tries larger supports from the middle of the ladder while good, or smaller ones until good.
   void climb(std::uint32_t seed, CandidateScratch& scratch, std::vector<Entry>& found) const {
     const auto try_radius = [&](std::size_t r) {
       bool any = false;
@@ -136,7 +137,7 @@ class Greedy {
     }
   }
 
-  // Takes the best of the pool. Gains only fall, so a count that is still the best is right.
+  // Takes the best of the pool. Gains only fall, so a recounted best is the true best.
   bool accept() {
     const auto worse = [](const Entry& a, const Entry& b) { return a.value() < b.value(); };
     std::make_heap(pool_.begin(), pool_.end(), worse);
@@ -154,7 +155,7 @@ class Greedy {
       }
       if (strays(samples_, entry.candidate.cap, entry.candidate.coefficients,
                  options_.candidate.stray, options_.candidate.stray, scratch_)) {
-        continue;  // seen by more probes than before
+        continue;  // this check uses more probes
       }
       take(std::move(entry));
       return true;
@@ -183,10 +184,10 @@ class Greedy {
   const GreedyOptions& options_;
   const Context& context_;
   GreedyCover cover_;
-  std::vector<double> radii_;        // falling
-  std::size_t start_ = 3;            // where climbs begin
-  std::size_t open_ = 0, left_ = 0;  // samples not covered, at first and now
-  std::size_t numbers_ = 0;          // of the caps chosen
+  std::vector<double> radii_;        // supports in descending order
+  std::size_t start_ = 3;            // index where climbs begin
+  std::size_t open_ = 0, left_ = 0;  // number of uncovered samples, at first and now
+  std::size_t numbers_ = 0;          // numbers of the chosen caps
   std::uint64_t drawn_ = 0;
   std::vector<Entry> pool_;
   CandidateScratch scratch_;

@@ -1,4 +1,4 @@
-// Few large caps that cover a surface to a tolerance (method 7.8). Layer: atlas.
+// Covers a surface to a tolerance by a small number of large caps (method 7.8). Layer: atlas.
 #pragma once
 
 #include <vector>
@@ -12,24 +12,24 @@ namespace rholm {
 
 struct GreedyOptions {
   CandidateOptions candidate;
-  double largest = 0.35, smallest = 0.005;  // supports, of the diagonal
-  double uncovered = 0.002;                 // share of the samples that may be left
-  // Given up where the numbers of all caps would be more than this, as foreseen from those chosen;
-  // 0: never.
+  double largest = 0.35, smallest = 0.005;  // supports, as shares of the diagonal
+  double uncovered = 0.002;                 // share of the samples that may stay uncovered
+  // The cover stops if the numbers of all caps, estimated from
+  // the chosen caps, exceed this bound. 0 means no bound.
   std::size_t most_numbers = 0;
   std::uint64_t seed = 1;
 };
 
-// Caps of an atlas, with their weights, in the order they were chosen. The cap that costs fewest
-// numbers per newly covered sample wins.
+// Caps of an atlas, with their weights, in the order of choice. Each
+// choice is the cap with the fewest numbers per newly covered sample.
 struct GreedyCover {
   std::vector<Candidate> chosen;
-  std::vector<std::uint32_t> seeds;      // samples
-  std::vector<std::uint8_t> is_covered;  // samples
-  double uncovered = 1;                  // share
-  std::size_t foreseen = 0;              // numbers of all caps; 0 unless it was given up for them
+  std::vector<std::uint32_t> seeds;      // sample at each chosen cap's seed
+  std::vector<std::uint8_t> is_covered;  // 1 for covered samples
+  double uncovered = 1;                  // share of uncovered samples
+  std::size_t foreseen = 0;              // if > 0, numbers of all caps (estimated) that ended it
 };
-// Samples that are `covered` (one per sample) count as done.
+// Covers the samples; flagged samples in `covered` (one flag per sample) count as covered.
 GreedyCover greedy_cover(const SampleLevels& samples, double diagonal, const GreedyOptions& options,
                          std::vector<std::uint8_t> covered, const Context& context);
 

@@ -7,10 +7,10 @@
 namespace rholm {
 namespace {
 
-// Standard deviations of the disagreement of two caps that are averaged: nearly all.
+// Standard deviations of the difference of two averaged caps: covers nearly all differences.
 constexpr double kDisagree = 3;
 
-// rms over the cap of what the coefficients from `first` on make.
+// Returns the rms over the cap of the coefficients from `first` on.
 double lost(const Cap& cap, std::span<const double> coefficients, std::size_t first) {
   double sum = 0;
   for (std::size_t i = first; i < coefficients.size(); ++i)

@@ -1,15 +1,15 @@
-// An atlas of fewer degrees. Layer: atlas.
+// Reduces the degree of an atlas. Layer: atlas.
 #pragma once
 
 #include "rholm/atlas.h"
 
 namespace rholm {
 
-// The atlas without the coefficients above `degree`; caps then disagree, and the band within which
-// they are averaged grows with what they lose. What a cap loses is R_0 sqrt(sum c^2 / 4 pi) rms
-// over its opened hemisphere, on which its functions are orthogonal up to l + m odd.
+// Returns the atlas without coefficients above `degree`. Its caps differ, so the band in
+// which they are averaged grows with the loss. The loss of a cap is R_0 sqrt(sum c^2 / 4 pi)
+// rms over its opened hemisphere, where its functions are orthogonal except for odd l + m.
 Atlas at_degree(const Atlas& atlas, int degree);
-// That loss, rms over all caps by their area.
+// Returns this loss as the rms over all caps, weighted by area.
 double lost_at_degree(const Atlas& atlas, int degree);
 
 }  // namespace rholm

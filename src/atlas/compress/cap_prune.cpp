@@ -13,13 +13,13 @@
 
 namespace rholm {
 
-// The quadratic form of one cap's error over its coefficients, while some are dropped: the error
-// grows by c_i^2 / (M^-1)_ii when c_i becomes zero and the others make the best of it.
+// Quadratic form of one cap's error over its coefficients, while some are dropped.
+// If c_i becomes zero and the others adapt, the error grows by c_i^2 / (M^-1)_ii.
 struct CapForm {
-  std::vector<double> coefficients, inverse;  // M^-1 [n][n]
+  std::vector<double> coefficients, inverse;  // inverse: M^-1 [n][n]
   std::vector<std::uint8_t> kept;
-  double error = 0;  // with all coefficients
-  double worth = 1;  // of this cap's errors beside those of others
+  double error = 0;  // error with all coefficients
+  double worth = 1;  // weight of this cap's errors relative to other caps
   std::size_t n = 0;
 
   double price(std::size_t i) const {
@@ -39,7 +39,7 @@ struct CapForm {
   }
 };
 
-// For those coefficients; at first none, which no cap has.
+// Number of shrinks for these coefficients; initially empty, which matches no cap.
 struct CapShrink {
   std::vector<double> coefficients;
   int times = 0;
@@ -47,34 +47,34 @@ struct CapShrink {
 
 namespace {
 
-constexpr double kShrink = 0.94;  // of a support that its surface leaves
-constexpr int kMostShrinks = 8;   // to 0.6: what still strays then is closed and dropped later
-constexpr int kMostSteps = 5;     // to the budget
-// The blend's rms is a power of the budget, 1/2 if all errors were the caps' own, less where they
-// outvote one another (scripts/constants). Told by steps that change the budget by kTelling or
-// more, as logarithms: smaller ones change what caps are worth as much.
+constexpr double kShrink = 0.94;  // factor of a support whose surface leaves the samples
+constexpr int kMostShrinks = 8;   // shrinks to 0.6; surfaces that still leave are dropped later
+constexpr int kMostSteps = 5;     // iterations to the budget
+// The blend's rms is a power of the budget: 1/2 if caps' errors were independent, less where
+// caps outvote each other (scripts/constants). It is estimated from steps that change the
+// budget's logarithm by at least kTelling. In smaller steps, the caps' weights change as much.
 constexpr double kLeastPower = 0.25;
 constexpr double kTelling = 0.02;
-// A cap that is to shrink to less than 0.7 has lost coefficients that it needs: those it has are
-// dearer from then on. Chosen by scripts/atlas-figures: half as many shrinks take 6 % more numbers,
-// without a bound the caps at rims, as of ears, are cut to pieces.
+// A cap that would shrink below 0.7 has lost coefficients it needs; its coefficients cost
+// more from then on. Chosen by scripts/atlas-figures: half the number of shrinks takes 6 %
+// more numbers. Without a bound the caps at rims, for example of ears, become very small.
 constexpr int kFreeShrinks = 6;
 constexpr double kDearer = 4;
 
-// Fits a cap to the points it answers for; false if they do not tell its coefficients.
+// Fits a cap to its points; returns false if they do not determine its coefficients.
 bool fit_form(const Cap& cap, const CapPoints& points, int degree, CapForm& form) {
   CapFitScratch scratch;
   if (points.size() == 0) return false;
   const CapSystem system = make_system(cap.frame, points, share_fit(cap.basis, degree), scratch);
   if (!system.solvable) return false;
   form.n = scratch.factor.factor(scratch.matrix.data(), system.n, kFewPivot);
-  // Degrees as a whole.
+  // Only whole degrees are kept.
   while (degree > 0 && n_coefficients(cap.basis, degree) > form.n) --degree;
   form.n = std::min(form.n, n_coefficients(cap.basis, degree));
   scratch.factor.solve(form.n, form.coefficients);
   scratch.factor.invert(form.n, form.inverse);
   const double square = cap.frame.radius * cap.frame.radius;
-  for (double& x : form.inverse) x /= square;  // errors as lengths
+  for (double& x : form.inverse) x /= square;  // converts errors to lengths
   const double* const rest = residuals(system, form.coefficients, false, scratch);
   for (std::size_t i = 0; i < points.size(); ++i) form.error += rest[i] * rest[i];
   form.error *= square;
@@ -96,10 +96,10 @@ CapForm make_form(const Atlas& atlas, const Cap& cap, const CapPoints& points,
 }
 
 struct Drop {
-  double price = 0;  // squared error times the cap's worth
+  double price = 0;  // squared error times the cap's weight
   std::uint32_t cap = 0, coefficient = 0;
   bool operator<(const Drop& other) const {
-    if (price != other.price) return price > other.price;  // the cheapest on top
+    if (price != other.price) return price > other.price;  // the cheapest is on top
     if (cap != other.cap) return cap > other.cap;
     return coefficient > other.coefficient;
   }
@@ -115,7 +115,7 @@ Drop cheapest(const CapForm& form, std::uint32_t cap) {
   return drop;
 }
 
-// Drops the cheapest of all caps until the sum of errors would exceed `budget`; the last price.
+// Drops the cheapest coefficients until the error would exceed `budget`; returns the last price.
 double drop_until(double budget, std::vector<CapForm>& forms) {
   double error = 0, price = 0;
   std::priority_queue<Drop> queue;
@@ -138,7 +138,7 @@ double drop_until(double budget, std::vector<CapForm>& forms) {
   return price;
 }
 
-// The atlas with the coefficients of the forms, each cap of the least degree that holds them.
+// Returns the atlas with the forms' coefficients; each cap has the least sufficient degree.
 Atlas with_forms(const Atlas& atlas, const std::vector<CapForm>& forms) {
   Atlas result = atlas;
   result.coefficients.clear();
@@ -160,8 +160,8 @@ Atlas with_forms(const Atlas& atlas, const std::vector<CapForm>& forms) {
   return result;
 }
 
-// Supports shrink until their caps' surfaces do not leave the samples there. Most caps are as they
-// were at the last step.
+// Shrinks supports until the caps' surfaces do not leave the samples. Results are
+// reused for caps whose coefficients have not changed, which are the majority.
 void shrink_stray(const SampleLevels& samples, double stray, Atlas& atlas,
                   std::vector<CapShrink>& shrinks, const Context& context) {
   parallel_for(atlas.caps.size(), 16, context, {}, [&](std::size_t begin, std::size_t end) {
@@ -208,8 +208,8 @@ Pruning::Pruning(const SampleLevels& samples, const PruneOptions& options, const
 
 Pruning::~Pruning() = default;
 
-// The sum of errors bounds the blend's, which is measured: a few steps to the budget that uses up
-// the aim.
+// The sum of errors bounds the blend's error, which is measured.
+// The budget that uses up the aim is found iteratively.
 PruneReport Pruning::to(double aim, Atlas& pruned, const Context& context) {
   const SampleLevel& finest = samples_.finest();
   PruneReport report;

@@ -1,4 +1,4 @@
-// Coefficients of an atlas that its error can do without (method 7.8). Layer: atlas.
+// Drops coefficients of an atlas with little effect on its error (method 7.8). Layer: atlas.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 namespace rholm {
 
 struct PruneOptions {
-  double tolerance = 0;  // rms of the blend, the samples' unit
-  double band = 0;       // of the blend
+  double tolerance = 0;  // rms of the blend, in the samples' unit
+  double band = 0;       // band of the blend
   double stray = 0;      // supports shrink where a cap's surface is farther from all samples
-  int more_degrees = 2;  // fitted before pruning, so that coefficients go where they serve most
+  int more_degrees = 2;  // fitted before pruning, so that the best coefficients are kept
   int max_degree = 14;
 };
 
@@ -21,24 +21,24 @@ struct CapForm;    // the error of one cap as a function of its coefficients
 struct CapShrink;  // how often a cap shrank
 
 struct PruneReport {
-  double rms = 0;                // of the blend
-  std::size_t coefficients = 0;  // that are not zero
-  double price = 0;  // squared error, summed over samples, that the last one dropped cost
+  double rms = 0;                // rms error of the blend
+  std::size_t coefficients = 0;  // number of nonzero coefficients
+  double price = 0;  // squared error, summed over samples, of the last dropped coefficient
 };
 
-// Fits the coefficients of all caps anew, by their shares in the blend; then, to one aim or
-// several, sets to zero those that matter least until the blend's error is the aim, if the caps can
-// meet it (see rms). What is left is fitted once more, so that caps agree where they meet. Caps
-// lose the degrees that are all zero; supports shrink where caps stray. Refers to the samples.
+// Fits the coefficients of all caps again, by their shares in the blend. An aim is then met
+// by zeroing the least important ones until the blend's error is the aim, if possible (see
+// rms). The others are fitted again, so that caps agree where they meet. Degrees that are
+// all zero are removed; supports shrink where caps leave the samples. Refers to the samples.
 class Pruning {
  public:
-  // `options.tolerance` is the scale of what caps miss; aims are near it.
+  // `options.tolerance` is the scale of the caps' errors; aims are near it.
   Pruning(const SampleLevels& samples, const PruneOptions& options, const Atlas& atlas,
           const Context& context);
   ~Pruning();
   Pruning(const Pruning&) = delete;
   Pruning& operator=(const Pruning&) = delete;
-  // Aims that come later begin with what was learnt from those before.
+  // Later aims start from the results of earlier ones.
   PruneReport to(double aim, Atlas& pruned, const Context& context);
 
  private:
@@ -46,13 +46,13 @@ class Pruning {
   PruneOptions options_;
   Atlas atlas_;
   std::vector<CapForm> forms_;
-  std::vector<CapShrink> shrinks_;  // last
-  std::vector<double> worth_;       // of caps' errors beside those of others
-  // What caps may miss in all, squared, the blend's rms with it, and the power of it that that is.
+  std::vector<CapShrink> shrinks_;  // last shrinks of each cap
+  std::vector<double> worth_;       // weight of a cap's errors relative to other caps
+  // Allowed sum of squared errors, the blend's rms with it, and the exponent between both.
   double budget_ = 0, reached_ = 0, power_ = 0.5;
 };
 
-// The number of coefficients that are not zero.
+// Returns the number of coefficients that are not zero.
 std::size_t n_kept(const Atlas& atlas);
 
 }  // namespace rholm

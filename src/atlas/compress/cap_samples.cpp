@@ -9,8 +9,8 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kFewestSamples = 1000;  // of a level: fewer say little about a surface
-constexpr std::size_t kProbes = 500;          // points that the spacing is measured at
+constexpr std::size_t kFewestSamples = 1000;  // per level; fewer samples describe a surface badly
+constexpr std::size_t kProbes = 500;          // points at which the spacing is measured
 
 void find_neighbors(SampleLevel& level, const Context& context) {
   const std::size_t n = level.points.size();
@@ -26,7 +26,7 @@ void find_neighbors(SampleLevel& level, const Context& context) {
   });
 }
 
-// From the discs that hold the neighbours: pi d^2 = k s^2.
+// Computes the spacing s from discs of k neighbours: pi d^2 = k s^2.
 double spacing_of(const SampleLevel& level) {
   std::vector<double> areas;
   std::vector<Neighbor> found;
@@ -61,7 +61,7 @@ SampleLevels make_levels(std::span<const Vec3> points, std::span<const Vec3> nor
   std::vector<std::uint32_t> base(points.size());
   for (std::size_t i = 0; i < base.size(); ++i) base[i] = static_cast<std::uint32_t>(i);
   levels.levels.push_back(make_level(points, normals, base, context));
-  // Indices of the finest level are those of its tree.
+  // Indices of the finest level follow the order of its tree.
   std::vector<std::uint32_t> place(points.size());
   const auto order = levels.finest().tree.order();
   for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<std::uint32_t>(i);

@@ -1,4 +1,4 @@
-// Samples of a surface in several densities, and connected pieces of them. Layer: atlas.
+// Samples of a surface in several densities, and connected patches of them. Layer: atlas.
 #pragma once
 
 #include <cstddef>
@@ -13,24 +13,24 @@
 
 namespace rholm {
 
-// Every sample stands for the same area; normals have length 1.
+// Each sample represents the same area; normals have length 1.
 struct SampleLevel {
   PointTree tree;
-  std::vector<Vec3> points, normals;  // in the order of the tree
-  std::vector<std::uint32_t> base;    // index of each in the finest level
-  std::vector<std::uint32_t> near;    // kSampleNeighbors of each
+  std::vector<Vec3> points, normals;  // samples in the order of the tree
+  std::vector<std::uint32_t> base;    // index of each sample in the finest level
+  std::vector<std::uint32_t> near;    // kSampleNeighbors per sample
   double spacing = 0;                 // side of a square with the area of a sample
 };
 
 inline constexpr std::size_t kSampleNeighbors = 8;
 
-// Level 0 has all samples, each further one a quarter, evenly: samples must come in an order in
-// which every fourth one does justice to the surface.
+// Level 0 has all samples; each further level has an even quarter of the previous one.
+// Samples must come in an order in which every fourth one represents the surface.
 struct SampleLevels {
   std::vector<std::unique_ptr<SampleLevel>> levels;
   std::size_t size() const { return levels.front()->points.size(); }
   const SampleLevel& finest() const { return *levels.front(); }
-  // The densest level with at most about `most` samples on a disc of that radius.
+  // Returns the densest level with at most about `most` samples on a disc of this radius.
   const SampleLevel& level_for(double radius, std::size_t most) const;
 };
 SampleLevels make_levels(std::span<const Vec3> points, std::span<const Vec3> normals,
@@ -39,7 +39,7 @@ SampleLevels make_levels(std::span<const Vec3> points, std::span<const Vec3> nor
 // Memory of searches over neighbours, one per thread.
 class PatchSearch {
  public:
-  // Samples connected to `start` through samples that `accept(index)` takes.
+  // Returns samples connected to `start` through samples for which `accept(index)` is true.
   template <class Accept>
   std::span<const std::uint32_t> grow(const SampleLevel& level, std::uint32_t start,
                                       const Accept& accept) {

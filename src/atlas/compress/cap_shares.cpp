@@ -12,26 +12,26 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kMostSamples = 6000;  // of a fit; of more every second, third ... is taken
-// Least share in the blend that a sample counts with, where the cap is not overridden: so that it
-// stays defined where others outweigh it.
+constexpr std::size_t kMostSamples = 6000;  // per fit; of more, every second, third ... is taken
+// Least share in the blend with which a sample counts, where the cap is
+// not overridden, so that the cap stays defined where others outweigh it.
 constexpr double kLeastShare = 0.02;
-// The same where it is overridden, or misses: there it must not stray, but may be wrong.
+// Least share where the cap misses the sample: there it may be wrong, but must stay near.
 constexpr double kMissedShare = 0.003;
-constexpr double kMissed = 4;  // tolerances
-// And for its own surface where it may have no samples: chosen, ten times more costs 1 % of the
-// coefficients, ten times less lets a third of the caps stray.
+constexpr double kMissed = 4;  // in tolerances
+// Weight of a cap's own surface where samples may be missing. Chosen: ten times more costs
+// 1 % of the coefficients; with ten times less, a third of the caps leave the samples.
 constexpr double kOwnShare = 0.03;
 constexpr double kGradientWeight = 0.1;
 
-// Tolerances that a ledge of slope 1 counts as. Chosen by scripts/atlas-figures: one of 5 degrees
-// then counts as an error of a tolerance; 20 takes 3 % more numbers, for a fifth fewer badly turned
-// normals on a bunny and no fewer on the Armadillo.
+// Tolerances that equal a ledge of slope 1. Chosen by scripts/atlas-figures: a ledge
+// of 5 degrees then counts as one tolerance. A value of 20 takes 3 % more numbers.
+// It leaves a fifth fewer wrong normals on a bunny, and no fewer on the Armadillo.
 constexpr double kLedge = 12;
-// Of shares: where supports end between two samples, slopes have no bound.
+// Largest weight of a ledge, in shares: slopes are unbounded where a support ends between samples.
 constexpr double kMostLedge = 10;
 
-// grad w along the surface; of its factors the one of the place, (1 - s^2)^3.
+// Returns grad w along the surface; only the factor (1 - s^2)^3 of the position is used.
 Vec3 weight_slope(const Cap& cap, double weight, const Vec3& at, const Vec3& normal) {
   const Vec3 offset = at - cap.frame.seed();
   const double rest = 1 - place(cap, offset);
@@ -40,7 +40,7 @@ Vec3 weight_slope(const Cap& cap, double weight, const Vec3& at, const Vec3& nor
   return slope - dot(slope, normal) * normal;
 }
 
-// Points of a sunflower, carried along the rays.
+// Adds points of a sunflower pattern, carried along the rays to the cap's surface.
 void add_own_surface(const Cap& cap, std::span<const double> coefficients, double spacing,
                      CapPoints& points) {
   const CapFrame& f = cap.frame;
@@ -57,15 +57,15 @@ void add_own_surface(const Cap& cap, std::span<const double> coefficients, doubl
     const Vec3 normal{across[k], across[stride + k], across[2 * stride + k]};
     const Vec3 ray = offset + f.radius * f.z;
     const double cosine = dot(normal, ray) / norm(ray);
-    if (!(cosine > 0.1)) continue;  // also where there is none
+    if (!(cosine > 0.1)) continue;  // also skips rays without a surface
     points.add(offset, normal, kOwnShare * cosine * cosine * samples / static_cast<double>(n));
   }
 }
 
-// The equations of some coefficients alone, solved; false if they are singular.
+// Solves the equations of some coefficients alone; returns false if they are singular.
 bool solve_some(const CapSystem& system, const std::vector<std::size_t>& some,
                 CapFitScratch& scratch, std::vector<double>& solution) {
-  std::vector<std::size_t> rows = {0};  // the right-hand side
+  std::vector<std::size_t> rows = {0};  // row 0 is the right-hand side
   for (const std::size_t i : some) rows.push_back(1 + i);
   const std::size_t n = some.size(), stride = n + 1;
   std::vector<double> block(stride * stride);
@@ -79,7 +79,7 @@ bool solve_some(const CapSystem& system, const std::vector<std::size_t>& some,
   return true;
 }
 
-// Fits one cap anew: what is not zero, or all.
+// Fits one cap again: its nonzero coefficients, or all.
 void refit(const Cap& cap, const CapPoints& points, bool all, std::span<double> coefficients) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < coefficients.size(); ++i) {
@@ -169,7 +169,7 @@ void share_points(const Atlas& atlas, std::size_t index, std::span<const double>
     const double share =
         std::max(own.weights[i] / shares.blend.weight[s], missed ? kMissedShare : kLeastShare);
     const double meets = std::min(kMostLedge, ledge2 * shares.slopes[index][i]);
-    // Of two squares, share e^2 and meets (e - G)^2, the mean.
+    // The mean that minimises share e^2 + meets (e - G)^2.
     const double moved = weights.agree ? meets / (share + meets) * shares.blend.error(s) : 0;
     const Vec3 at = samples.points[s] - moved * samples.normals[s];
     const Vec3 ray = at - f.center;

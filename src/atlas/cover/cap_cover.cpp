@@ -15,46 +15,47 @@
 namespace rholm {
 namespace {
 
-// Seeds are chosen within blocks of so many points, so that blocks can be worked on at once; at
-// their borders a cap too many here and there.
+// Number of points per block. Seeds are chosen within blocks, so that
+// blocks run in parallel. At their borders some caps are superfluous.
 constexpr std::size_t kBlock = 4096;
 
-// A fit is good when its residuals are below this part of the support (method 7.4), or of the
-// noise.
-// On sharp edges (scripts/constants): 0.01 and 0.02 leave more of them round or horned, below 0.01
-// good points of rough shapes look like outliers.
+// A fit is good if its residuals are below this part of the support
+// (method 7.4), or of the noise. On sharp edges (scripts/constants),
+// 0.01 and 0.02 leave more edges round or horned. Below 0.01 good
+// points of rough shapes are classed as outliers.
 constexpr double kGoodFit = 0.014;
-constexpr double kGoodNoise = 1.12;  // method 7.11
+constexpr double kGoodNoise = 1.12;  // see method 7.11
 constexpr double kGoodShare = 0.85;
 constexpr double kShrink = 0.65;
 constexpr double kAlone = 0.7;
-// The last resort, of the fewest points: what is worse is no surface.
+// Bound of the last resort with the fewest points; a worse fit is no surface.
 constexpr double kAnyFit = 0.1;
 constexpr double kAnyNoise = 2;
-// A cap's own residuals are part of the error only, and grow to the next size by about as much.
+// The residuals of a cap are only a part of the error, and grow by about kGrow per size.
 constexpr double kOfTolerance = 0.5;
 constexpr double kGrow = 1.6;
 constexpr std::size_t kMost = 4000;  // points of a cap of low degree
 constexpr std::size_t kFewest = 8;   // points: 24 rows for 16 unknowns and a penalty
-// Among so many times as many of the nearest points the cap's own sheet is looked for where there
-// are too few of it. With 2 more is wrong of blades of half a spacing and of one (1.1 and 1.3
-// instead of 1.0 and 0.8 %), 4 is no better (scripts/scan-limits --thin).
+// A cap with too few points of its own sheet is searched for in this multiple of
+// nearest points. With 2, more is wrong on blades of half a spacing and of one (1.1
+// and 1.3 instead of 1.0 and 0.8 %). 4 is no better (scripts/scan-limits --thin).
 constexpr std::size_t kFarther = 3;
-// Of 24 random points of a disc the third nearest is nearer than a tenth of the farthest twice in
-// a thousand times.
+// The third nearest of 24 random points in a disc is within a
+// tenth of the farthest distance in two of a thousand cases.
 constexpr std::size_t kInner = 3;
 constexpr double kClose = 0.1;
-// Residuals of this part of the support halve the weight of a cap: a crease or a fold is left to
-// caps that do not see it. From 0.001 to 0.01 all are alike (scripts/constants).
+// Residuals of this part of the support halve a cap's weight; a crease or a fold is left
+// to caps without it. From 0.001 to 0.01 all values work equally well (scripts/constants).
 constexpr double kTrusted = 0.002;
-// Caps of noisy points count by this power of the number of their points. With 1, their variance,
-// small ones still make spikes at tips, where few others contribute; 2 and 3 are alike.
+// The weight of a noisy cap is this power of its number of points. With 1 (their variance),
+// small caps still make spikes at tips, where few others contribute. 2 and 3 are equally good.
 constexpr double kTrustInPoints = 2;
-// Points in the support of the cap.
+// Least cosine between a point's normal and the cap's axis, to count as covered.
 constexpr double kCovered = 0.7;
 
-// Whether the points of a cap fill its disc. Along a line, or in two places far apart, they leave
-// open what lies between: needles, and ridges thinner than the spacing, have such caps.
+// Returns true if the points of a cap fill its disc. Points along a line, or in two distant groups,
+// leave the space between open. Caps of needles, and of ridges thinner than the spacing, do not
+// fill their discs.
 bool fills_disc(const Cap& cap, std::size_t k, std::size_t inner, const CapWorker& worker) {
   const double inner2 = worker.near[std::min(inner, k - 1)].distance2;
   if (inner2 < kClose * kClose * worker.near[k - 1].distance2) return false;
@@ -70,7 +71,7 @@ bool is_trusted(const CapFit& fit, double support) {
   return fit.usable >= kGoodShare && fit.rms <= kTrusted * support;
 }
 
-// The cap of the k nearest points; false if there is none.
+// Fits a cap to the k nearest points; returns false if the fit fails.
 bool fit_nearest(const OrderedPoints& all, std::size_t seed, std::size_t k, CapSide side,
                  const CoverOptions& options, CapWorker& worker, Cap& cap) {
   const double support = std::sqrt(static_cast<double>(worker.near[k - 1].distance2));
@@ -81,8 +82,8 @@ bool fit_nearest(const OrderedPoints& all, std::size_t seed, std::size_t k, CapS
   return fit_cap(cap.frame, worker.points, wanted, worker.scratch, worker.fit);
 }
 
-// Larger caps while they keep the tolerance; worker.fit and worker.points are those of the last
-// good one.
+// Grows the cap while it meets the tolerance. worker.fit
+// and worker.points belong to the last good cap.
 void grow_cap(const OrderedPoints& all, std::size_t seed, std::size_t k,
               const CoverOptions& options, CapWorker& worker, Cap& cap) {
   const double allowed = kOfTolerance * options.tolerance;
@@ -100,8 +101,8 @@ void grow_cap(const OrderedPoints& all, std::size_t seed, std::size_t k,
   }
 }
 
-// Where another sheet is among the k nearest points: a cap of as many of its own. Only where that
-// costs nothing, while it fits as well as any that is trusted.
+// If another sheet is among the k nearest points, fits a cap to k points of the
+// seed's own sheet. The cap is kept only if it fits as well as a trusted cap.
 void reach_farther(const OrderedPoints& all, std::size_t seed, std::size_t k,
                    const CoverOptions& options, CapWorker& worker, Cap& cap) {
   if (worker.points.size() >= k) return;
@@ -117,8 +118,8 @@ void reach_farther(const OrderedPoints& all, std::size_t seed, std::size_t k,
   }
 }
 
-// Good caps of all of the seed's sheet may be larger: while the tolerance allows it, or where
-// another sheet has taken the place of points.
+// Enlarges a good cap of the seed's sheet, while the tolerance
+// allows it, or if points of another sheet reduced its number.
 void enlarge_cap(const OrderedPoints& all, std::size_t seed, std::size_t k, bool is_largest,
                  const CoverOptions& options, CapWorker& worker, Cap& cap) {
   if (options.tolerance > 0) {
@@ -128,13 +129,13 @@ void enlarge_cap(const OrderedPoints& all, std::size_t seed, std::size_t k, bool
   }
 }
 
-// Whether a point is alone amid a surface's gap: of 24 random points 12 lie nearer than 0.7 of the
-// farthest, and fewer than two others once in ten thousand times.
+// Returns true if a point is isolated within a gap. Among 24 random points, 12 lie nearer
+// than 0.7 of the farthest; fewer than two others do so once in ten thousand cases.
 bool is_isolated(const std::vector<Neighbor>& near, std::size_t third) {
   return near.size() > third + 1 && near[third].distance2 > kAlone * kAlone * near.back().distance2;
 }
 
-// The largest good cap around a point.
+// Finds the largest good cap around a point.
 bool make_cap(const OrderedPoints& all, std::size_t seed, const CoverOptions& options,
               CapWorker& worker, Cap& cap) {
   worker.middle = all.points[seed];
@@ -152,7 +153,7 @@ bool make_cap(const OrderedPoints& all, std::size_t seed, const CoverOptions& op
       enlarge_cap(all, seed, k, k == wanted, options, worker, cap);
       return true;
     }
-    // Perhaps there is a crease: one of its sides alone, where normals can tell.
+    // If there is a crease, one of its faces alone may fit; normals distinguish the faces.
     if (options.noise == 0) {
       fitted = fit_nearest(all, seed, k, CapSide::kFace, options, worker, cap);
       if (fitted && full && worker.points.size() >= fewest && good(worker.fit, support, options))
@@ -166,14 +167,14 @@ bool make_cap(const OrderedPoints& all, std::size_t seed, const CoverOptions& op
   return false;
 }
 
-// What is known of a cap once it is fitted.
+// Sets the properties of a fitted cap.
 void describe_cap(const CoverOptions& options, std::size_t wanted, const CapWorker& worker,
                   Cap& cap) {
   cap.degree = static_cast<std::uint16_t>(options.degree);
   cap.error = worker.fit.rms;
   cap.deviation = worker.fit.deviation;
   cap.where = ellipse_of(cap.frame, moments_of(cap.frame, worker.points));
-  // Noise is no fault of the cap's.
+  // Noise does not reduce the weight of a cap.
   const double noise = kGoodNoise * options.noise;
   const double excess = std::sqrt(std::max(0.0, worker.fit.rms * worker.fit.rms - noise * noise));
   const double part = excess / (kTrusted * cap.frame.support);
@@ -183,7 +184,7 @@ void describe_cap(const CoverOptions& options, std::size_t wanted, const CapWork
   cap.weight *= std::pow(std::min(1.0, share), kTrustInPoints);
 }
 
-// Marks what is in the support of the cap within a block of points; returns how many are new.
+// Marks the points of a block in the cap's support; returns the number of new ones.
 std::size_t mark(const OrderedPoints& all, const Cap& cap, std::size_t seed, std::size_t begin,
                  double core, const CapWorker& worker, std::vector<std::uint8_t>& covered) {
   std::size_t n_new = 1;

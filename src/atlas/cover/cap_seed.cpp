@@ -6,21 +6,21 @@
 namespace rholm {
 namespace {
 
-// Half of the angle of a right edge.
+// Cosine of half the angle of a right edge.
 constexpr double kSameFace = 0.7;
-// The mean is of so many nearest points: one sheet, and enough to average noisy normals.
+// Number of nearest points in the mean: on one sheet, and enough to average noisy normals.
 constexpr std::size_t kMeanOf = 12;
-// Part of the neighbours that show where the sheet is. Measured on noisy bodies: an eighth leaves
-// more noise, a half moves seeds inwards where the sheet is bent.
+// Share of the neighbours that determine the sheet's height. Measured on noisy bodies:
+// an eighth leaves more noise, a half moves seeds inwards where the sheet is curved.
 constexpr double kSettledBy = 0.25;
 
-// Falls faster than that of few large caps, which do worse with this one (cap_candidate.cpp).
+// Falls faster than the weight of large caps, which do worse with this one (cap_candidate.cpp).
 double value_weight(double d2, double support2) {
   const double rest = std::max(0.0, 1 - d2 / support2);
-  return rest * rest + 0.01;  // method 7.4
+  return rest * rest + 0.01;  // see method 7.4
 }
 
-// The direction that most of the nearest normals share with the seed's own.
+// Returns the mean of the nearest normals that agree with the seed's own.
 Vec3 sheet_normal(const OrderedPoints& all, std::size_t seed, const CapWorker& worker) {
   const Vec3& own = all.normals[seed];
   Vec3 sum = own;

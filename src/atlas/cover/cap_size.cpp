@@ -17,54 +17,54 @@ struct Trial {
   double slope_error = 1, rms = 0, level_rms = 0, slope_rms = 0, support = 0, own = 1;
 };
 
-// Seeds of a trial: the mean of their errors is then known to a few hundredths. Where points are
-// noisy sizes differ by less.
+// Number of seeds of a trial: the mean of their errors is then known to some
+// hundredths. Noisy points need more, because their sizes differ by less.
 constexpr std::size_t kSeeds = 400, kSeedsNoisy = 800;
-// Numbers of points that are tried, method 7.11; the smallest gives 72 equations for 16 unknowns.
+// Range of tried numbers of points (method 7.11); the least gives 72 equations, 16 unknowns.
 constexpr std::size_t kFewest = 24, kMost = 4000;
 constexpr double kLadder = 1.5;
-// Part of the seeds that counts, those with the least errors: seeds may be outliers, or on creases.
+// Share of seeds that counts, with the least errors; others may be outliers, or on creases.
 constexpr double kCounted = 0.8;
 constexpr double kClearlyBetter = 0.8;
-// Errors of a plane fall with k for ever: caps do not grow beyond other sheets once slopes are off
-// by less than this, and points by less than this part of the support, as residuals of caps that
-// are trusted (cap_cover.cpp). Of bodies of half a spacing (scripts/scan-limits --thin) up to twice
-// as much is wrong with 0.001, though less of boxes of two (0.1 instead of 0.8 %), and with 0 five
-// times as much of blades.
+// Errors of a plane decrease with k without end. Caps do not grow beyond other sheets
+// once slopes are off by less than this bound, and points by less than this part of the
+// support. Residuals of trusted caps have the same bound (cap_cover.cpp). Bodies of
+// half a spacing (scripts/scan-limits --thin) have up to twice the errors with 0.001,
+// boxes of two fewer (0.1 instead of 0.8 %). With 0, blades have five times the errors.
 constexpr double kExact = 0.002;
-// Other sheets are there if less than this share of the points around is on the own one. Chosen:
-// where they are not, hardly a point faces the other way.
+// Other sheets exist if less than this share of the nearby points is on the seed's
+// own sheet. Chosen: without other sheets hardly any point has an opposite normal.
 constexpr double kOneSheet = 0.9;
-// Trials end when errors have grown by this factor, of noisy points clearly.
+// Trials end when errors grow by this factor; for noisy points the factor is smaller.
 constexpr double kGrown = 1.15, kGrownNoisy = 1.05;
-// Errors of noisy points hardly change between two sizes near the best, and which of them is the
-// least is chance: so the lowest point of a parabola in log k through all that are within this
-// factor of it.
+// Errors of noisy points hardly change between sizes near the best, so
+// the least error is random. Instead, the minimum of a parabola in log
+// k is taken, through all errors within this factor of the least one.
 constexpr double kNearBest = 1.1;
-// Normals count for so much more than by their residuals, which creases enlarge (method 7.11).
+// Normals count this much more than their residuals suggest; creases enlarge these (method 7.11).
 constexpr double kNormalsFavoured = 1.6;
-// Those computed from the points know nothing more than these: on clean points
-// (scripts/scan-figures) distances fall by 5 % to a half from 1.6 to 0.2, and are the same with
-// 0.1. With noise they hold many points together: 0.2 is worse by a half.
+// Factor for normals computed from the points, which carry no further information. On clean
+// points (scripts/scan-figures) distances fall by 5 % to a half from 1.6 to 0.2, and are
+// equal with 0.1. With noise these normals average many points: 0.2 is worse by a half.
 constexpr double kComputedFavoured = 0.2;
-// Clean normals that caps are off by more than this (median) turn within a cap by more than it can
-// show: they say what it cannot be, and count less, the more so the farther off. Of 72 inputs with
-// true normals (scripts/scan-figures --inputs 1k,3k --seeds 1,2,3) 61 have the right parts and
-// handles without, 66 from 10 degrees on, 67 from 8, 68 from 6; 4 is no better.
+// Median angle between clean normals and their caps above which normals count less, in proportion.
+// At larger angles the normals turn within a cap by more than it can represent. Without the rule,
+// 61 of 72 inputs with true normals (scripts/scan-figures --inputs 1k,3k --seeds 1,2,3) have the
+// right parts and handles. With it 66 have them at 10 degrees, 67 at 8, 68 at 6; 4 is no better.
 constexpr double kTurned = 6 * std::numbers::pi / 180;
-// Residuals of the smallest caps are noise from this part of their support on: no shape that caps
-// can show has as much. Below the other they are of no account (a fit of cap_cover.cpp is good).
+// Residuals of the smallest caps above this part of their support are noise: no shape that caps
+// can represent has as much. Below kNoticed they are negligible (a good fit in cap_cover.cpp).
 constexpr double kSurelyNoise = 0.1;
 constexpr double kNoticed = 0.02;
-// Between, they are noise if they do not grow with the caps: with the power 0.2 ... 0.5 of the
-// support those of noise do, since small fits follow it, with 1 those of creases, with 1.4 ... 3
-// those of whole shapes; between caps of k and of 9/4 k points (scripts/constants).
+// In between, residuals are noise if they grow with the support by less than this power,
+// between caps of k and of 9/4 k points. Noise grows with 0.2 ... 0.5, since small fits
+// follow it, creases with 1, whole shapes with 1.4 ... 3 (scripts/constants).
 constexpr double kShapeGrows = 0.85;
 constexpr double kWide = 2.25;
 
-// Slopes on the opened sphere are those of the surface over the dilation a, over 1 + t^2 more at
-// t = s tan(kOpened / 2), s the part of the support from the seed: with the weights of
-// take_points() over a disc the mean square of (1 + t^2) is 1 + 2/3 0.257 + 1/9 0.107.
+// Slopes on the opened sphere are the surface's slopes over the dilation a, and over 1 + t^2 at t
+// = s tan(kOpened / 2). Here s is the distance from the seed over the support. With the weights
+// of take_points(), the mean square of (1 + t^2) over a disc is 1 + 2/3 0.257 + 1/9 0.107.
 constexpr double kSlopesGrow = 1.088;
 
 double median(std::vector<double>& values) {
@@ -103,7 +103,7 @@ bool is_exact(const CapSizeTrial& trial) {
          trial.rms < kExact * trial.support;
 }
 
-// Whether the residuals of the smallest caps are noise and not shape.
+// Returns true if the residuals of the smallest caps are noise, not shape.
 bool is_noise(const OrderedPoints& points, const CapSizeTrial& first, int degree, double weight,
               const Context& context) {
   if (!(first.rms > kNoticed * first.support)) return false;
@@ -116,7 +116,7 @@ bool is_noise(const OrderedPoints& points, const CapSizeTrial& first, int degree
 }  // namespace
 
 double least_of_parabola(std::span<const double> x, std::span<const double> y) {
-  // y = c0 + c1 t + c2 t^2 with t = x - mean(x): normal equations of the centred t and t^2.
+  // Fits y = c0 + c1 t + c2 t^2, t = x - mean(x), by normal equations of centred t and t^2.
   const auto n = static_cast<double>(x.size());
   double mean = 0, mean_y = 0;
   for (std::size_t i = 0; i < x.size(); ++i) mean += x[i] / n, mean_y += y[i] / n;
@@ -135,7 +135,7 @@ double least_of_parabola(std::span<const double> x, std::span<const double> y) {
 
 namespace {
 
-// The best number of points by all trials; 0 if they do not show one.
+// Returns the best number of points by all trials, or 0 if the trials do not determine one.
 std::size_t steady_size(std::span<const CapSizeTrial> trials, double least) {
   std::vector<double> sizes, errors;
   for (const CapSizeTrial& trial : trials) {
@@ -195,7 +195,7 @@ CapSize choose_cap_size(const OrderedPoints& points, int degree, const Context& 
     if (trial.slope_rms > 0) weight = kNormalsFavoured * trial.level_rms / trial.slope_rms;
     if (chosen.neighbours == 0) noisy = is_noise(points, trial, degree, weight, context);
     if (!noisy && is_exact(chosen) && trial.own < kOneSheet) break;
-    // Clean points show no minimum: only a clear gain is worth larger caps.
+    // Clean points show no minimum: larger caps need a clear gain.
     const double better = noisy ? 1 : kClearlyBetter;
     if (chosen.neighbours == 0 || trial.slope_error < better * chosen.slope_error) chosen = trial;
     if (trial.slope_error > (noisy ? kGrownNoisy : kGrown) * chosen.slope_error) break;

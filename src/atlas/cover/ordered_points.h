@@ -1,4 +1,4 @@
-// The points that caps are fitted to. Layer: atlas.
+// Points to which caps are fitted. Layer: atlas.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,10 @@ struct OrderedPoints {
   const PointTree& tree;
   std::span<const Vec3> points;
   std::span<const Vec3> normals;
-  const SamplingGaps* gaps = nullptr;  // none: the points are even
-  bool computed_normals = false;       // from the points alone
+  const SamplingGaps* gaps = nullptr;  // nullptr: the points are even
+  bool computed_normals = false;       // computed from the points alone
 
-  // So many neighbours of point i reach as far, against the gaps, as k of even points.
+  // Returns the number of neighbours of point i that reach as far as k of even points.
   std::size_t scaled(std::size_t i, std::size_t k) const {
     return gaps != nullptr ? gaps->scaled(i, k) : k;
   }

@@ -21,7 +21,7 @@ Vec3 dilated(double a, const Vec3& u) {
 
 namespace {
 
-// Any unit vector across z: x = the axis farthest from z, made orthogonal.
+// Returns a unit vector orthogonal to z: the coordinate axis farthest from z, made orthogonal.
 Vec3 across(const Vec3& z) {
   const double ax = std::abs(z.x), ay = std::abs(z.y), az = std::abs(z.z);
   const Vec3 axis = ax <= ay && ax <= az ? Vec3{1, 0, 0} : ay <= az ? Vec3{0, 1, 0} : Vec3{0, 0, 1};

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kKinds[] = {"auto", "kernel",   "slope",  "cosine",
                                   "none", "centroid", "volume", "given"};
 
-// Three finite numbers with commas between them; false if the text is something else.
+// Parses three finite numbers separated by commas; returns false for any other text.
 bool parse_point(std::string_view text, Vec3& point) {
   double* const parts[3] = {&point.x, &point.y, &point.z};
   const char* at = text.data();
@@ -66,11 +66,12 @@ bool seeks_kernel(CenterKind kind) {
   return seeks_slope(kind) || kind == CenterKind::kKernel || kind == CenterKind::kCosine;
 }
 
-// The point with the least slope of the radius, well within the kernel.
+// Returns the point with the least slope of the radius, at a distance from the kernel's border.
 FoundCenter slope_center(const LocalView& view, const KernelCenter& kernel,
                          const Context& context) {
-  // Chosen, far above rounding: of a kernel that is smaller (in the unit frame) the middle alone is
-  // sure to be within, and a centroid that is nearer to it tells no way.
+  // Chosen, far above rounding. If the kernel is smaller than kSmallestKernel (in the unit frame),
+  // only its middle is safely inside it. A centroid nearer to the middle than kSame defines no
+  // line.
   constexpr double kSmallestKernel = 1e-6, kSame = 1e-12;
   const Vec3 centroid = view.frame.to_local(volume_centroid(view.mesh, view.frame, context));
   Vec3 point = kernel.point;
@@ -80,8 +81,8 @@ FoundCenter slope_center(const LocalView& view, const KernelCenter& kernel,
   return {.point = view.frame.to_shape(point), .scans = kernel.scans + 2};
 }
 
-// The centroid itself if all faces turn their front to it, or if no point of the kernel would do
-// better.
+// Returns the centroid if every face is front-facing from it, or if the kernel is empty. Otherwise
+// returns the point of least slope.
 FoundCenter volume_center(const LocalView& view, const Context& context) {
   validate(view.mesh);
   const FoundCenter centroid = {.point = volume_centroid(view.mesh, view.frame, context)};
@@ -119,7 +120,7 @@ FoundCenter search_center(const LocalView& view, const CenterOptions& options,
   return {.point = view.frame.to_shape(kernel.point), .kernel_empty = empty, .scans = kernel.scans};
 }
 
-// Which of the two sees more directions once; without rays, which has fewer triangles turned away.
+// Returns the report with more directions seen once; without rays, the one with fewer back faces.
 StarReport better_center(const LocalView& view, const StarReport& program, int rays,
                          const Context& context) {
   const StarReport volume =
@@ -137,7 +138,7 @@ StarReport find_center(const MeshView& mesh, const CenterOptions& options, const
   const StarReport report = check_star(view, found.point, options.rays, context);
   if (report.star_shaped || !seeks_kernel(options.kind)) return report;
   if (seeks_slope(options.kind) && !found.kernel_empty) {
-    // Where rounding may turn planes, no point is surer than the middle.
+    // Rounding may turn planes: the middle of the kernel is the safest point.
     return find_center(mesh, {.kind = CenterKind::kKernel, .point = {}, .rays = options.rays},
                        context);
   }

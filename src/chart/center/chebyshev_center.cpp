@@ -1,18 +1,19 @@
-// Maximises t subject to n_T . c + t <= n_T . v_T over a pool of faces that grows: first a sample
-// spread over all of them, then those that turn out to matter.
+// Maximises t subject to n_T . c + t <= n_T . v_T over a growing pool of faces. The pool is at
+// first a sample spread over all faces; then faces that turn out to matter join it.
 //
-// A pass over all faces at the pool's optimum keeps, for each chunk of them, the faces with the
-// smallest d_T, and what d_T all others have at least. Moving the centre by delta changes no d_T by
-// more than |delta|: when the optimum of the grown pool is that near, the bounds prove it the
-// optimum of all faces, without another pass. Only chunks whose bound does not reach are passed
-// again.
+// A pass over all faces works at the pool's optimum. For each chunk of faces it keeps the faces
+// with the smallest d_T, and a lower bound of d_T of all others. Moving the centre by delta
+// changes no d_T by more than |delta|. If the optimum of the grown pool is near enough, the
+// bounds prove without another pass that it is the optimum of all faces. Only chunks whose bound
+// is too weak are passed again.
 //
-// The optimum need not be one point: between two parallel faces it is a whole plane. Then the
-// faces that hold it are fixed, the smallest d_T of the others is maximised within, and so on until
-// a point is left (the nucleolus, Schmeidler 1969): the centre of a box is its middle.
+// The optimum need not be one point: between two parallel faces it is a whole plane. Then the faces
+// that hold it are fixed, and the smallest d_T of the others is maximised within the plane. This
+// repeats until a point is left (the nucleolus, Schmeidler 1969); the centre of a box is its
+// middle.
 //
-// A plane that the rounding of its corners may turn counts as far out as it may lie; one of a face
-// thinner than the rounding does not count.
+// A plane that rounding of its corners may turn counts as far out as it may lie. A face thinner
+// than the rounding does not count.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -27,31 +28,31 @@ namespace rholm {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// In the unit frame the bounding box is [-1, 1]^3 at most; a little more, so that a kernel that
-// touches the box is not cut.
+// Half the side of the box in which the centre is sought. In the unit frame the bounding box is at
+// most [-1, 1]^3; the margin avoids cutting a kernel that touches the box.
 constexpr double kReach = 1.0625;
-// d_T of the unit frame cannot exceed the distance across.
+// d_T cannot exceed the diagonal of the unit frame.
 constexpr double kMostDistance = 4;
-// Bounds closer than this have met: d_T is known to about 1e-15, and 1e-12 of the size is far below
-// what any later step can tell.
+// Upper and lower bounds closer than this have met. d_T is known to about 1e-15, and 1e-12 of the
+// size is far below what any later step resolves.
 constexpr double kGap = 1e-12;
-// Usually 1 to 3 passes; the limit only guards against rounding.
+// Limit of passes, only a guard against rounding; 1 to 3 passes are usual.
 constexpr int kMaxScans = 200;
-// A face holds the optimum if its weight in the program is above this, and is parallel to a flat if
-// its normal's part in there is below: normals of exact corners are known to 1e-15, and moving
-// along such a flat changes no d_T by more than 1e-9 of the size. Where rounding may turn the
-// planes by more, this takes its place: the sides of a cylinder in single precision are parallel to
-// its axis.
+// A face holds the optimum if its weight in the program is above this. It is parallel to a flat if
+// the part of its normal within the flat is below this. Normals of exact corners are known to
+// 1e-15, and moving along such a flat changes no d_T by more than 1e-9 of the size. Where rounding
+// may turn the planes by more, the angle of that turn is used instead. For example, the sides of a
+// cylinder in single precision are parallel to its axis.
 constexpr double kParallel = 1e-9;
 
-// Measured (scripts/constants) on smooth and rough shapes of 30 000 to 5 million faces, of which a
-// pass costs 5 to 8 ns each. The first pool: one face in kSampled, but at least and at most so
-// many; fewer give a first optimum that is farther off, more cost as much as a pass.
+// Size of the first pool: one face in kSampled, within these limits. Measured (scripts/constants)
+// on smooth and rough shapes of 30 000 to 5 million faces; a pass costs 5 to 8 ns per face. Fewer
+// faces give a worse first optimum, more faces cost as much as a pass.
 constexpr std::size_t kSampled = 64;
 constexpr std::size_t kFewestSampled = 1000;
 constexpr std::size_t kMostSampled = 4000;
-// Faces a chunk adds in a pass, those less than kSlack above the optimum: more, and farther above,
-// prove more about the next optimum, but are handled one by one.
+// Number of faces, each less than kSlack above the optimum, that a chunk adds in a pass. More and
+// higher faces prove more about the next optimum, but are handled one by one.
 constexpr std::size_t kKept = 8;
 constexpr double kSlack = 0.03;
 
@@ -59,7 +60,7 @@ constexpr double kSlack = 0.03;
 struct Flat {
   Vec3 origin;
   std::array<Vec3, 3> axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-  double turn = kParallel;  // how far rounding may turn it
+  double turn = kParallel;  // angle by which rounding may turn the flat
 
   Vec3 direction(const Vec3& z) const { return z.x * axes[0] + z.y * axes[1] + z.z * axes[2]; }
   Vec3 project(const Vec3& v) const { return {dot(v, axes[0]), dot(v, axes[1]), dot(v, axes[2])}; }
@@ -69,7 +70,7 @@ struct Flat {
   }
 };
 
-// Faces of a chunk that are not in the pool have d_T >= least, seen from `from`.
+// Lower bound: faces of a chunk outside the pool have d_T >= least, seen from `from`.
 struct ChunkBound {
   Vec3 from;
   double least = -kInfinity;
@@ -78,7 +79,7 @@ struct ChunkBound {
 
 struct Faces {
   std::vector<FacePlane> pool;
-  std::vector<ChunkBound> chunks;  // of triangle_grain(n) triangles each
+  std::vector<ChunkBound> chunks;  // each of triangle_grain(n) triangles
 };
 
 Faces sample(const LocalView& view) {
@@ -98,27 +99,27 @@ Faces sample(const LocalView& view) {
   return faces;
 }
 
-// How far out a plane may lie, anywhere in the unit frame.
+// Returns how far out rounding may move the plane, anywhere in the unit frame.
 double rounding_of(const FacePlane& face) { return FacePlane::kFrameDiagonal * face.turn; }
 
-// The optimum of the pool within a flat, as far as it is known.
+// Best known optimum of the pool within a flat.
 struct PoolOptimum {
   LinearProgram program{kReach, kMostDistance};
   Vec3 point;
-  double top = kMostDistance;  // an upper bound of the smallest d_T, in the pool and so in all
-  // Planes that rounding has turned against each other, as those of a flat side in single
-  // precision, meet anywhere, and may keep the program from its end. Then each counts as far out as
-  // it may lie.
+  double top = kMostDistance;  // upper bound of the smallest d_T in the pool, and so in all
+  // Planes turned against each other by rounding, for example on a flat wall in single
+  // precision, meet anywhere and may keep the program from its end. If true, each plane counts
+  // as far out as it may lie.
   bool roughly = false;
-  bool ended = true;  // false: rounding has kept the program from its end even so
+  bool ended = true;  // false: rounding keeps the program from its end even with `roughly`
 
   double distance(const FacePlane& face) const {
     return face.most_distance(point) + (roughly ? rounding_of(face) : 0);
   }
 };
 
-// The pool's faces below `top`, one of every 64 (chosen: some hundred rows for the program).
-// Returns the smallest d_T.
+// Adds to the program the lowest face below `top` of every 64 faces of the pool (chosen: some
+// hundred rows). Returns the smallest d_T.
 double add_worst(const std::vector<FacePlane>& pool, const Flat& flat, PoolOptimum& optimum) {
   constexpr std::size_t kGroup = 64;
   double smallest = kInfinity;
@@ -142,7 +143,7 @@ double add_worst(const std::vector<FacePlane>& pool, const Flat& flat, PoolOptim
   return smallest;
 }
 
-// To the optimum of a pool that has grown.
+// Moves to the optimum of a pool that has grown.
 void improve(const std::vector<FacePlane>& pool, const Flat& flat, PoolOptimum& optimum) {
   Vec3 best = optimum.point;
   double most = -kInfinity;
@@ -165,7 +166,7 @@ void improve(const std::vector<FacePlane>& pool, const Flat& flat, PoolOptimum& 
   optimum.point = best;
 }
 
-// The faces of a chunk with the smallest d_T below top + kSlack, and the bound for the others.
+// Returns the faces of a chunk with the smallest d_T below top + kSlack; bounds the other faces.
 std::vector<FacePlane> nearest_faces(const LocalView& view, std::size_t begin, std::size_t end,
                                      const Flat& flat, const PoolOptimum& optimum,
                                      ChunkBound& bound) {
@@ -192,8 +193,8 @@ std::vector<FacePlane> nearest_faces(const LocalView& view, std::size_t begin, s
   return faces;
 }
 
-// One pass over the chunks that may have faces below the pool's optimum: their nearest faces join
-// the pool. Returns the part of all chunks that it passed: 0 if the optimum is that of all faces.
+// Passes over the chunks that may have faces below the pool's optimum, and adds their nearest faces
+// to the pool. Returns the passed fraction of all chunks; 0 proves the optimum for all faces.
 double grow_pool(const LocalView& view, const Flat& flat, const PoolOptimum& optimum, Faces& faces,
                  const Context& context) {
   std::vector<std::size_t> open;
@@ -212,14 +213,14 @@ double grow_pool(const LocalView& view, const Flat& flat, const PoolOptimum& opt
   return static_cast<double>(open.size()) / static_cast<double>(faces.chunks.size());
 }
 
-// Normals of planes, and how far rounding may turn them.
+// Normals of planes, and the largest turn of the planes by rounding.
 struct Normals {
   std::vector<Vec3> normals = {};
   double turn = kParallel;
 };
 
-// Of the planes that hold the program's optimum. Where each is turned, weights of others are as
-// large as the turns.
+// Returns the normals of the planes that hold the program's optimum. Where rounding turns planes,
+// other planes get weights as large as the turns.
 Normals holding_normals(const PoolOptimum& optimum, const Flat& flat) {
   Normals holding;
   const LinearProgram& program = optimum.program;
@@ -234,7 +235,7 @@ Normals holding_normals(const PoolOptimum& optimum, const Flat& flat) {
   return holding;
 }
 
-// The best point of the flat and the normals of the faces that hold it.
+// Best point of the flat, and the normals of the faces that hold it.
 struct Stage {
   KernelCenter best;
   Normals holding;
@@ -258,11 +259,11 @@ Stage best_in_flat(const LocalView& view, const Flat& flat, Faces& faces, const 
           .holding = holding_normals(optimum, flat)};
 }
 
-// The part of the flat that is parallel to all faces with these normals, through another origin.
+// Returns the part of the flat parallel to all faces with these normals, through a given origin.
 Flat parallel_part(const Flat& flat, const Vec3& origin, const Normals& holding) {
   std::vector<Vec3> taken;  // orthonormal
   const auto remainder = [&](Vec3 v) {
-    for (int pass = 0; pass < 2; ++pass) {  // twice is enough (Parlett, after Kahan)
+    for (int pass = 0; pass < 2; ++pass) {  // two passes are enough (Parlett, after Kahan)
       for (const Vec3& t : taken) v -= dot(v, t) * t;
     }
     return v;
@@ -273,8 +274,8 @@ Flat parallel_part(const Flat& flat, const Vec3& origin, const Normals& holding)
   }
   Flat part{.origin = origin, .axes = {}, .turn = std::max(flat.turn, holding.turn)};
   for (Vec3& axis : part.axes) {
-    // The squares of the remainders add up to the number of dimensions left: while there is one,
-    // the longest of three is at least sqrt(1/3).
+    // The squares of the remainders add up to the number of dimensions left. If this number is at
+    // least one, the longest of three remainders is at least sqrt(1/3).
     Vec3 longest;
     for (const Vec3& candidate : flat.axes) {
       const Vec3 rest = remainder(candidate);
@@ -294,7 +295,7 @@ KernelCenter chebyshev_center(const LocalView& view, const Context& context) {
   Flat flat;
   Stage stage = best_in_flat(view, flat, faces, context);
   KernelCenter best = stage.best;
-  // Each round takes at least one of three dimensions.
+  // Each round removes at least one of three dimensions.
   for (int round = 0; round < 3 && best.value > 0 && !stage.holding.normals.empty(); ++round) {
     flat = parallel_part(flat, stage.best.point, stage.holding);
     if (flat.is_point()) break;

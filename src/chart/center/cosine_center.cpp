@@ -1,10 +1,11 @@
 // Maximises s(c) = min over corners of n . (v - c) / |v - c|.
 //
 // With s fixed, n . (v - c) - s |v - c| is concave in c, and |v - c| >= u . (v - c) for every unit
-// vector u: so (n - s u) . (v - c) >= t, with u the direction of v from some earlier candidate, is
-// a row of a linear program whose largest t bounds from above what any c can gain over s
-// (Dinkelbach 1967, with Kelley's cutting planes inside; the cuts hold for every s, so that both
-// loops are one). Rows are divided by |v - c| of that candidate: t then is a gain in cos gamma.
+// vector u. Take the direction of v from an earlier candidate as u. Then (n - s u) . (v - c) >= t
+// is a row of a linear program, whose largest t is an upper bound of the gain over s of any c. This
+// is the method of Dinkelbach (1967) with Kelley's cutting planes inside. The cuts hold for every
+// s, so that both loops become one. Rows are divided by |v - c| of the candidate, so that t is a
+// gain in cos gamma.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -19,26 +20,26 @@ namespace rholm {
 namespace {
 
 constexpr double kReach = 1.0625;       // see chebyshev_center.cpp
-constexpr double kRelativeGain = 1e-6;  // what the header promises
+constexpr double kRelativeGain = 1e-6;  // promised by kernel.h
 constexpr int kMaxScans = 200;          // usually 6 to 20
 
 struct Corner {
   double cos_gamma = std::numeric_limits<double>::infinity();
   Vec3 normal;
   Vec3 position;     // in the unit frame
-  double slack = 0;  // of the face, as in FacePlane
+  double slack = 0;  // slack() of the face, see FacePlane
 };
 
-// A cut: the corner seen along `direction`, from `distance`, by an earlier candidate.
+// A cut: the corner as an earlier candidate saw it, along `direction` from `distance`.
 struct Cut {
   Vec3 normal;
   Vec3 position;
   Vec3 direction;
   double distance;
-  double slack;  // by which rounding may raise the cosine
+  double slack;  // amount by which rounding may raise the cosine
 };
 
-// The steepest corner of a triangle, if it is steeper than `best`.
+// Replaces `best` by the steepest corner of a triangle if that corner is steeper.
 void take_steepest(const LocalView& view, std::size_t triangle, const Vec3& center, Corner& best) {
   const FacePlane face = view.plane(triangle);
   if (!face.exists()) return;
@@ -51,10 +52,10 @@ void take_steepest(const LocalView& view, std::size_t triangle, const Vec3& cent
   }
 }
 
-// The steepest corner of every chunk.
+// Returns the steepest corner of every chunk.
 std::vector<Corner> steepest_corners(const LocalView& view, const Vec3& center,
                                      const Context& context) {
-  // Chosen: some hundred cuts a pass.
+  // Chosen: some hundred cuts in each pass.
   const std::size_t n = view.mesh.n_triangles, grain = std::max<std::size_t>(256, n / 256);
   std::vector<Corner> chunks((n + grain - 1) / grain);
   parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {

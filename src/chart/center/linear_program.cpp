@@ -10,19 +10,19 @@ namespace {
 using Vector = std::array<double, 4>;
 using Matrix = std::array<Vector, 4>;
 
-// Coordinates of the solution are known to about 2^-50 when the basis is well conditioned; a row
-// violated by less is satisfied.
+// Largest violation of a satisfied row. Coordinates of the solution are known to about 2^-50 when
+// the basis is well conditioned.
 constexpr double kViolation = 1e-14;
-// Chosen: smaller pivots than this would leave a basis of which half the digits are lost.
+// Smallest pivot. Chosen: a smaller one would leave a basis that loses half of the digits.
 constexpr double kSmallestPivot = 1e-9;
-// Ratios that differ by less are equal, and the next component of the lexicographic rule decides.
+// Ratios that differ by less are equal; then the next component of the lexicographic rule decides.
 constexpr double kRatioRounding = 1e-13;
-// Steps are usually 5 to 40; the limit only guards against rounding.
+// Limit of steps, only a guard against rounding; 5 to 40 steps are usual.
 constexpr int kMaxSteps = 2000;
 
 Vector coefficients(const Row& row) { return {row.a.x, row.a.y, row.a.z, row.lift}; }
 
-// Gauss-Jordan with partial pivoting; false if the matrix is singular to working precision.
+// Inverts by Gauss-Jordan with partial pivoting; returns false if m is singular to rounding.
 bool invert(Matrix m, Matrix& inverse) {
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) inverse[i][j] = i == j;
@@ -52,14 +52,14 @@ bool invert(Matrix m, Matrix& inverse) {
   return true;
 }
 
-// With g = (t, eps c.x, eps^2 c.y, eps^3 c.z) as the objective, the weight of basis row i is row i
-// of the inverse's transpose, read in this order.
+// Returns the weight of basis row i for the objective g = (t, eps c.x, eps^2 c.y, eps^3 c.z). This
+// is row i of the transposed inverse, with its components in the order of g.
 Vector lexicographic_weight(const Matrix& inverse, int i) {
   return {inverse[3][i], inverse[0][i], inverse[1][i], inverse[2][i]};
 }
 
-// The basis row to leave for an entering row with coordinates y in the basis: the one whose weight
-// divided by y is lexicographically smallest; -1 if there is none.
+// Returns the basis row that leaves for an entering row with coordinates y in the basis. Its weight
+// divided by y is lexicographically smallest; -1 if no row can leave.
 int leaving_row(const Matrix& inverse, const Vector& y) {
   int best = -1;
   Vector best_ratio{};

@@ -15,7 +15,7 @@ namespace {
 Bounds finite_bounds(const MeshView& mesh, const Context& context) {
   if (mesh.n_vertices == 0) return {};
   const VertexRange all = vertex_range(mesh, context);
-  if (!all.finite) validate(mesh);  // throws, and says which
+  if (!all.finite) validate(mesh);  // throws with the index of the vertex
   return {.min = {all.min[0], all.min[1], all.min[2]}, .max = {all.max[0], all.max[1], all.max[2]}};
 }
 
@@ -34,7 +34,7 @@ void require_surface(const LocalView& view) {
 std::array<Vec3, 3> LocalView::corners(std::size_t triangle) const {
   const Triangle indices = mesh.triangle(triangle);
   if (std::max({indices[0], indices[1], indices[2]}) >= mesh.n_vertices) {
-    validate(mesh);  // throws, and says which
+    validate(mesh);  // throws with the index
   }
   return scaled_corners(mesh, indices, frame.scale);
 }

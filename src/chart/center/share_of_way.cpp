@@ -1,5 +1,5 @@
-// d_T is linear along a line, so each face says how far it lets the centre go; the nearest limit
-// counts. The kernel is convex: what lies between two of its points is in it.
+// d_T is linear along a line, so each face limits how far the centre may move; the nearest limit
+// counts. The kernel is convex, so every point between two of its points lies in it.
 #include <algorithm>
 #include <vector>
 
@@ -20,8 +20,8 @@ double share_of_way(const LocalView& view, const KernelCenter& middle, const Vec
     scan_below(view, begin, end, wanted, limits, [&](std::size_t triangle) {
       const FacePlane face = view.plane(triangle);
       if (!face.exists()) return;
-      // As the middle of the kernel is found: where rounding may turn a plane, as far out as it may
-      // lie.
+      // A plane that rounding may turn counts as far out as it may lie, as in
+      // chebyshev_center().
       const double there = face.most_distance(wanted);
       if (!(there < least)) return;
       const double here = face.most_distance(middle.point);

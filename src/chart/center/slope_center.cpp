@@ -1,13 +1,15 @@
-// The slope of the radius r(u) of a star-shaped surface, int |grad_S r|^2 dOmega, is the sum over
-// its degrees of l(l+1) times their energy: a radius of small slope has little energy in high
-// degrees. A face at distance rho, whose plane is at distance d, has tan^2 gamma = rho^2 / d^2 - 1
-// and dOmega = d / rho^3 dA, so that its part is int (rho / d - d / rho) dA.
+// Finds the point of least slope.
 //
-// The point with the least slope is sought on the line through the middle of the kernel and the
-// centroid of the solid. Both keep every symmetry of the body, and so does what lies between them.
+// A star-shaped surface has the radius r(u). The slope int |grad_S r|^2 dOmega is the sum over
+// the degrees l of l(l+1) times the energy of degree l. So a radius of small slope has little
+// energy in high degrees. A face at distance rho, whose plane is at distance d, has tan^2 gamma =
+// rho^2 / d^2 - 1 and dOmega = d / rho^3 dA. Its part of the slope is int (rho / d - d / rho) dA.
 //
-// A sample of the faces tells about where that point is. Passes over all faces then find where the
-// derivative of the slope is zero, so that the point does not depend on the order of the faces.
+// The point is sought on the line through the middle of the kernel and the centroid of the solid.
+// Both points keep every symmetry of the body, and so do all points of the line.
+//
+// A sample of the faces gives a first guess. Passes over all faces then find the zero of the
+// slope's derivative, so that the point does not depend on the order of the faces.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +27,7 @@
 namespace rholm {
 namespace {
 
-// A point of a face as seen from middle + t way: d = d_0 - t d_way, rho^2 = rho2_0 - 2 t along +
+// A point of a face, seen from middle + t way: d = d_0 - t d_way and rho^2 = rho2_0 - 2 t along +
 // t^2 |way|^2.
 struct SurfacePoint {
   double d_0, d_way;
@@ -33,24 +35,24 @@ struct SurfacePoint {
   double area;
 };
 
-// As sum_rises() at one place.
+// Returns the derivative of the slope at one place, as sum_rises() does for faces.
 double rise_at(const std::vector<SurfacePoint>& points, const SlopeLine& line, double t) {
   const double way2 = dot(line.way, line.way), least = line.least;
   double rise = 0;
   for (const SurfacePoint& p : points) {
     const double d = std::max(p.d_0 - t * p.d_way, least), rho_rise = t * way2 - p.along;
     const double rho2 = std::max(p.rho2_0 - t * (p.along - rho_rise), least * least);
-    // rho rho' (1 / (rho d) + d / rho^3) - d' (rho / d^2 + 1 / rho)
+    // Formula: rho rho' (1 / (rho d) + d / rho^3) - d' (rho / d^2 + 1 / rho)
     rise += p.area * (rho2 + d * d) * (rho_rise * d + p.d_way * rho2) /
             (d * d * rho2 * std::sqrt(rho2));
   }
   return rise;
 }
 
-// The middles of side^2 pieces of a face, as many as kPieceSize asks for.
+// Adds the middles of the side^2 parts into which kPieceSize divides a face.
 void add_points(const LocalView& view, std::size_t triangle, const SlopeLine& line, double weight,
                 std::vector<SurfacePoint>& points) {
-  constexpr double kMostSides = 64;  // chosen: a face that is seen from so near is rare
+  constexpr double kMostSides = 64;  // chosen: faces that need more are rare
   const FacePlane face = view.plane(triangle);
   if (!face.exists()) return;
   std::array<Vec3, 3> corners = view.corners(triangle);
@@ -78,10 +80,10 @@ void add_points(const LocalView& view, std::size_t triangle, const SlopeLine& li
   }
 }
 
-// Of many faces one of every `step`; which one is random, so that rows of a lattice are not met in
-// step.
+// Returns points of one random face out of every `step` faces. A fixed choice could always meet the
+// same row of a lattice.
 std::vector<SurfacePoint> sampled_points(const LocalView& view, const SlopeLine& line) {
-  // Chosen: so many faces tell where the least slope is to some hundredths of the way.
+  // Chosen: this many faces locate the least slope to some hundredths of the way.
   constexpr std::size_t kSampled = 1024;
   const std::size_t n = view.mesh.n_triangles;
   const std::size_t step = std::max<std::size_t>(1, n / kSampled);
@@ -95,13 +97,13 @@ std::vector<SurfacePoint> sampled_points(const LocalView& view, const SlopeLine&
   return points;
 }
 
-// Chosen: the point is sought from as far behind the middle of the kernel to as far beyond the
-// centroid as they are apart.
+// Ends of the search, in units of the way. Chosen: it extends beyond the middle of the kernel, and
+// beyond the centroid, by the distance between the two.
 constexpr double kFirst = -1, kLast = 2;
 
-// Where the slope of a sample stops falling, on the way down from the middle of the kernel.
+// Returns where the slope of a sample stops falling, on the way down from the kernel's middle.
 double guess(const std::vector<SurfacePoint>& sample, const SlopeLine& line) {
-  constexpr double kStep = 0.25;  // chosen: no second valley is narrower
+  constexpr double kStep = 0.25;  // chosen: no second minimum is narrower
   constexpr int kHalvings = 4;
   const double step = rise_at(sample, line, 0) < 0 ? kStep : -kStep;
   const auto falls = [&](double t) { return rise_at(sample, line, t) * step < 0; };
@@ -114,7 +116,7 @@ double guess(const std::vector<SurfacePoint>& sample, const SlopeLine& line) {
   return (before + beyond) / 2;
 }
 
-// The derivative of the slope by t, over all faces.
+// Computes the derivative of the slope by t, over all faces.
 class Slope {
  public:
   Slope(const LocalView& view, const SlopeLine& line, const Context& context)
@@ -155,18 +157,18 @@ class Slope {
   const LocalView& view_;
   const SlopeLine& line_;
   const Context& context_;
-  std::optional<std::vector<SurfacePoint>> points_;  // of large faces
+  std::optional<std::vector<SurfacePoint>> points_;  // points of large faces
 };
 
-// How far along the line the centre may go.
+// Limits how far along the line the centre may move.
 class Reach {
  public:
-  using Share = std::function<double(double)>;  // of the way to t, as far as is allowed
+  using Share = std::function<double(double)>;  // allowed share of the way to t
   explicit Reach(Share share) : share_(std::move(share)) {}
   void allow(double low, double high) {
     down_.allowed = std::min(low, 0.0), up_.allowed = std::max(high, 0.0);
   }
-  // t, or the last place before it.
+  // Returns t if it is allowed, otherwise the last allowed place before t.
   double operator()(double t) {
     const bool up = t > 0;
     Side& side = up ? up_ : down_;
@@ -187,12 +189,12 @@ class Reach {
   Side up_, down_;
 };
 
-// The derivative of the slope at a place.
+// A place t and the derivative f of the slope there.
 struct Known {
   double t, f;
 };
 
-// The value at 0 of the polynomial t(f) through some points.
+// Returns the value at 0 of the polynomial t(f) through some points.
 double inverse_at_zero(std::span<const Known> points) {
   double sum = 0;
   for (const Known& p : points) {
@@ -205,14 +207,16 @@ double inverse_at_zero(std::span<const Known> points) {
   return sum;
 }
 
-// Where a curve turns from falling to rising: between two places, and how far from `at` it may be.
+// Describes where a curve turns from falling to rising: the interval low ... high, the estimate
+// `at` and its error.
 struct Turn {
   double low, high;
   double at, error;
 };
 
-// By the polynomial through the points about it, and the one without the farthest of them.
-// `points`: by t; the first one falls and the last one does not.
+// Estimates the turn by the polynomial through the points around it. The error is the difference to
+// the polynomial without the farthest of these points. `points` ascend by t; the curve falls at the
+// first point and not at the last.
 Turn turn_of(const std::vector<Known>& points) {
   constexpr std::size_t kNear = 5, kBefore = 2;
   const auto above = std::find_if(points.begin(), points.end(), [](auto& p) { return p.f >= 0; });
@@ -234,17 +238,17 @@ Turn turn_of(const std::vector<Known>& points) {
   return {.low = low, .high = high, .at = at, .error = std::abs(at - other)};
 }
 
-// Where a search begins and ends, as far as the centre may go.
+// Interval of a search, as far as the centre may move.
 struct Window {
   double low, high;
-  bool ends_low = false, ends_high = false;  // it may not go farther
+  bool ends_low = false, ends_high = false;  // the centre may not move beyond this end
 };
 
 Window window(Reach& reach, double low, double high) {
-  // The farther one first: the nearer is then known to be allowed.
+  // Asks for the farther end first; the nearer end is then known to be allowed.
   const double first = reach(high > 0 ? high : low), second = reach(high > 0 ? low : high);
   Window w = {.low = high > 0 ? second : first, .high = high > 0 ? first : second};
-  if (!(w.low < w.high)) {  // wholly beyond an end: up to there
+  if (!(w.low < w.high)) {  // the interval lies beyond an end: move it back to there
     if (w.high < high) {
       low = w.high - (high - low);
       w.low = reach(low);
@@ -257,13 +261,13 @@ Window window(Reach& reach, double low, double high) {
   return w;
 }
 
-// The place of the least slope, from a guess on.
+// Returns the place of the least slope, starting from a guess.
 double least_place(Slope& slope, Reach& reach, double guess) {
-  // Chosen: the guess is hardly farther off than kFarthest, and a polynomial that agrees with one
-  // of less degree within kMet is better by far than that. Within kGood of a cell one more place is
-  // enough.
+  // Chosen. The guess is seldom off by more than kFarthest. If two polynomials of different degree
+  // agree within kMet, the higher one is far more accurate than their difference. If the error is
+  // within kGood of a cell, one more place is enough.
   constexpr double kFarthest = 0.1, kMet = 1e-7, kGood = 0.05;
-  constexpr int kMostPasses = 40;  // two for most bodies, one where the centre may go no farther
+  constexpr int kMostPasses = 40;  // two for most bodies, one where the centre may move no farther
   std::vector<Known> points;
   const auto look = [&](const Places& places, std::size_t n) {
     const Rises rises = slope.rises(places, n);
@@ -276,7 +280,7 @@ double least_place(Slope& slope, Reach& reach, double guess) {
     points.clear();
     return look({low, low + third, high - third, high}, kMostPlaces);
   };
-  // Most bodies are seen from all of the first window: then no pass is needed to tell its ends.
+  // For most bodies the first interval is allowed as a whole; then no pass has to find its ends.
   Window w = {.low = std::clamp(guess - kFarthest, kFirst, kLast),
               .high = std::clamp(guess + kFarthest, kFirst, kLast)};
   w.ends_low = w.low == kFirst, w.ends_high = w.high == kLast;

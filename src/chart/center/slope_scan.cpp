@@ -14,12 +14,12 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Below, the square of a normal in the unit frame loses its digits: such a face has no area.
+// A face with a smaller squared normal has no area: in the unit frame the square loses its digits.
 constexpr double kNoArea = 1e-280;
 
-// A face with the normal n, whose length is twice the area, and the middle m. Seen from t it has
-// the height h = n . x, x from there to the face: with d = h / |n|, d' = -n . way / |n| and rho
-// rho' = -m . way the derivative is
+// Sums the derivative at the middle of each face. A face has the normal n, whose length is twice
+// the area, and x is the vector from the place t to its middle m. With h = n . x, d = h / |n|, d' =
+// -n . way / |n| and rho rho' = -m . way, the derivative is
 //   (|n|^2 rho^2 + h^2) (n.way rho^2 - m.way h) / (2 h^2 rho^3).
 template <class T, bool kOne>
 void RisesOf(const LocalView& view, std::size_t begin, std::size_t end, const SlopeLine& line,

@@ -17,14 +17,14 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Below, the squares of a normal in the unit frame lose their digits.
+// Smallest square of a normal in the unit frame; a smaller square loses its digits.
 constexpr double kSmallestSquare = 1e-280;
-// sin^2 of an angle below which the plain product of double edges has lost 7 bits: left to the
-// visitor's exact one. Edges between floats are exact in double, and so are their products.
+// sin^2 of an angle below which the plain product of double edges has lost 7 bits; then the visitor
+// computes the exact product. Edges between floats and their products are exact in double.
 constexpr double kIllConditioned = 0x1p-14;
 
-// Visits the triangles for which test.Choose(corners) is true; corners are as they stand in the
-// view. After visits comes test.Refresh().
+// Visits the triangles for which test.Choose(corners) is true, and calls test.Refresh() after
+// visits. Corners have the coordinates of the mesh.
 template <class T, class Test>
 HWY_INLINE void VisitIf(const MeshView& mesh, std::size_t begin, std::size_t end, Test test,
                         const VisitTriangle& visit) {
@@ -39,13 +39,13 @@ HWY_INLINE void VisitIf(const MeshView& mesh, std::size_t begin, std::size_t end
   ForVectors<T>(mesh, begin, end, look);
 }
 
-// Doubles are scaled to the unit frame, so that nothing over- or underflows; of floats no product
-// here can, so that the frame is scaled to them.
+// Doubles are scaled to the unit frame, so that nothing overflows or underflows. No product of
+// floats can overflow here, so the frame is scaled to floats instead.
 template <class T>
 constexpr bool kScaled = sizeof(T) == 8;
 
 struct Lookout {
-  Vector3 middle, center;  // of the frame; of the look, from there
+  Vector3 middle, center;  // middle of the frame; centre of the view, relative to the middle
   V scale;
 
   HWY_INLINE Lookout(D d, const UnitFrame& frame, double unit, const Vec3& from)
@@ -87,7 +87,7 @@ struct BelowTest {
     const Vector3 edge1 = Minus(corner1, corner0), edge2 = Minus(corner2, corner0);
     const Vector3 normal = Cross(edge1, edge2), ray = from.Ray(corner0);
     const V height = Dot(normal, ray), square = Dot(normal, normal);
-    // d_T < limit, both sides squared with their signs.
+    // Tests d_T < limit, with both sides squared and their signs kept.
     const V signed_height = hn::Mul(height, hn::Abs(height));
     M chosen = hn::Lt(signed_height, hn::Mul(distance, square));
     if constexpr (kScaled<T>) {
@@ -98,7 +98,7 @@ struct BelowTest {
     if constexpr (kCosine) {
       const Vector3 ray1 = from.Ray(corner1), ray2 = from.Ray(corner2);
       const V a = Dot(ray, ray), b = Dot(ray1, ray1), c = Dot(ray2, ray2);
-      // cos gamma is smallest on the farthest corner, or on the nearest if negative.
+      // cos gamma is smallest at the farthest corner if d_T > 0, at the nearest otherwise.
       const V length = hn::IfThenElse(hn::Gt(height, hn::Zero(d)), hn::Max(a, hn::Max(b, c)),
                                       hn::Min(a, hn::Min(b, c)));
       chosen = hn::Or(chosen, hn::Lt(signed_height, hn::Mul(cosine, hn::Mul(square, length))));
@@ -136,7 +136,7 @@ struct LineTest {
     V height, rounding;
   };
   HWY_INLINE Side SideOf(D d, const Vector3& a, const Vector3& b) const {
-    // The rounding of the product, 8 2^-53 of the lengths, twice: a^2 + b^2 >= 2 a b.
+    // Twice the rounding of the product, 8 2^-53 of the lengths, because a^2 + b^2 >= 2 a b.
     return {Dot(Cross(a, b), along),
             hn::Mul(hn::Add(Dot(a, a), Dot(b, b)), hn::Set(d, 8 * 0x1p-53))};
   }

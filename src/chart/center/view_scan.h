@@ -1,8 +1,8 @@
-// Passes over the triangles of a view that stop at few of them. Layer: chart.
+// Selects the triangles of a view that matter for a search. Layer: chart.
 //
-// Vectors of triangles are tested in double precision without square root or division; those that
-// may matter are handed, one by one and in their order, to a visitor, which does the exact work.
-// Nothing is kept per triangle. Vectors differ between machines, the visitors' results do not.
+// Vectors of triangles are tested in double precision without square root or division. Triangles
+// that may matter go in order to a visitor, which does the exact work. Nothing is kept per
+// triangle. Vectors differ between machines, but results of the visitors do not.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,20 @@
 
 namespace rholm {
 
-// Seen from a point of the unit frame.
+// Limits as seen from a point of the unit frame.
 struct ScanLimits {
   double distance = -std::numeric_limits<double>::infinity();  // d_T
   double cosine = -std::numeric_limits<double>::infinity();    // smallest cos gamma of a corner
 };
 
-// Visits every triangle of [begin, end) below one of the limits, and some others: those all but
-// without area, and those a rounding above (1e-12 of the size, and of a cosine). The visitor may
+// Visits every triangle of [begin, end) below one of the limits, and some others. These have almost
+// no area, or are above a limit by a rounding (1e-12 of the size, and of a cosine). The visitor may
 // change the limits. Throws InvalidInput for an index out of range.
 void scan_below(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
                 const ScanLimits& limits, const VisitTriangle& visit);
 
 // Visits every triangle of [begin, end) whose cone, seen from the centre, may contain the direction
-// (a unit vector) or the opposite one.
+// (a unit vector) or the opposite direction.
 void scan_lines(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
                 const Vec3& direction, const VisitTriangle& visit);
 

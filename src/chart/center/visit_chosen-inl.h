@@ -1,4 +1,4 @@
-// Visits those triangles of a vector that a mask chooses; for inner loops, included once for every
+// Visits the triangles of a vector that a mask chooses. For inner loops; included once for every
 // kind of processor (Highway).
 #if defined(RHOLM_CHART_VISIT_CHOSEN_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RHOLM_CHART_VISIT_CHOSEN_INL_H_
@@ -21,7 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using M = hn::Mask<D>;
 
-// Visits the triangles t ... t + n - 1 of a vector that are chosen.
+// Visits the chosen triangles among t ... t + n - 1, which form one vector.
 inline HWY_NOINLINE void VisitChosen(D d, M chosen, std::size_t t, std::size_t n,
                                      const VisitTriangle& visit) {
   alignas(64) double flags[hn::MaxLanes(d)];

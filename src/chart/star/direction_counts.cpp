@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Fronts less backs of the faces that meet the direction; none if it meets an edge.
+// Returns front faces minus back faces that the direction meets, or nothing if it meets an edge.
 std::optional<int> surplus_at(const LocalView& view, const Vec3& center, const Vec3& direction,
                               const Context& context) {
   const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
@@ -27,8 +27,8 @@ std::optional<int> surplus_at(const LocalView& view, const Vec3& center, const V
   std::vector<Part> parts((n + grain - 1) / grain);
   parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
     Part& part = parts[begin / grain];
-    // Where the sides of a cone all look towards a direction, a face that turns its front meets it,
-    // or one that turns its back meets the opposite one.
+    // A direction on the same side of all three sides of a cone meets a front face, or its opposite
+    // direction meets a back face.
     scan_lines(view, begin, end, view.frame.to_local(center), direction, [&](std::size_t triangle) {
       const auto corners = corners_from(view, triangle, center);
       const double height = dot(cross(corners[0], corners[1]), corners[2]);
@@ -47,7 +47,7 @@ std::optional<int> surplus_at(const LocalView& view, const Vec3& center, const V
   return surplus;
 }
 
-// Of direction i: how many turns its longitude is, and its z.
+// Longitude of direction i, as a fraction of a full turn; lattice_z() returns its z.
 double lattice_turns(std::size_t i) {
   const double turns = static_cast<double>(i) * (std::numbers::phi - 1);
   return turns - std::floor(turns);
@@ -56,11 +56,11 @@ double lattice_z(std::size_t i, std::size_t n) {
   return 1 - (2.0 * static_cast<double>(i) + 1) / static_cast<double>(n);
 }
 
-// Directions of the lattice by cells of equal area, so that those near one are found.
+// Sorts the directions of the lattice into cells of equal area, to find those near a vector.
 class LatticeCells {
  public:
-  // `faces`: about how many ask for directions near them. Where they are few, those directions are
-  // worked out as they are asked for, not all of them before.
+  // `faces`: approximate number of faces that ask for directions near them. If they are few, a
+  // direction is computed when it is asked for; otherwise all directions are computed in advance.
   LatticeCells(std::size_t n, std::size_t faces, const Context& context)
       : n_(n),
         rows_(std::max<std::size_t>(1, static_cast<std::size_t>(std::sqrt(n / kPerCell / 2)))) {
@@ -85,16 +85,16 @@ class LatticeCells {
   Vec3 direction(std::size_t i) const {
     return directions_.empty() ? lattice_direction(i, n_) : directions_[i];
   }
-  // Calls visit(i) for the directions within an angle of a unit vector, and for some others.
+  // Calls visit(i) for all directions within an angle of a unit vector, and for some others.
   template <typename Visit>
   void visit_near(const Vec3& middle, double angle, const Visit& visit) const {
-    constexpr double kMargin = 1e-9;  // more than all rounding here
+    constexpr double kMargin = 1e-9;  // above all rounding in this function
     angle += kMargin;
     const double theta = std::acos(std::clamp(middle.z, -1.0, 1.0));
     const std::size_t low = row(std::cos(std::min(kPi, theta + angle)) - kMargin);
     const std::size_t high = row(std::cos(std::max(0.0, theta - angle)) + kMargin);
     const double sine = std::sin(theta);
-    // How far longitudes reach; all of them where a pole is within the angle.
+    // Range of longitudes; all longitudes are visited if a pole lies within the angle.
     const bool around = angle >= kPi / 2 || std::sin(angle) >= sine;
     const double reach = around ? 0 : (std::asin(std::sin(angle) / sine) + kMargin) / (2 * kPi);
     const double turns = std::atan2(middle.y, middle.x) / (2 * kPi);
@@ -127,8 +127,8 @@ class LatticeCells {
   std::vector<std::uint32_t> order_, first_;
 };
 
-// The cone of a face that turns its back, corners so that it turns its front: adds two to what it
-// contains.
+// Adds two to the count of every direction in the cone of a back face. The corners are in reversed
+// order, so that the face is front-facing.
 void add_back(const std::array<Vec3, 3>& corners, const LatticeCells& cells,
               std::vector<int>& counts) {
   std::array<Vec3, 3> units;
@@ -137,7 +137,7 @@ void add_back(const std::array<Vec3, 3>& corners, const LatticeCells& cells,
   middle = normalized(middle);
   double cosine = 1;
   for (const Vec3& unit : units) cosine = std::min(cosine, dot(middle, unit));
-  // A cone as wide as a half space is within no cap of its corners.
+  // A cone as wide as a half space lies in no cap around its corners.
   const double angle = cosine > 1e-3 ? std::acos(std::min(1.0, cosine)) : kPi;
   cells.visit_near(middle, angle, [&](std::size_t i) {
     if (cone_contains(corners, cells.direction(i)) != 0)
@@ -145,19 +145,20 @@ void add_back(const std::array<Vec3, 3>& corners, const LatticeCells& cells,
   });
 }
 
-// Whether rounding hides on which side of a face the centre lies, and it may lie within: a face
-// that is seen edge-on from outside counts for nothing, one around the centre for half of the sky.
+// Returns true if rounding hides on which side of the face the centre lies, and the face may
+// contain the centre. A distant face seen edge-on covers no directions, but a face that contains
+// the centre covers half of them.
 bool may_hold_center(const std::array<Vec3, 3>& p) {
   const double nearest = std::sqrt(std::min({dot(p[0], p[0]), dot(p[1], p[1]), dot(p[2], p[2])}));
   const double a = norm(p[0]), b = norm(p[1]), c = norm(p[2]);
-  // As in cone_contains().
+  // Twice the bound of cone_contains(), for the same product.
   constexpr double kRounding = 16 * 0x1p-53;
   if (std::abs(dot(cross(p[0], p[1]), p[2])) > kRounding * a * b * c) return false;
   const double longest = std::max({norm(p[0] - p[1]), norm(p[1] - p[2]), norm(p[2] - p[0])});
   return nearest <= longest;
 }
 
-// Those of some faces that turn their backs, in order; none if the centre may lie on one.
+// Returns the back faces of `low`, in order, or nothing if the centre may lie on one of `low`.
 std::optional<std::vector<std::uint32_t>> backs(const LocalView& view, const Vec3& center,
                                                 const std::vector<std::uint32_t>& low,
                                                 const Context& context) {
@@ -193,7 +194,7 @@ Vec3 lattice_direction(std::size_t i, std::size_t n) {
 }
 
 std::optional<int> surplus_of(const LocalView& view, const Vec3& center, const Context& context) {
-  constexpr std::size_t kStarts = 8;  // in general position (chosen)
+  constexpr std::size_t kStarts = 8;  // number of directions in general position (chosen)
   std::optional<int> surplus;
   for (std::size_t i = 0; i < kStarts && !surplus; ++i) {
     surplus = surplus_at(view, center, lattice_direction(i, kStarts), context);

@@ -1,8 +1,8 @@
-// How often directions from a centre meet a closed surface. Source: method 6.
+// Counts how often directions from a centre meet a closed surface. Source: method 6.
 //
-// What a half line meets of a closed surface with its front and with its back differs by the same
-// number in all directions, k: 1 from inside a body. So it meets the surface k times and twice for
-// each face that turns its back, and only these have to be looked at.
+// A half line meets k more front faces than back faces of a closed surface, the same k in all
+// directions; k is 1 from inside a body. So it meets k faces plus two for each back face, and only
+// back faces have to be looked at.
 #pragma once
 
 #include <cstddef>
@@ -15,19 +15,19 @@
 
 namespace rholm {
 
-// Direction i of n, spread evenly: a Fibonacci lattice.
+// Returns direction i of n evenly spread directions, which form a Fibonacci lattice.
 Vec3 lattice_direction(std::size_t i, std::size_t n);
 
-// Faces whose planes are this near to the centre, in the unit frame, may hold it.
+// Largest distance, in the unit frame, of a face's plane from a centre that may lie on the face.
 inline constexpr double kNearPlane = 1e-9;
 
-// Fronts less backs of the faces that a direction meets, the same for all directions of a closed
-// mesh; none if all of a few directions meet edges.
+// Returns front faces minus back faces met by a direction; it is equal for all directions if the
+// mesh is closed. Returns nothing if every tried direction meets an edge.
 std::optional<int> surplus_of(const LocalView& view, const Vec3& center, const Context& context);
 
-// How often each of n directions meets the surface of a closed mesh; none if the centre
-// may lie on the surface, or all of a few directions from which to begin on edges. `low`: all faces
-// with d_T < kNearPlane, in order; others may be among them.
+// Counts how often each of n directions meets the surface of a closed mesh. Returns nothing if the
+// centre may lie on the surface, or if surplus_of() returns nothing. `low`: all faces with d_T <
+// kNearPlane, in ascending order, possibly with other faces among them.
 std::optional<std::vector<int>> count_meetings(const LocalView& view, const Vec3& center,
                                                std::size_t n, const std::vector<std::uint32_t>& low,
                                                const Context& context);

@@ -56,7 +56,7 @@ void refuse(const Mesh& mesh, const StarReport& report, bool allow_signed) {
 StarReport seen_surface(const Mesh& mesh, const ChartOptions& options, const Context& context) {
   StarReport report = find_center(mesh, options.center, context);
   if (report.star_shaped) {
-    report.rays = 0;  // however many were tried, all directions meet it once
+    report.rays = 0;  // whatever number was tried: all directions meet the surface once
   } else {
     refuse(mesh, report, options.allow_signed);
   }

@@ -1,10 +1,10 @@
-// The star check from a given centre. Source: method 6.
+// Checks whether a surface is star-shaped from a given centre. Source: method 6.
 //
-// A closed mesh is star-shaped from c when every face turns its front to c (d_T > 0) and the
-// faces cover every direction once. The fronts less the backs that a direction meets are the same
-// for all directions, so one of them tells it: two nested spheres have all d_T > 0, but cover
-// everything twice. Faces thinner than the rounding of their coordinates may turn their backs: the
-// surface they stand for does not.
+// A closed mesh is star-shaped from c if every face is front-facing (d_T > 0) and the faces cover
+// every direction once. The number of front faces minus the number of back faces that a direction
+// meets is the same for all directions, so one direction is enough. For example, two nested spheres
+// have all d_T > 0, but cover everything twice. Faces thinner than the rounding of their
+// coordinates may be back-facing, although the exact surface is not.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,8 +25,9 @@
 namespace rholm {
 namespace {
 
-// d = n . (v - c): 2^-53 for each difference, 3 2^-53 for the product, about 6 2^-53 for the
-// normal of a well-shaped triangle, all relative to |v - c|; below 16 2^-53 the sign means nothing.
+// Relative rounding of d = n . (v - c): 2^-53 for each difference, 3 2^-53 for the product, about 6
+// 2^-53 for the normal of a well-shaped triangle, all relative to |v - c|. Below 16 2^-53 the sign
+// is meaningless.
 constexpr double kDistanceRounding = 16 * 0x1p-53;
 
 struct FaceFigures {
@@ -43,7 +44,8 @@ struct FaceFigures {
   }
 };
 
-// Corners relative to the centre. d_T is taken as large as the rounding of the corners allows.
+// Adds a face, given by its corners relative to the centre, with the largest d_T that the rounding
+// of the corners allows.
 void add_face(const std::array<Vec3, 3>& corners, const FacePlane& face, FaceFigures& figures) {
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0, d = 0;
   for (const Vec3& corner : corners) {
@@ -56,7 +58,7 @@ void add_face(const std::array<Vec3, 3>& corners, const FacePlane& face, FaceFig
   }
   figures.min_d = std::min(figures.min_d, d);
   figures.bad += d <= kDistanceRounding * nearest;
-  // cos gamma = d / |v - c| is smallest on the farthest corner, or on the nearest if negative.
+  // cos gamma = d / |v - c| is smallest at the farthest corner if d > 0, at the nearest otherwise.
   const double distance = d > 0 ? farthest : nearest;
   figures.min_cos_gamma = std::min(figures.min_cos_gamma, distance > 0 ? d / distance : 0.0);
 }
@@ -64,15 +66,15 @@ void add_face(const std::array<Vec3, 3>& corners, const FacePlane& face, FaceFig
 FaceFigures check_faces(const LocalView& view, const Vec3& center, const Context& context) {
   const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
   const Vec3 local = view.frame.to_local(center);
-  // What rounding may make bad, from any corner of the unit frame; twice, for it is a bound. All
-  // that count_meetings() asks for, too.
+  // Bound of d_T below which rounding may hide the sign, from any corner of the unit frame, with a
+  // factor of 2 as margin. It is at least kNearPlane, the bound that count_meetings() needs.
   const double unclear = std::max(2 * kDistanceRounding * (norm(local) + 2), kNearPlane);
   std::vector<FaceFigures> parts((n + grain - 1) / grain);
   parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
     FaceFigures& figures = parts[begin / grain];
     ScanLimits limits{.distance = figures.min_d, .cosine = figures.min_cos_gamma};
     scan_below(view, begin, end, local, limits, [&](std::size_t triangle) {
-      // Whose plane is above goes in, too, if it is visited before a lower one.
+      // A face above the bound is added too if the scan visits it before a lower face.
       figures.low.push_back(static_cast<std::uint32_t>(triangle));
       const FacePlane face = view.plane(triangle);
       if (!face.exists()) return;
@@ -85,7 +87,7 @@ FaceFigures check_faces(const LocalView& view, const Vec3& center, const Context
   return total;
 }
 
-// Embree works in single precision: it is given coordinates near 1.
+// Returns a copy of the mesh with coordinates near 1, because Embree works in single precision.
 Mesh local_copy(const LocalView& view) {
   Mesh local;
   local.vertices.reserve(view.mesh.n_vertices);
@@ -99,10 +101,10 @@ Mesh local_copy(const LocalView& view) {
   return local;
 }
 
-// By rays, of surfaces that are not closed.
+// Counts crossings by rays, for surfaces that are not closed.
 std::vector<int> shoot_rays(const LocalView& view, const Vec3& center, std::size_t n,
                             const Context& context) {
-  const Mesh local = local_copy(view);  // which the scene refers to
+  const Mesh local = local_copy(view);  // the scene refers to it
   const RayScene scene(local, context);
   const Vec3 origin = view.frame.to_local(center);
   std::vector<int> hits(n);
@@ -130,9 +132,9 @@ void try_directions(const LocalView& view, const Vec3& center,
   report.missed_share = share([](int times) { return times < 1; });
 }
 
-// From farther away the shape is a point to double precision, and its middle to a ray.
+// Farther away, the shape is a point in double precision, and a ray cannot aim at its middle.
 void require_center_near(const UnitFrame& frame, const Vec3& center) {
-  constexpr double kFarthest = 1e15;  // sizes of the shape
+  constexpr double kFarthest = 1e15;  // in sizes of the shape
   if (is_finite(center) && norm(1e-150 * frame.to_local(center)) < 1e-150 * kFarthest) return;
   throw Error(ErrorCode::kInvalidInput,
               fmt::format("the centre ({:.9g}, {:.9g}, {:.9g}) is not a point within {:g} sizes of "

@@ -12,18 +12,18 @@
 namespace rholm {
 namespace {
 
-// Caps whose contributions are held at once.
+// Number of caps whose contributions are held at once.
 constexpr std::size_t kBatch = 64;
-// What a cap adds to the blend: at each point with a blend weight, how far along the ray through it
-// the fit of each degree lies.
+// Contribution of a cap to the blend: at each point with a blend
+// weight, the distance along its ray to the fit of each degree.
 struct CapContribution {
   std::vector<std::uint32_t> points;
   std::vector<double> blend_weights;
-  std::vector<double> heights;  // over the centre
+  std::vector<double> heights;  // distance from the centre
   std::vector<Vec3> rays;
-  std::vector<double> lengths;  // [degree][point]
-  std::size_t stride = 0;       // from one degree to the next
-  double rejection = 0;         // of PatchFit
+  std::vector<double> lengths;  // lengths [degree][point]
+  std::size_t stride = 0;       // distance from one degree to the next in `lengths`
+  double rejection = 0;         // see PatchFit::rejection
 };
 
 void contribute(const Site& site, const PatchCap& cap, bool robust, PatchScratch& scratch,
@@ -59,7 +59,7 @@ void contribute(const Site& site, const PatchCap& cap, bool robust, PatchScratch
   }
 }
 
-// The degrees of a cap whose waves are those of the patch's degrees.
+// Returns the cap's degrees that have the same wavelengths as the patch's degrees.
 std::array<std::size_t, kPatchDegrees> own_degrees(const PatchCap& cap) {
   std::array<std::size_t, kPatchDegrees> own;
   for (std::size_t d = 0; d < kPatchDegrees; ++d) {
@@ -69,7 +69,7 @@ std::array<std::size_t, kPatchDegrees> own_degrees(const PatchCap& cap) {
   return own;
 }
 
-// Sums in the order of the caps, whatever the threads did.
+// Sums in the order of the caps, so that the result does not depend on threads.
 void add(const CapContribution& contribution, const PatchCap& cap, Blend& blend) {
   const std::array<std::size_t, kPatchDegrees> own = own_degrees(cap);
   for (std::size_t i = 0; i < contribution.points.size(); ++i) {

@@ -1,4 +1,4 @@
-// The fits of a patch's caps, blended. Layer: edit.
+// Blends the fits of a patch's caps. Layer: edit.
 #pragma once
 
 #include <cstddef>
@@ -14,24 +14,24 @@ namespace rholm {
 
 inline constexpr auto kPatchDegrees = static_cast<std::size_t>(kPatchDegree + 1);
 
-// The part of a mesh that an edit is about.
+// Part of a mesh that an edit uses.
 struct Site {
   LocalMesh local;
-  std::vector<double> weights;        // of its points; those above 0 may move
-  std::vector<std::uint8_t> ignored;  // points left out of the fits; empty if none
+  std::vector<double> weights;        // weight of each point; points with a weight above 0 may move
+  std::vector<std::uint8_t> ignored;  // points left out of the fits; may be empty
 };
 
-// Where fits want the points: a row for each point that may move.
+// Positions wanted by the fits, with one row for each point that may move.
 struct Blend {
-  std::vector<std::uint32_t> row;   // of each point
-  std::vector<double> weight_sums;  // of caps; 0 where none contributes
+  std::vector<std::uint32_t> row;   // row of each point
+  std::vector<double> weight_sums;  // sum of the caps' weights; 0 where no cap contributes
   std::vector<Vec3> moves;          // [row][degree]: from the point to the fit of that degree
-  std::vector<double> rejection;    // residual from which on robust fits have rejected a point
+  std::vector<double> rejection;    // least residual at which robust fits rejected a point
 };
 Blend blend_caps(const Site& site, const std::vector<PatchCap>& caps, bool robust,
                  const Context& context);
 
-// Points that no cap sees, on the back of a fold, go where their neighbours go.
+// Moves points that no cap reaches, on the back of a fold, like their neighbours.
 void follow_neighbours(const Site& site, Blend& blend);
 
 }  // namespace rholm

@@ -9,30 +9,30 @@
 namespace rholm {
 namespace {
 
-// The centre is that of the sphere that the normals belong to, but not farther than 3.7 supports
-// below, which see 15 degrees of it (method 7.2): close to rays that are parallel. And not nearer
-// than 0.6: a hemisphere and a little more.
+// The centre is the centre of the sphere that fits the normals, at most 3.7 supports below the
+// seed. Seen from that distance, the support has a half angle of 15 degrees (method 7.2), and rays
+// are nearly parallel. The centre is at least 0.6 supports below: slightly more than a hemisphere.
 constexpr double kFarthest = 3.7, kNearest = 0.6;
-// The support's rim on the opened sphere: the even harmonics are those of a hemisphere (method
-// 7.8), and need some room beyond the last points. More room than in large caps, whose basis they
-// are alone (cap_candidate.cpp: 88 degrees): the odd ones up to degree 3 of this basis
-// (patch_kernels.h) go on beyond the equator.
+// Angle of the support's rim on the opened sphere. Even harmonics live on a hemisphere
+// (method 7.8), and need some room beyond the last points. They need more room than in
+// large caps, which have even harmonics only (cap_candidate.cpp: 88 degrees). This basis
+// has odd ones up to degree 3 (patch_kernels.h), which continue beyond the equator.
 constexpr double kOpened = 1.4835;  // 85 degrees
-// Blend weights fall to 0 at this part of the support: fits are worst at the rim.
+// Blend weights fall to 0 at this part of the support, because fits are worst at the rim.
 constexpr double kBlendReach = 0.75;
-// Points that need no other cap are within this part. Chosen: four caps at each point; 0.5 takes
-// twice the time, and 0.6 averages less.
+// Points within this part of the support need no other cap. Chosen: each
+// point has four caps. 0.5 takes twice the time, and 0.6 averages less.
 constexpr double kCovered = 0.55;
-// A point belongs to the cap's side of a fold if its normal is within 101 degrees of the axis: the
-// walls of a scratch do, the back of a fin does not.
+// A point belongs to the cap's side of a fold if its normal is within 101 degrees
+// of the axis. This includes the walls of a scratch, but not the back of a fin.
 constexpr double kSameSide = -0.2;
-// And if it is no farther from the cap's sphere than this, in supports: ears and limbs that lean
-// over a patch are not of it. Cylinders are a quarter off where the support is their radius.
+// Largest distance from the cap's sphere, in supports. It excludes ears and limbs that
+// lean over a patch. Cylinders are a quarter off if the support equals their radius.
 constexpr double kOffSphere = 0.35;
-constexpr double kGoodShare = 0.85;  // method 7.4
+constexpr double kGoodShare = 0.85;  // see method 7.4
 constexpr double kShrink = 0.75;
-constexpr double kSmallest = 0.3;      // of the first radius: degree 2
-constexpr double kFewestPoints = 1.5;  // of a coefficient
+constexpr double kSmallest = 0.3;      // share of the first radius: degree 2
+constexpr double kFewestPoints = 1.5;  // points per coefficient
 
 class Gatherer {
  public:
@@ -52,7 +52,7 @@ class Gatherer {
     }
   }
 
-  // Points connected to the seed within the radius, near ones first.
+  // Returns points connected to the seed within the radius, nearest first along edges.
   const std::vector<std::uint32_t>& gather(std::uint32_t seed, double radius) {
     ++mark_;
     found_.assign(1, seed);
@@ -77,7 +77,7 @@ class Gatherer {
   std::uint32_t mark_ = 0;
 };
 
-// The mean normal, near points first.
+// Returns the mean normal; points near the seed have larger weights.
 Vec3 axis_of(const LocalMesh& local, std::uint32_t seed, double radius,
              std::span<const std::uint32_t> found) {
   Vec3 sum;
@@ -86,11 +86,11 @@ Vec3 axis_of(const LocalMesh& local, std::uint32_t seed, double radius,
     const double d2 = dot(offset, offset) / (radius * radius);
     sum += local.areas[v] * (1 - d2) * local.normals[v];
   }
-  // A sphere seen as a whole has no mean: its seed's normal is as good as any.
+  // A whole sphere has no mean normal; the seed's normal is used instead.
   return norm(sum) > 0 ? normalized(sum) : local.normals[seed];
 }
 
-// The cap of that radius; returns the share of the area that is on its side.
+// Makes a cap of this radius; returns the share of the area that is on the cap's side.
 double make_cap(const LocalMesh& local, std::uint32_t seed, double radius,
                 std::span<const std::uint32_t> found, PatchCap& cap) {
   const Vec3 axis = axis_of(local, seed, radius, found);
@@ -121,8 +121,8 @@ double make_cap(const LocalMesh& local, std::uint32_t seed, double radius,
 
 namespace {
 
-// The mean curvature of the sphere that the normals belong to, by least squares: n = axis + k o for
-// offsets o across the axis.
+// Returns the mean curvature k of the sphere that fits the normals,
+// by least squares: n = axis + k o for offsets o across the axis.
 double curvature_of(const PatchPoints& patch, const Vec3& seed, const Vec3& axis) {
   double above = 0, below = 0;
   for (const std::uint32_t v : patch.which) {
@@ -139,7 +139,7 @@ double curvature_of(const PatchPoints& patch, const Vec3& seed, const Vec3& axis
 CapFrame patch_frame(const PatchPoints& patch, const Vec3& seed, const Vec3& axis, double radius) {
   const double bend = radius * curvature_of(patch, seed, axis);
   const double depth = std::clamp(bend > 0 ? 1 / bend : kFarthest, kNearest, kFarthest);
-  // The angle of the support, a chord, at that centre.
+  // Angle of the support, a chord, seen from this centre.
   const double half_angle = 2 * std::asin(std::min(1.0, 0.5 / depth));
   CapFrame frame = cap_frame(seed, axis, radius, half_angle, kOpened);
   frame.radius = depth * radius;

@@ -1,10 +1,10 @@
-// The least squares of a cap's points: phi = r / R_0 - 1 by the patch harmonics of the opened
-// sphere, weighted by area there, so that the fit is close to a projection onto them.
+// Fits a cap's points by least squares: phi = r / R_0 - 1 in the patch harmonics of the opened
+// sphere. Area there is the weight, so that the fit is close to a projection onto them.
 //
-// The robust fit reweights, from coarse to fine: a low degree cannot follow a scratch, so that what
-// lies off it far more than the rest, and what is near that, is left out (Tukey's measure), and
-// comes back only if a higher degree, fitted without it, agrees. The first solutions take Huber's
-// measure, which is convex: whatever the start, it finds the same.
+// The robust fit reweights from low to high degree, because a low degree cannot follow a
+// scratch. Points far off the fit, and points near them, are left out (Tukey's measure).
+// They return only if a higher degree, fitted without them, agrees. The first solutions
+// use Huber's measure, which is convex, so the result does not depend on the start.
 #include "edit/patch/patch_fit.h"
 
 #include <algorithm>
@@ -18,34 +18,34 @@
 namespace rholm {
 namespace {
 
-// Points per coefficient: of the fits that only tell what stands out, and of the last, which
-// averages over what is left: what n of them leave of finer detail is 1 / sqrt(n) of it, half of
-// that where caps overlap. Every cap draws its own.
+// Points per coefficient for fits that only detect outliers, and for the last
+// fit, which averages. The last fit leaves 1 / sqrt(n) of the finer detail with
+// n points, half of that where caps overlap. Every cap draws its own points.
 constexpr double kPointsForWeights = 6;
 constexpr double kPointsPerCoefficient = 400;
-// Up to this many times the first, all are taken at once: one set of rows serves both.
+// If there are at most this many times the first number, all points are used in both fits.
 constexpr double kFew = 1.5;
-// Of (l (l + 1))^2 against the weights: only where points leave a fit undetermined it matters.
+// Factor of (l (l + 1))^2 relative to the weights; it matters only for undetermined fits.
 constexpr double kPenalty = 1e-8;
-// With fewer points around it than this, a region is not bridged but guessed. Half a wavelength
-// across a cap is a sixth, and a third where caps had to shrink.
+// Largest share of ignored points; with more, the region is guessed, not bridged. A region
+// half a wavelength wide is a sixth of a cap, and a third of a cap that had to shrink.
 constexpr double kMostIgnored = 0.45;
-// A pivot that has lost so many digits is none.
+// Smaller pivots have lost too many digits.
 constexpr double kLeastPivot = 1e-12;
 constexpr int kFirstDegree = 2, kDegreeStep = 2, kConvex = 3;
 // Where Huber's measure turns linear, in medians of |e|; 1.48 medians are a standard deviation.
 constexpr double kTurn = 1;
-// Where Tukey's rejects points, likewise, and how near to such a point others are left out with it,
-// in half wavelengths. On scratches four tenths of a wavelength wide (scripts/constants) 4 ... 7
-// and 0.5 ... 1 are alike, the scratch disappears five times as well as with the convex measure
-// alone.
+// Residual at which Tukey's measure rejects points, in medians too, and the
+// halo of a rejected point in half wavelengths. On scratches 0.4 wavelengths
+// wide (scripts/constants), 4 ... 7 and 0.5 ... 1 are equally good. The
+// scratch disappears five times as well as with the convex measure alone.
 constexpr double kRejection = 5;
 constexpr double kHalo = 0.8;
-// No less than this part of the detail that the fit has found: where the surroundings are
-// perfectly smooth the smallest misfit of a wide feature would stand out.
+// Least rejection as a share of the detail in the fit. On perfectly smooth
+// surroundings the smallest misfit of a wide feature would otherwise be an outlier.
 constexpr double kLeastScale = 0.05;
 
-// About `wanted` of the points, all over the cap.
+// Chooses about `wanted` points, distributed over the cap.
 void choose_points(const PatchCap& cap, double wanted, std::span<const std::uint8_t> ignored,
                    PatchScratch& scratch) {
   const double share = wanted / static_cast<double>(cap.points.size());
@@ -56,7 +56,7 @@ void choose_points(const PatchCap& cap, double wanted, std::span<const std::uint
   }
 }
 
-// Few enough points are one block, whose rows are made once.
+// Returns the block length; a small number of points forms one block with rows made once.
 std::size_t block_length(std::size_t n) { return n <= 2 * kPatchBlock ? n : kPatchBlock; }
 
 void fill_offsets(const LocalMesh& local, const CapFrame& frame,
@@ -76,8 +76,8 @@ void fill_offsets(const LocalMesh& local, const CapFrame& frame,
   }
 }
 
-// Weights before any robustness of the block's m points: area on the opened sphere, less at the
-// rim, 0 for the padding.
+// Computes the weights of a block's m points before robust weighting:
+// area on the opened sphere, less at the rim, 0 for the padding.
 void base_weights(const LocalMesh& local, const PatchCap& cap, std::size_t first, std::size_t m,
                   PatchScratch& scratch) {
   const double support2 = cap.frame.support * cap.frame.support;
@@ -87,13 +87,13 @@ void base_weights(const LocalMesh& local, const PatchCap& cap, std::size_t first
     weight = 0;
     if (first + i >= scratch.taken.size()) continue;
     const Vec3 offset = {x[i], x[m + i], x[2 * m + i]};
-    const double rim = 1.15 - std::min(1.0, dot(offset, offset) / support2);  // method 7.8
+    const double rim = 1.15 - std::min(1.0, dot(offset, offset) / support2);  // see method 7.8
     weight = local.areas[scratch.taken[first + i]] * scratch.area[first + i] * rim;
   }
 }
 
-// Calls visit(first, m) for the blocks of the points taken, with their rows and base weights made.
-// Those of several blocks are made each time: that is quicker than to fetch them from memory.
+// Calls visit(first, m) for each block of chosen points, with its rows and base weights. The rows
+// of several blocks are recomputed each time, which is faster than reading them from memory.
 template <class Visit>
 void for_each_block(const LocalMesh& local, const PatchCap& cap, PatchScratch& scratch,
                     const Visit& visit) {
@@ -111,7 +111,7 @@ void for_each_block(const LocalMesh& local, const PatchCap& cap, PatchScratch& s
   }
 }
 
-// The solutions of the leading equations of degree 0, 1, ... `degree`, one after the other.
+// Returns the solutions of the leading equations of degree 0, 1, ... `degree` in sequence.
 std::vector<double> solve_family(int degree, PatchScratch& scratch) {
   std::vector<std::size_t> sizes;
   for (int d = 0; d <= degree; ++d) sizes.push_back(patch_basis(d));
@@ -120,7 +120,7 @@ std::vector<double> solve_family(int degree, PatchScratch& scratch) {
   return coefficients;
 }
 
-// The normal equations of the points taken, factored.
+// Makes and factors the normal equations of the chosen points.
 bool make_equations(const LocalMesh& local, const PatchCap& cap, int degree,
                     PatchScratch& scratch) {
   const std::size_t n = patch_basis(degree);
@@ -152,7 +152,7 @@ bool solve(const LocalMesh& local, const PatchCap& cap, int degree, PatchScratch
   return true;
 }
 
-// Points, all with their base weights.
+// Chooses points and gives all of them their base weights.
 void take_points(const LocalMesh& local, const PatchCap& cap, double per_coefficient,
                  std::span<const std::uint8_t> ignored, PatchScratch& scratch) {
   const std::size_t n = patch_basis(cap.degree);
@@ -171,7 +171,7 @@ void take_points(const LocalMesh& local, const PatchCap& cap, double per_coeffic
 
 double halo_of(const PatchCap& cap) { return kHalo * cap.frame.support / cap.degree; }
 
-// |e| of the solution at the points.
+// Computes |e| of the solution at the points.
 void find_residuals(const LocalMesh& local, const PatchCap& cap, PatchScratch& scratch) {
   scratch.residual.resize(padded(scratch.taken.size()));
   poison_scratch(std::span(scratch.residual));
@@ -192,7 +192,7 @@ double median_residual(PatchScratch& scratch) {
   return *middle;
 }
 
-// The rms of what the solution has beyond degree 2, by Parseval on the opened hemisphere.
+// Returns the rms of the solution beyond degree 2, by Parseval on the opened hemisphere.
 double detail_of(std::size_t n, const PatchScratch& scratch) {
   double sum = 0;
   for (std::size_t i = patch_basis(2); i < n; ++i) sum += scratch.solution[i] * scratch.solution[i];
@@ -214,7 +214,7 @@ void weigh_by_tukey(double rejection, double halo, PatchScratch& scratch) {
     const double rest = std::max(0.0, 1 - part * part);
     scratch.weights[i] *= rest * rest;
   }
-  // The flanks of what stands out would hold the fit where its middle was.
+  // Without a halo, the flanks of a rejected feature would hold the fit at the feature.
   const std::size_t n = padded(scratch.taken.size()), length = block_length(n);
   for (std::size_t i = 0; i < scratch.taken.size(); ++i) {
     if (!(scratch.residual[i] > rejection)) continue;
@@ -228,8 +228,8 @@ void weigh_by_tukey(double rejection, double halo, PatchScratch& scratch) {
   }
 }
 
-// Weights for the next solution, from what the last one leaves; returns the residual from which
-// on points are rejected, 0 if every point is fitted exactly.
+// Computes the next weights from the residuals of the last solution. Returns the
+// residual at which points are rejected, or 0 if every point is fitted exactly.
 double weigh_again(const LocalMesh& local, const PatchCap& cap, bool convex,
                    PatchScratch& scratch) {
   find_residuals(local, cap, scratch);
@@ -245,7 +245,7 @@ double weigh_again(const LocalMesh& local, const PatchCap& cap, bool convex,
   return rejection;
 }
 
-// The solution of the robust fit of the points taken; false if there is none.
+// Solves the robust fit of the chosen points; returns false if there is no solution.
 bool solve_robustly(const LocalMesh& local, const PatchCap& cap, PatchScratch& scratch,
                     double& rejection) {
   const int first = std::min(kFirstDegree, cap.degree);

@@ -15,7 +15,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, kCapLanes>;
 using V = hn::Vec<D>;
 
-// Directions this close to the one opposite the axis, where the plane ends, are taken as there.
+// Directions closer to the pole opposite the axis, where the plane ends, are moved there.
 constexpr double kLeastBelow = 1e-3;
 
 void Rows(const CapFrame& frame, int degree, const double* offsets, std::size_t n, double* rows,
@@ -58,14 +58,14 @@ void Sum(const double* rows, const double* coefficients, std::size_t count, std:
   }
 }
 
-// A row is loaded once for four sets.
+// Each row is loaded once for four sets.
 void Sums(const double* rows, const double* coefficients, int degree, std::size_t n, double* out,
           std::size_t stride) {
   const D d;
   const std::size_t count = patch_basis(degree);
   for (int top = degree; top >= 0; top -= 4) {
     const int low = top < 3 ? 0 : top - 3;
-    // Those below the lowest are the lowest once more.
+    // Unused sets repeat the lowest one.
     const double* set[4];
     for (int s = 0; s < 4; ++s) {
       set[s] = coefficients + count * static_cast<std::size_t>(top - s < low ? low : top - s);

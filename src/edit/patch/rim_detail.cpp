@@ -1,5 +1,5 @@
-// With h the surface minus its fit, known around the region: the h in it that minimises the sum of
-// |h_p - mean of h at p's neighbours|^2 over the region and its first ring, by conjugate gradients.
+// Let h be the surface minus its fit, known around the region. Conjugate gradients find h inside
+// that minimises the sum of |h_p - mean of h at p's neighbours|^2 over region and first ring.
 #include "edit/patch/rim_detail.h"
 
 #include <cmath>
@@ -9,15 +9,15 @@
 namespace rholm {
 namespace {
 
-// Of the solution: it is a guess of what nobody knows. Regions too wide for that many steps keep
-// the fit in their middle.
+// Tolerance of the solution, which is a guess anyway. Regions
+// too wide for kMostSteps keep the fit in their middle.
 constexpr double kTolerance = 1e-3;
 constexpr int kMostSteps = 200;
 
 struct Rim {
   std::vector<std::uint32_t> inside;  // points of the region
   std::vector<std::uint32_t> plates;  // points whose second difference counts
-  // Neighbours of plates[i], each as often as triangles say so: begin[i] ... begin[i + 1].
+  // Neighbours of plates[i], once per shared triangle: begin[i] ... begin[i + 1].
   std::vector<std::uint32_t> neighbours, begin;
 };
 
@@ -52,7 +52,7 @@ Rim make_rim(const Site& site, const Blend& blend) {
   return rim;
 }
 
-// Second differences at the plates.
+// Computes second differences at the plates.
 void bend(const Rim& rim, const std::vector<Vec3>& h, std::vector<Vec3>& bends) {
   for (std::size_t i = 0; i < rim.plates.size(); ++i) {
     Vec3 sum;
@@ -61,7 +61,7 @@ void bend(const Rim& rim, const std::vector<Vec3>& h, std::vector<Vec3>& bends) 
   }
 }
 
-// The transpose, at the points of the region; 0 elsewhere.
+// Applies the transpose of bend() at the points of the region; other points become 0.
 void unbend(const Site& site, const Rim& rim, const std::vector<Vec3>& bends,
             std::vector<Vec3>& h) {
   std::fill(h.begin(), h.end(), Vec3{});
@@ -81,7 +81,7 @@ double squares(const Rim& rim, const std::vector<Vec3>& a, const std::vector<Vec
   return sum;
 }
 
-// h is given around the region and 0 in it, and is filled.
+// Fills h in the region, where it is 0 at first; h is given around the region.
 void fill(const Site& site, const Rim& rim, std::vector<Vec3>& h) {
   std::vector<Vec3> bends(rim.plates.size()), residual(h.size()), step, image(h.size());
   bend(rim, h, bends);

@@ -1,9 +1,9 @@
-// How edits fade. Layer: edit.
+// Fading of edits. Layer: edit.
 #pragma once
 
 namespace rholm {
 
-// 1 up to 0, 0 from 1 on; first and second derivatives vanish at both ends.
+// Returns 1 for t <= 0, 0 for t >= 1; first and second derivatives vanish at both ends.
 inline double fading(double t) {
   if (!(t > 0)) return 1;
   if (t >= 1) return 0;

@@ -18,7 +18,7 @@ bool inside(const Bounds& box, const Vec3& p) {
          p.y <= box.max.y && p.z <= box.max.z;
 }
 
-// Vertices of the chosen corners in order, and the place of each among them.
+// Returns the vertices of the chosen corners, ascending, and sets `place` to their positions.
 std::vector<std::uint32_t> used_vertices(std::size_t n_vertices,
                                          std::span<const std::uint32_t> corners,
                                          std::vector<std::uint32_t>& place) {
@@ -33,7 +33,7 @@ std::vector<std::uint32_t> used_vertices(std::size_t n_vertices,
   return used;
 }
 
-// Makes corners, indices of vertices, indices of points.
+// Replaces the vertex indices in `corners` by indices of points.
 void number_points(const Mesh& mesh, std::vector<std::uint32_t>& corners, LocalMesh& local) {
   std::vector<std::uint32_t> place;
   const std::vector<std::uint32_t> used = used_vertices(mesh.vertices.size(), corners, place);
@@ -117,14 +117,15 @@ void update_normals(Mesh& mesh, std::span<const std::uint32_t> vertices) {
 
 namespace {
 
-// The distance of c across the triangle from two corners a, b of known distances: as if all lay in
-// a plane with one source beyond ab, if the straight way crosses ab, else along an edge.
+// Returns the distance of c across the triangle from two corners a, b with known distances. The
+// source is unfolded into the plane beyond ab. If its straight line to c does not cross ab, the
+// result is the distance along an edge.
 double across(const Vec3& a, const Vec3& b, const Vec3& c, double at_a, double at_b) {
   const Vec3 ab = b - a, ac = c - a;
   const double length = norm(ab);
   const double along_edge = std::min(at_a + norm(ac), at_b + norm(c - b));
   if (!(length > 0)) return along_edge;
-  // a at 0, b at (length, 0), c above, the source below.
+  // Coordinates: a at 0, b at (length, 0), c above, the source below.
   const double cx = dot(ac, ab) / length;
   const double cy = std::sqrt(std::max(0.0, dot(ac, ac) - cx * cx));
   const double sx = (at_a * at_a - at_b * at_b + length * length) / (2 * length);

@@ -1,4 +1,4 @@
-// The part of a mesh that an edit looks at. Layer: edit.
+// Part of a mesh that an edit reads. Layer: edit.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,15 @@
 
 namespace rholm {
 
-// Vertices that coincide bit for bit are one point, so that a seam of the file is none of the
-// surface.
+// Vertices with identical coordinates are one point, so
+// that a seam of the file is no seam of the surface.
 struct LocalMesh {
   std::vector<Vec3> points;
-  std::vector<Triangle> triangles;     // of points; none with a repeated corner
+  std::vector<Triangle> triangles;     // triangles of points; none with a repeated corner
   std::vector<Vec3> normals;           // unit, weighted by area; zero where there is no area
-  std::vector<double> areas;           // a third of the triangles around each point
+  std::vector<double> areas;           // a third of the area of the triangles around each point
   VertexStars stars;                   // triangles around each point
-  std::vector<std::uint32_t> members;  // vertices of the mesh at point i, likewise
+  std::vector<std::uint32_t> members;  // vertices of the mesh at each point
   std::vector<std::uint32_t> members_begin;
 
   std::span<const std::uint32_t> triangles_at(std::size_t point) const { return stars.of(point); }
@@ -30,25 +30,25 @@ struct LocalMesh {
   }
 };
 
-// Waves shorter than this many edges are not in a mesh.
+// A mesh cannot represent waves shorter than this number of edges.
 inline constexpr double kFewestEdges = 2;
 
-// The median length of the edges that leave points of weight > 0; 0 if there are none.
+// Returns the median length of edges that leave points of weight > 0; 0 if there are none.
 double median_edge(std::span<const Vec3> points, std::span<const Triangle> triangles,
                    std::span<const double> weights);
 
-// Triangles with a corner in the box, and their corners.
+// Cuts out the triangles with a corner in the box, with all their corners.
 LocalMesh cut_out(const Mesh& mesh, const Bounds& box);
 
-// Unit normals at the points when they are at `positions`, weighted by area.
+// Returns unit normals at the points, weighted by area, for the points' given positions.
 std::vector<Vec3> point_normals(const LocalMesh& local, std::span<const Vec3> positions);
 
-// Normals among the mesh's attributes (nx, ny, nz), made anew at these vertices.
+// Recomputes the normal attributes (nx, ny, nz) of the mesh at these vertices.
 void update_normals(Mesh& mesh, std::span<const std::uint32_t> vertices);
 
-// Distances along the surface by fast marching (Kimmel, Sethian 1998, with the distance to a
-// source unfolded into the plane instead of a plane wave): `distance` has those of the sources and
-// infinity elsewhere, and is filled as far as `limit`.
+// Computes distances along the surface by fast marching (Kimmel, Sethian 1998; the distance
+// to a source unfolded into the plane replaces the plane wave). On input `distance` has the
+// values of the sources, and infinity elsewhere; it is filled up to `limit`.
 void march(const LocalMesh& local, double limit, std::vector<double>& distance);
 
 }  // namespace rholm

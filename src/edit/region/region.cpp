@@ -15,14 +15,13 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// From distances to the region, not positive inside.
+// Converts distances from the region, not positive inside, to weights.
 std::vector<double> faded(std::vector<double> distance, double transition) {
   for (double& d : distance) d = d <= 0 ? 1 : transition > 0 ? fading(d / transition) : 0;
   return distance;
 }
 
-// The part of the mesh within `reach` of a box, and what is known of distances there, spread
-// along the surface.
+// Spreads known distances along the surface, in the part of the mesh within `reach` of a box.
 std::vector<double> spread(const Mesh& mesh, std::vector<double> distance, const Bounds& box,
                            double reach) {
   const Vec3 margin = {reach, reach, reach};
@@ -44,7 +43,7 @@ void check_radius(double radius) {
   }
 }
 
-// Distances from a region given in space; says how far the nearest vertex is if none is inside.
+// Returns weights of a region in space; throws with the nearest distance if no vertex is inside.
 template <class Distance>
 std::vector<double> in_space(const Mesh& mesh, const Distance& distance_of, const char* kind,
                              double transition) {
@@ -93,7 +92,7 @@ std::vector<double> weights_of(const Mesh& mesh, const DiscRegion& disc, double 
   return faded(std::move(distance), transition);
 }
 
-// A region of vertices that are in it or not; distance is 0 in it, infinite outside.
+// Returns weights for a set of vertices; distance is 0 in the set, infinite outside.
 std::vector<double> around(const Mesh& mesh, std::vector<double> distance, double transition) {
   Bounds box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
   for (std::size_t i = 0; i < distance.size(); ++i) {
@@ -120,7 +119,7 @@ std::vector<double> weights_of(const Mesh& mesh, const PropertyRegion& property,
   bool mask = true, any = false;
   for (double& v : values) {
     mask = mask && (v == 0 || v == 1);
-    v = v > 0 ? std::min(v, 1.0) : 0;  // NaN is 0
+    v = v > 0 ? std::min(v, 1.0) : 0;  // NaN becomes 0
     any = any || v > 0;
   }
   if (!any) refuse(fmt::format("the property '{}' is nowhere above 0", property.name));
@@ -139,7 +138,7 @@ std::vector<double> weights_of(const Mesh& mesh, const ColorRegion& color, doubl
     const double wanted = (color.rgb >> (16 - 8 * k)) & 0xff;
     for (std::size_t i = 0; i < distance.size(); ++i) {
       const double value = to_one ? 255 * channel.values[i] : channel.values[i];
-      // Half a step of 8 bits. NaN is no colour.
+      // The tolerance is half a step of 8 bits. NaN matches no colour.
       if (!(std::abs(value - wanted) <= 0.5)) distance[i] = kInfinity;
     }
   }

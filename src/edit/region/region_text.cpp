@@ -15,7 +15,7 @@ namespace {
   throw Error(ErrorCode::kInvalidInput, fmt::format("'{}' is no region: {}", text, form));
 }
 
-// All of a text as a number; none if there is more, or if it is not finite.
+// Parses a whole text as a number; returns nullopt for other text, or if not finite.
 template <class Number>
 std::optional<Number> number_of(const std::string& text) {
   Number value{};

@@ -15,7 +15,7 @@ struct FittedCap {
   PatchFit fit;
 };
 
-// One cap over all of the region.
+// Fits one cap to the whole region.
 FittedCap fit_region(const TexturedPatch& textured, PatchScratch& scratch) {
   FittedCap fitted;
   fitted.cap.frame = textured.chart.frame;
@@ -37,7 +37,7 @@ FittedCap fit_region(const TexturedPatch& textured, PatchScratch& scratch) {
   return fitted;
 }
 
-// Coefficients of the highest degree's fit, in the order of the basis, turned about the axis.
+// Returns the highest degree's coefficients in the order of the basis, turned about the axis.
 std::vector<double> turned(const FittedCap& fitted, double angle) {
   const std::size_t n = patch_basis(fitted.cap.degree);
   const auto last = fitted.fit.coefficients.end();
@@ -59,7 +59,7 @@ std::vector<Vec3> swap_coefficients(const TexturedPatch& source, const TexturedP
   PatchScratch scratch;
   const FittedCap from = fit_region(source, scratch), to = fit_region(target, scratch);
   const std::vector<double> theirs = turned(from, angle), own = turned(to, 0);
-  // The change of the target's radius.
+  // Change of the target's radius.
   FittedCap change = to;
   change.cap.degree = std::min(from.cap.degree, to.cap.degree);
   const std::size_t n = patch_basis(change.cap.degree);

@@ -7,11 +7,11 @@
 namespace rholm {
 namespace {
 
-constexpr int kMostSamples = 1024;  // on a side: 16 MB
-// Rings and angles of the comparison: the peak lies between angles, by a parabola.
+constexpr int kMostSamples = 1024;  // samples per side: 16 MB
+// Numbers of rings and angles for alignment; a parabola finds the peak between angles.
 constexpr int kRings = 48, kAngles = 720;
 
-// Weights of four neighbours.
+// Returns the weights of four neighbours.
 std::array<double, 4> cubic(double t) {
   const double u = 1 - t;
   return {-0.5 * t * u * u, 1 + t * t * (1.5 * t - 2.5), 1 + u * u * (1.5 * u - 2.5),
@@ -33,7 +33,7 @@ double interpolate(const DetailMap& map, const std::vector<double>& values, cons
   return sum;
 }
 
-// Values on a ring, at kAngles angles.
+// Returns the values on a ring at kAngles angles.
 std::vector<double> ring(const DetailMap& map, double radius) {
   std::vector<double> values(kAngles);
   for (int k = 0; k < kAngles; ++k) {
@@ -68,7 +68,7 @@ void draw(const std::array<DetailCorner, 3>& triangle, DetailMap& map) {
   const double ux = b.at.p - a.at.p, uy = b.at.q - a.at.q;
   const double vx = c.at.p - a.at.p, vy = c.at.q - a.at.q;
   const double area = ux * vy - uy * vx;
-  // Seen from behind: a fold.
+  // The triangle is seen from behind: a fold.
   if (!(area > 0)) return;
   const double middle = (map.n - 1) / 2.0;
   const auto range = [&](double x, double y, double z) {
@@ -106,7 +106,7 @@ Alignment align_maps(const DetailMap& a, double scale, const DetailMap& b) {
     for (std::size_t i = 0; i < kAngles; ++i) {
       energy_a += radius * of_a[i] * of_a[i];
       energy_b += radius * of_b[i] * of_b[i];
-      // a turned by i steps.
+      // Compares b with a turned by i steps.
       double sum = 0;
       for (std::size_t j = 0; j < kAngles - i; ++j) sum += of_a[j] * of_b[j + i];
       for (std::size_t j = kAngles - i; j < kAngles; ++j) sum += of_a[j] * of_b[j + i - kAngles];

@@ -21,8 +21,8 @@ Key key_of(std::uint32_t a, std::uint32_t b) {
   return static_cast<Key>(std::min(a, b)) << 32 | std::max(a, b);
 }
 
-// With the weights of Max (1999), exact on spheres: triangles of unlike sizes, which splitting
-// leaves side by side, do not tilt them.
+// Weighted as by Max (1999), exact on spheres: adjacent triangles of
+// different sizes, which splitting makes, do not tilt the normals.
 std::vector<Vec3> vertex_normals(const Mesh& mesh) {
   std::vector<Vec3> normals(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles) {
@@ -69,7 +69,7 @@ void add_middle(const std::vector<Vec3>& normals, Key edge, Mesh& mesh,
   }
 }
 
-// The triangles that replace one whose edges k -> k + 1 have new vertices m[k], or none.
+// Replaces a triangle whose edges k -> k + 1 have new vertices m[k], or kNone.
 void split(const Triangle& t, const std::array<std::uint32_t, 3>& m, const Mesh& mesh,
            std::vector<Triangle>& out) {
   const int n_split = (m[0] != kNone) + (m[1] != kNone) + (m[2] != kNone);
@@ -82,7 +82,7 @@ void split(const Triangle& t, const std::array<std::uint32_t, 3>& m, const Mesh&
     const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
     out.insert(out.end(), {{a, m[k], c}, {m[k], b, c}});
   } else {
-    // b is where the two split edges meet; the quadrilateral left over has two diagonals.
+    // The two split edges meet at b; the other quadrilateral has two diagonals.
     const std::size_t k = m[0] == kNone ? 1 : m[1] == kNone ? 2 : 0;
     const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
     const std::uint32_t ab = m[k], bc = m[(k + 1) % 3];
@@ -103,8 +103,8 @@ void split(const Triangle& t, const std::array<std::uint32_t, 3>& m, const Mesh&
                   length, kMostRefined));
 }
 
-// No triangle with edges of at most this length is larger than the equilateral one, and there are
-// half as many vertices as triangles: said before the work, not when memory is full.
+// Throws before the work, not when memory is full. With edges up to `length` no
+// triangle is larger than the equilateral one, and there are two triangles per vertex.
 void check_size(const Mesh& mesh, const std::vector<double>& weights, double length) {
   double area = 0;
   for (const Triangle& t : mesh.triangles) {

@@ -1,4 +1,4 @@
-// Finer triangles where an edit needs them. Layer: edit.
+// Refines triangles where an edit needs smaller ones. Layer: edit.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,11 @@
 
 namespace rholm {
 
-// Splits edges longer than `length` that touch a vertex of weight > 0, and their triangles with
-// them, again and again; `weights` grow with the mesh. Old vertices stay where they are, and so
-// does the surface where weights are 0; elsewhere new ones lie on the cubic that the ends' normals
-// give (PN triangles, Vlachos et al. 2001). Throws InvalidInput if there would be more than
-// kMostRefined vertices.
+// Splits edges longer than `length` that touch a vertex of weight > 0, with
+// their triangles, repeatedly; `weights` grow with the mesh. Old vertices stay,
+// and so does the surface where weights are 0. Elsewhere new vertices lie on
+// the cubic defined by the normals at the ends (PN triangles, Vlachos et al.
+// 2001). Throws InvalidInput if more than kMostRefined vertices were needed.
 inline constexpr std::size_t kMostRefined = 20000000;
 void refine(Mesh& mesh, std::vector<double>& weights, double length);
 

@@ -1,7 +1,7 @@
-// One tile is a patch of the disc with six sides; its translates along the lattice fill the plane,
-// so that opposite sides are the same line. Each side is the path of least squared difference
-// between two neighbours (the minimum error boundary cut of Efros, Freeman 2001), its ends the
-// places where three of them differ least.
+// A tile is a patch of the disc with six sides; its translates along the lattice
+// fill the plane, so opposite sides are the same line. Each side is the path of
+// least squared difference between two neighbours (the minimum error boundary
+// cut of Efros, Freeman 2001). Sides end where three tiles differ least.
 #include "edit/texture/repeated_map.h"
 
 #include <algorithm>
@@ -13,35 +13,35 @@
 namespace rholm {
 namespace {
 
-// Tiles end this far inside the disc, to leave room for the fade.
+// Tiles end this far inside the disc, which leaves room for the fade.
 constexpr double kDisc = 0.95;
-// The fade reaches this far to both sides of a seam, in lengths in which the texture's height
-// changes by its rms: waves of length w have w / 4.4. Chosen by looking.
+// Half width of the fade across a seam, in lengths over which the texture's height
+// changes by its rms. Waves of length w have the length w / 4.4. Chosen by looking.
 constexpr double kFade = 1.2, kWidestFade = 0.05;
-// Where three tiles may meet, around the middle: part of the disc.
+// Region around the middle where three tiles may meet, as a part of the disc.
 constexpr double kCornerReach = 0.12;
 constexpr int kCornerSteps = 12;
-// Seams: steps along one, and how far from the straight line they look, in its length.
+// Steps along a seam, and its largest deviation from the straight line, in its length.
 constexpr int kAlong = 96;
 constexpr double kAside = 0.45;
 constexpr int kMostSamples = 512;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// What it costs to pass from the tile at 0 to that at t in x; infinite beyond either.
+// Returns the cost of a seam at x between the tiles at 0 and t; infinite beyond either tile.
 double difference(const DetailMap& map, const Place2& x, const Place2& t) {
   if (!(length(x) < kDisc) || !(length(x - t) < kDisc)) return kInfinity;
   const double off = map(x) - map(x - t);
   return off * off;
 }
 
-// The middle of the circle through 0, a and b.
+// Returns the centre of the circle through 0, a and b.
 Place2 middle_of(const Place2& a, const Place2& b) {
   const double twice = 2 * (a.p * b.q - a.q * b.p);
   const double aa = a.p * a.p + a.q * a.q, bb = b.p * b.p + b.q * b.q;
   return {(b.q * aa - a.q * bb) / twice, (a.p * bb - b.p * aa) / twice};
 }
 
-// Where the tiles at 0, a and b differ least, not far from the middle.
+// Returns the point near the centre where the tiles at 0, a and b differ least.
 Place2 corner_of(const DetailMap& map, const Place2& a, const Place2& b) {
   const Place2 middle = middle_of(a, b);
   Place2 best = middle;
@@ -57,13 +57,13 @@ Place2 corner_of(const DetailMap& map, const Place2& a, const Place2& b) {
   return best;
 }
 
-// The path from one corner to the other of least difference between the tiles at 0 and t; it
-// deviates by 45 degrees at most, so that paths from one corner stay apart. The straight way is
-// within both discs: they are convex.
+// Returns the path between two corners with the least difference between the tiles
+// at 0 and t. It deviates by at most 45 degrees, so that paths from one corner
+// stay apart. The straight path lies within both discs, because discs are convex.
 std::vector<Place2> seam(const DetailMap& map, const Place2& from, const Place2& to,
                          const Place2& t) {
   const Place2 along = (1.0 / kAlong) * (to - from);
-  // Two steps aside are one along.
+  // Two steps aside have the length of one step along.
   const Place2 aside{-along.q / 2, along.p / 2};
   constexpr int kReach = static_cast<int>(2 * kAside * kAlong);
   constexpr auto kWidth = static_cast<std::size_t>(2 * kReach + 1);
@@ -98,8 +98,8 @@ std::vector<Place2> seam(const DetailMap& map, const Place2& from, const Place2&
   return path;
 }
 
-// The tile's outline, counter-clockwise: sides towards a, b and b - a, and the same, seen from the
-// neighbours on the other sides.
+// Returns the tile's outline, counter-clockwise: its sides towards a,
+// b and b - a, then the same sides shifted to the opposite neighbours.
 std::vector<Place2> outline_of(const DetailMap& map, const TileLattice& lattice) {
   const auto [a, b] = lattice;
   const Place2 c = b - a;
@@ -117,7 +117,7 @@ std::vector<Place2> outline_of(const DetailMap& map, const TileLattice& lattice)
   return outline;
 }
 
-// A square of samples of the plane around the origin, (i a + j b) / n, |i|, |j| <= reach.
+// Square of samples of the plane around the origin, at (i a + j b) / n, |i|, |j| <= reach.
 struct Plane {
   int n = 0, reach = 0;
   std::vector<double> values;
@@ -128,7 +128,7 @@ struct Plane {
   }
 };
 
-// 1 inside of the outline, line by line between its crossings.
+// Sets samples inside the outline to 1, line by line between its crossings.
 void fill(const std::vector<Place2>& outline, const TileLattice& lattice, Plane& plane) {
   const auto [a, b] = lattice;
   const double area = a.p * b.q - a.q * b.p;
@@ -155,8 +155,8 @@ void fill(const std::vector<Place2>& outline, const TileLattice& lattice, Plane&
   }
 }
 
-// Sums of 2 half + 1 samples along (di, dj), from the sum before each: whole numbers, so exact.
-// Samples near the border are 0, and so is what lies beyond.
+// Sums 2 half + 1 samples along (di, dj), updated from the previous sum; the
+// sums are whole numbers, so exact. Samples near the border and beyond it are 0.
 void box(int di, int dj, int half, Plane& plane) {
   const std::vector<double> before = plane.values;
   const auto of = [&](const std::vector<double>& values, int i, int j) {
@@ -171,7 +171,7 @@ void box(int di, int dj, int half, Plane& plane) {
   }
 }
 
-// The rms of the heights in the disc over that of their slopes.
+// Returns the rms of the heights in the disc over the rms of their slopes.
 double length_of_change(const DetailMap& map) {
   double heights = 0, slopes = 0;
   for (double q = -kDisc; q < kDisc; q += map.step) {
@@ -186,8 +186,8 @@ double length_of_change(const DetailMap& map) {
   return slopes > 0 ? std::sqrt(heights / slopes) : 0;
 }
 
-// The blend weight of the tile at 0, its outline faded: boxes along the three directions of the
-// lattice, twice, are round enough.
+// Returns the blend weight of the tile at 0 with a faded outline. Boxes along
+// the three directions of the lattice, applied twice, are round enough.
 Plane blend_weights_of(const std::vector<Place2>& outline, const TileLattice& lattice, int n,
                        double fade) {
   Plane plane;
@@ -195,7 +195,7 @@ Plane blend_weights_of(const std::vector<Place2>& outline, const TileLattice& la
   plane.reach = n + n / 4;  // tiles reach 1.04, the fade 0.05 beyond
   plane.values.assign(static_cast<std::size_t>(plane.width() * plane.width()), 0);
   fill(outline, lattice, plane);
-  // Six boxes reach 4 halves far along each axis.
+  // Six boxes reach 4 half-widths along each axis.
   const int half = std::max(1, static_cast<int>(std::lround(fade * n / length(lattice.a) / 4)));
   for (int twice = 0; twice < 2; ++twice) {
     box(1, 0, half, plane);
@@ -205,7 +205,7 @@ Plane blend_weights_of(const std::vector<Place2>& outline, const TileLattice& la
   return plane;
 }
 
-// Weights of four neighbours.
+// Returns the weights of four neighbours.
 std::array<double, 4> cubic(double t) {
   const double u = 1 - t;
   return {-0.5 * t * u * u, 1 + t * t * (1.5 * t - 2.5), 1 + u * u * (1.5 * u - 2.5),

@@ -1,4 +1,4 @@
-// A texture laid side by side with itself, everywhere. Layer: edit.
+// Repeats a texture over the plane. Layer: edit.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace rholm {
 
-// Heights that repeat along a and b of a lattice; n x n samples of one cell, at (i a + j b) / n.
+// Heights with periods a and b of a lattice: n x n samples of one cell, at (i a + j b) / n.
 struct RepeatedMap {
   TileLattice lattice;
   int n = 0;
   std::vector<double> values;
 
-  // Between samples by cubic convolution (Catmull-Rom): slopes are continuous.
+  // Interpolates samples by cubic convolution (Catmull-Rom): slopes are continuous.
   double operator()(const Place2& at) const;
 };
 
-// Of the map's unit disc. Copies lie where neighbours agree best, meet along the lines where they
-// differ least, and fade into one another within a part of the texture's own waves.
+// Repeats the map's unit disc. Copies are placed where neighbours agree best, and meet along
+// lines of least difference. They fade into each other within a part of the texture's waves.
 RepeatedMap repeat(const DetailMap& map);
 
 }  // namespace rholm

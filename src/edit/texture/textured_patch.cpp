@@ -12,15 +12,15 @@
 namespace rholm {
 namespace {
 
-// A chart is no use where the surface turns away from its centre by more than 84 degrees (method
-// 7.1), but a few points at folds do no harm.
+// A chart fails where the surface turns away from its centre by more than 84
+// degrees (method 7.1). A small share of these points, at folds, is allowed.
 constexpr double kLeastFacing = 0.1;
 constexpr double kMayBeHidden = 0.02;
 // The map of heights reaches this far, in radii: region and transition.
 constexpr double kReach = 2;
-// 1 + the cosine between axes from which on they are opposite, where the shortest turn is any.
+// Below this value of 1 + cosine, axes count as opposite; the shortest turn is not unique there.
 constexpr double kOpposite = 1e-9;
-// Samples of the map per edge of the mesh.
+// Number of map samples per edge of the mesh.
 constexpr double kSamplesPerEdge = 2;
 
 std::vector<double> areas_of(const LocalMesh& local, std::span<const Vec3> positions) {
@@ -33,7 +33,7 @@ std::vector<double> areas_of(const LocalMesh& local, std::span<const Vec3> posit
   return areas;
 }
 
-// The chart over the base of the region.
+// Returns the chart over the base of the region.
 PatchChart chart_of(const TexturedPatch& textured, const std::vector<std::uint32_t>& inside) {
   const std::vector<double> areas = areas_of(textured.local, textured.base);
   Vec3 middle, axis;
@@ -48,7 +48,7 @@ PatchChart chart_of(const TexturedPatch& textured, const std::vector<std::uint32
   axis = normalized(axis);
   PatchChart chart;
   chart.unit = std::sqrt(area / std::numbers::pi);
-  // The seed is where the axis meets the surface: mean height of what is near it.
+  // The seed lies where the axis meets the surface: at the mean height of nearby points.
   double height = 0, near = 0;
   for (const std::uint32_t v : inside) {
     const Vec3 offset = textured.base[v] - middle;
@@ -78,7 +78,7 @@ void check_seen(const TexturedPatch& textured, const std::vector<std::uint32_t>&
   }
 }
 
-// Slopes at the corners: the mean of those of the triangles around.
+// Computes slopes at the corners as means over the adjacent triangles.
 void find_slopes(const TexturedPatch& textured, std::vector<DetailCorner>& corners) {
   std::vector<double> areas(corners.size(), 0);
   for (const Triangle& t : textured.local.triangles) {
@@ -88,7 +88,7 @@ void find_slopes(const TexturedPatch& textured, std::vector<DetailCorner>& corne
     const double area = ux * vy - uy * vx;
     if (!(area > 0) || !textured.whole(t)) continue;
     for (const std::uint32_t v : t) {
-      corners[v].slope.p += uh * vy - vh * uy;  // times the area
+      corners[v].slope.p += uh * vy - vh * uy;  // slope times the area
       corners[v].slope.q += vh * ux - uh * vx;
       areas[v] += area;
     }
@@ -158,7 +158,7 @@ void count_azimuths_like(const PatchChart& like, PatchChart& chart) {
   const Vec3 a = like.frame.z, b = chart.frame.z, x = like.frame.x;
   const double cosine = dot(a, b);
   const Vec3 axis = cross(a, b);
-  // Opposite axes: half a turn about x.
+  // For opposite axes, takes half a turn about x.
   chart.frame.x = x;
   if (1 + cosine > kOpposite) {
     chart.frame.x += cross(axis, x) + cross(axis, cross(axis, x)) / (1 + cosine);

@@ -1,4 +1,4 @@
-// A patch of a surface as a base and the detail on it. Layer: edit.
+// Splits a patch of a surface into a base and detail on it. Layer: edit.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace rholm {
 
-// Coordinates on a patch: angle from the axis, times the distance of the centre, in units of the
-// patch's radius, in the azimuth seen from the centre. Of a sphere they are lengths along it.
+// Coordinates on a patch, in the azimuth seen from the centre: angle from the axis times
+// the radius of the frame, in units of `unit`. On a sphere they are lengths along it.
 struct PatchChart {
   CapFrame frame;
   double unit = 1;  // radius of the patch
@@ -25,29 +25,29 @@ struct TexturedPatch {
   double wavelength = 0;
   Patch patch;
   LocalMesh local;
-  std::vector<std::uint32_t> row;   // of each point in the patch; kNoRow for others
-  std::vector<Vec3> base, normals;  // of each point: where the smooth surface is, and its normal
+  std::vector<std::uint32_t> row;   // row of each point in the patch; kNoRow for other points
+  std::vector<Vec3> base, normals;  // position and normal of the smooth surface at each point
   PatchChart chart;
-  // Whether all corners of a triangle of `local` are in the patch.
+  // Returns true if all corners of a triangle of `local` are in the patch.
   bool whole(const Triangle& t) const {
     return row[t[0]] != kNoRow && row[t[1]] != kNoRow && row[t[2]] != kNoRow;
   }
 };
 
-// The radius of a disc with the area of the regions.
+// Returns the radius of a disc with the area of the regions.
 double region_radius(const Mesh& mesh, std::span<const Region> regions);
 
-// The base is the surface without waves shorter than `wavelength`. Throws InvalidInput for regions
-// that cannot be seen from one side.
+// Computes the base: the surface without waves shorter than `wavelength`.
+// Throws InvalidInput for regions that are not visible from one side.
 TexturedPatch texture_of(const Mesh& mesh, std::span<const Region> regions, double wavelength,
                          double transition, const Context& context);
 
-// Azimuths of `chart` are counted from where the shortest turn between the axes puts those of
-// `like`: what is laid over without a further turn stays as upright as it can.
+// Sets the zero azimuth of `chart` to the zero azimuth of `like`, after the shortest turn between
+// both axes. A texture laid over without a further turn then stays as upright as possible.
 void count_azimuths_like(const PatchChart& like, PatchChart& chart);
 
-// Height of the surface over its base, over the chart of the patch, with samples half an edge
-// apart.
+// Returns the height of the surface over its base, on
+// the patch's chart, with samples half an edge apart.
 DetailMap detail_of(const TexturedPatch& textured);
 
 }  // namespace rholm

@@ -1,5 +1,5 @@
-// Shifts by which the texture is most like itself, three that close a triangle: first all on a
-// coarse grid of samples, then between its points.
+// Finds the shifts with the most similar texture, three that close a
+// triangle: first on a coarse grid of samples, then between its points.
 #include "edit/texture/tile_lattice.h"
 
 #include <algorithm>
@@ -12,18 +12,18 @@
 namespace rholm {
 namespace {
 
-// Lengths of the shifts, in radii of the disc: shorter ones show less of the texture, longer ones
-// leave little overlap for seams.
+// Lengths of the shifts, in radii of the disc. Shorter shifts show
+// less of the texture; longer ones leave little overlap for seams.
 constexpr double kShortest = 1.3, kLongest = 1.6;
-// Corners of the cells, where three copies meet, are this far inside the discs: room for seams.
+// Cell corners, where three copies meet, lie this far inside the discs, to leave room for seams.
 constexpr double kRoom = 0.06;
-// Angle between a and b, degrees.
+// Angle between a and b in degrees.
 constexpr double kLeastAngle = 48, kLargestAngle = 72;
-// Samples of the coarse search along a radius, and how often its step is halved after it.
+// Samples of the coarse search along a radius, and the number of later halvings of its step.
 constexpr int kSamples = 32, kHalvings = 5;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The circle through 0, a and b.
+// Returns the radius of the circle through 0, a and b.
 double corner_radius(const TileLattice& lattice) {
   const auto [a, b] = lattice;
   const double twice = std::abs(a.p * b.q - a.q * b.p);
@@ -42,7 +42,7 @@ bool is_allowed(const TileLattice& lattice, double radius) {
          corner_radius(lattice) <= (1 - kRoom) * radius;
 }
 
-// Samples in the disc, step apart.
+// Samples in the disc at distances of step().
 class Overlaps {
  public:
   Overlaps(const DetailMap& map, double radius)
@@ -57,7 +57,7 @@ class Overlaps {
   }
   double step() const { return step_; }
 
-  // The mean square of what the texture and itself, shifted, differ by where they overlap.
+  // Returns the mean square difference of the texture and its shifted copy where they overlap.
   double apart(int di, int dj) const {
     double sum = 0, count = 0;
     for (int j = std::max(-kSamples, dj - kSamples); j <= std::min(kSamples, dj + kSamples); ++j) {
@@ -102,7 +102,7 @@ class Overlaps {
 
 constexpr int kMostSteps = static_cast<int>(kLongest * kSamples) + 1;
 
-// Of all shifts by whole steps; infinite where the length is not wanted.
+// Returns the differences of all shifts by whole steps; infinite for excluded lengths.
 std::vector<double> all_shifts(const Overlaps& overlaps) {
   constexpr int kWidth = 2 * kMostSteps + 1;
   std::vector<double> apart(static_cast<std::size_t>(kWidth * kWidth), kInfinity);
@@ -124,15 +124,15 @@ TileLattice best_of_grid(const Overlaps& overlaps, double radius) {
     return apart[static_cast<std::size_t>((j + kMostSteps) * (2 * kMostSteps + 1) + i +
                                           kMostSteps)];
   };
-  // The regular one unless another is better.
+  // Starts with the regular lattice, unless another one is better.
   const double s = overlaps.step(), regular = 1.45 * radius;
   TileLattice best{{regular, 0}, {regular / 2, regular * std::sqrt(0.75)}};
   double least = overlaps.apart(best);
   for (int aj = 0; aj <= kMostSteps; ++aj) {
     for (int ai = 0; ai <= kMostSteps; ++ai) {
-      // One of the six shortest is within 60 degrees of the first axis.
+      // One of the six shortest shifts is within 60 degrees of the first axis.
       if (of(ai, aj) == kInfinity || aj >= std::sqrt(3.0) * ai) continue;
-      // b is a turned by 60 degrees, give or take.
+      // b is near a turned by 60 degrees.
       const int half_i = ai / 2, half_j = aj / 2;
       const int bi = static_cast<int>(half_i - aj * 0.866),
                 bj = static_cast<int>(half_j + ai * 0.866);

@@ -87,7 +87,7 @@ EnumNames names_of(Normalization) {
 std::vector<double> power_spectrum(const Coefficients& coefficients) {
   std::vector<double> energy(static_cast<std::size_t>(coefficients.degree()) + 1);
   for (int l = 0; l <= coefficients.degree(); ++l) {
-    // Compensated: the known truncation error is the difference of two nearly equal norms, (M7).
+    // Compensated, because the truncation error is a difference of nearly equal norms, (M7).
     CompensatedSum sum;
     for (int m = 0; m <= l; ++m) {
       sum.add(coefficients.c(l, m) * coefficients.c(l, m));
@@ -100,9 +100,9 @@ std::vector<double> power_spectrum(const Coefficients& coefficients) {
 
 namespace {
 
-// One divisor per degree that takes orthonormal coefficients to the others, rounded once. Going
-// back multiplies by the same number, so that a round trip is right to one unit in the last place,
-// and the constant 1, sqrt(4 pi) inside, is exactly 1 outside.
+// Returns the divisor that takes orthonormal coefficients of degree l to the external convention,
+// rounded once. The way back multiplies by the same number. A round trip is therefore right to one
+// unit in the last place, and the constant 1, which is sqrt(4 pi) inside, is exactly 1 outside.
 double external_divisor(Normalization normalization, int l) {
   switch (normalization) {
     case Normalization::kOrthonormal:
@@ -131,7 +131,7 @@ Coefficients convert(const Coefficients& from, const Convention& convention, Way
       for (double* value : {&result.c(l, m), &result.s(l, m)}) {
         const double other =
             way == Way::kToExternal ? *value / signed_divisor : *value * signed_divisor;
-        *value = other + 0.0;  // 0, not -0
+        *value = other + 0.0;  // Adding 0 turns -0 into 0.
       }
     }
   }

@@ -12,7 +12,7 @@
 namespace rholm {
 namespace {
 
-// Texts of a model's file are at most 256 bytes.
+// Largest size in bytes of a text in a model file.
 constexpr std::size_t kMaxMethodLength = 256;
 
 void check(int cutoff, int degree, const WindowOptions& options) {
@@ -33,7 +33,7 @@ void check(int cutoff, int degree, const WindowOptions& options) {
   }
 }
 
-// Whether a parameter that is given stands in for the cutoff.
+// Returns true if the options give a parameter that replaces the cutoff.
 bool cutoff_is_replaced(const WindowOptions& options) {
   const auto parameters = window_info(options.window).parameters;
   return std::any_of(parameters.begin(), parameters.end(), [&](const WindowParameter& one) {
@@ -104,14 +104,14 @@ Coefficients filter(const Coefficients& coefficients, std::span<const double> ga
 
 namespace {
 
-// What is known of the errors after a filter with gain(l) for the degrees of `expansion`.
+// Returns the truncation errors of `expansion` after a filter that scales degree l by gain(l).
 template <class Gain>
 std::optional<TruncationErrors> filtered_errors(const Expansion& expansion, const Gain& gain) {
   if (!expansion.errors) return std::nullopt;
   const TruncationErrors& old = *expansion.errors;
   TruncationErrors errors;
   errors.diagonal = old.diagonal;
-  // The radius is no linear function of a gauge, and what is no surface has no radius.
+  // Only a radius keeps its RMS error: it is not linear in a gauge, and other functions have none.
   if (!old.rms || expansion.function != RadialFunction::kRadius) return errors;
   const std::vector<double> energy = power_spectrum(expansion.coefficients);
   double lost = 0;
@@ -153,19 +153,19 @@ Expansion filter(const Expansion& expansion, std::span<const double> gains,
 
 namespace {
 
-constexpr double kEdge = 0.5;  // cos of 60 degrees
+constexpr double kEdge = 0.5;  // The cosine of 60 degrees.
 
-// Points per half wave of the highest degree: the parabola through three of them then has the
-// height of an extremum within a part in a thousand.
+// Number of points per half wave of the highest degree. A parabola through three of the points then
+// gives the height of an extremum within a part in a thousand.
 constexpr int kPointsPerHalfWave = 16;
 
-// Below this values are rounding.
+// Values below this limit are rounding errors.
 constexpr double kNothing = 1e-12;
 
-// a_0 = (1 - x)/2 and a_l = (P_{l-1}(x) - P_{l+1}(x))/2 at the edge, times the gains.
+// Returns gains[l] a_l: a_0 = (1 - x)/2 and a_l = (P_{l-1}(x) - P_{l+1}(x))/2 at x = kEdge.
 std::vector<double> filtered_step(std::span<const double> gains) {
   std::vector<double> series(gains.size());
-  double before = 1, here = 1, after = kEdge;  // P_{l-1}, P_l, P_{l+1}
+  double before = 1, here = 1, after = kEdge;  // P_{l-1}, P_l and P_{l+1}
   for (std::size_t i = 0; i < gains.size(); ++i) {
     const double l = static_cast<double>(i);
     series[i] = gains[i] * (i == 0 ? 1 - kEdge : before - after) / 2;
@@ -176,7 +176,7 @@ std::vector<double> filtered_step(std::span<const double> gains) {
   return series;
 }
 
-// Clenshaw's sum, with (l+1) P_{l+1} = (2l+1) x P_l - l P_{l-1}.
+// Sums the series at x by Clenshaw's recurrence, with (l+1) P_{l+1} = (2l+1) x P_l - l P_{l-1}.
 double sum_at(std::span<const double> series, double x) {
   double b1 = 0, b2 = 0;
   for (std::size_t i = series.size(); i-- > 0;) {
@@ -188,7 +188,8 @@ double sum_at(std::span<const double> series, double x) {
   return b1;
 }
 
-// The largest value of the parabola through three equidistant ones, where it is in between.
+// Returns the maximum of the parabola through three equidistant values if it lies between them, and
+// otherwise the largest of the three values.
 double crest(double left, double middle, double right) {
   const double slope = right - left, bend = 2 * middle - left - right;
   const bool inside = bend > 0 && std::abs(slope) <= 2 * bend;
@@ -202,7 +203,7 @@ double above_nothing(double value) { return value > kNothing ? value : 0; }
 Overshoot overshoot(std::span<const double> gains) {
   const std::vector<double> series = filtered_step(gains);
   const std::size_t n = kPointsPerHalfWave * (gains.size() + 1);
-  std::vector<double> values(n + 3);  // one more on both sides, mirrored in the poles
+  std::vector<double> values(n + 3);  // one more at either end, mirrored at the pole
   for (std::size_t i = 0; i <= n; ++i) {
     const double theta = std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
     values[i + 1] = sum_at(series, std::cos(theta));
@@ -223,7 +224,7 @@ Overshoot overshoot(Window window, int degree) {
                                               " is out of range: choose one from 0 to " +
                                               std::to_string(kMaxDegree));
   }
-  // Of heat 2^-64 is left at eight times the degree.
+  // The heat window leaves a gain of 2^-64 at eight times the degree.
   const int top = window_info(window).cut_off ? degree : std::min(8 * degree + 8, kMaxDegree);
   return overshoot(low_pass(degree, top, {.window = window}));
 }

@@ -1,12 +1,12 @@
-// The Laplacian of the sphere undone.
+// The inverse of the Laplacian of the sphere.
 #pragma once
 
 #include "rholm/coefficients.h"
 
 namespace rholm {
 
-// Divides the degrees l >= 1 by l(l+1), which the Laplacian of the sphere has multiplied them by;
-// c_00, which it has lost, becomes 0.
+// Divides the coefficients of each degree l >= 1 by l(l+1), the factor of the Laplacian of the
+// sphere. Sets c_00, which the Laplacian removes, to 0.
 void divide_by_eigenvalue(Coefficients& c);
 
 }  // namespace rholm

@@ -15,7 +15,7 @@ struct Unit {
   double metres;
 };
 
-// Symbols, whose capitals count.
+// Symbols of units, in which upper and lower case differ.
 constexpr std::array<Unit, 23> kSymbols = {{{"m", 1},
                                             {"fm", 1e-15},
                                             {"pm", 1e-12},
@@ -40,7 +40,7 @@ constexpr std::array<Unit, 23> kSymbols = {{{"m", 1},
                                             {"au", 149597870700.0},
                                             {"AU", 149597870700.0}}};
 
-// Words, in the singular and with "er" for "re".
+// Names of units in lower case, in the singular and in the American spelling ("er" for "re").
 constexpr std::array<Unit, 12> kWords = {{{"meter", 1},
                                           {"nanometer", 1e-9},
                                           {"micrometer", 1e-6},
@@ -84,7 +84,7 @@ Expansion scaled(const Expansion& expansion, double factor) {
                                               ": it must be finite and above 0");
   }
   Expansion result = expansion;
-  // The gauge is one over a length; what is not of a surface has no length in it.
+  // The gauge is the inverse of a length; a function that is not of a surface holds no length.
   const double f = expansion.function == RadialFunction::kRadius  ? factor
                    : expansion.function == RadialFunction::kGauge ? 1 / factor
                                                                   : 1;

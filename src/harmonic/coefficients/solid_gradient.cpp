@@ -13,7 +13,7 @@ struct Term {
   Part part;
 };
 
-// Calls visit(axis, from, to, value) for every entry of the matrices D_x, D_y, D_z, which take
+// Calls visit(axis, from, to, value) for every entry of the matrices D_x, D_y and D_z. They take
 // the real coefficient `from` of degree l to the real coefficient `to` of degree l - 1. The values
 // follow from the equations of the header with Z_lm = (-1)^m Y_lm and
 // f = Re sum_m (C - i S) sqrt(2 - [m = 0]) Z_lm.

@@ -16,11 +16,11 @@
 
 namespace rholm {
 
-// {D_x f, D_y f, D_z f}: coefficients of the derivatives of sum_lm c_lm r^l Y_lm at r = 1, padded
-// with zeros to the degree of f so that they can be summed together with it.
+// Returns {D_x f, D_y f, D_z f}, the coefficients of the derivatives of sum_lm c_lm r^l Y_lm at
+// r = 1. They are padded with zeros to the degree of f, so that they can be summed together with f.
 std::array<Coefficients, 3> solid_gradient(const Coefficients& f);
 
-// The transpose: adds D_x^T g_x + D_y^T g_y + D_z^T g_z to `sum`; all of one degree.
+// Adds the transpose D_x^T g_x + D_y^T g_y + D_z^T g_z to `sum`; all have the same degree.
 void add_solid_gradient_transpose(const std::array<Coefficients, 3>& g, Coefficients& sum);
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// The table of windows: all that anybody knows of a window stands in its row.
+// The table of windows: its row describes a window completely.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -12,22 +12,22 @@
 namespace rholm {
 namespace {
 
-// Between the largest overshoot and the least blur of Gaussians cut off at L: chosen so that 0.09
-// is left at L.
+// Exponent of the Gaussian at degree L, so that a gain of 0.09 is left there. Chosen as a trade
+// between the overshoot of a Gaussian cut off at L and its blur.
 constexpr double kGaussianWidth = 2.4;
 
-// exp(-36) is 2^-52: nothing is left to be cut off (Gottlieb and Shu 1997).
+// exp(-36) is 2^-52, so that the cutoff removes nothing more (Gottlieb and Shu 1997).
 constexpr double kExponentialDepth = 36;
 
 double sinc(double x) { return x == 0 ? 1 : std::sin(x) / x; }
 
 double lanczos(double l, double cutoff) { return sinc(std::numbers::pi * (l / (cutoff + 1))); }
 
-// L(L+1), the eigenvalue of the Laplacian; 1 at degree 0.
+// Returns L(L+1), the eigenvalue of the Laplacian at degree L, but 1 at degree 0.
 double eigenvalue(double cutoff) { return std::max(cutoff * (cutoff + 1), 1.0); }
 
-// From 1 at x = 0 to 0 at 1, all derivatives 0 at both ends: e(1-x) / (e(1-x) + e(x)) with e(x) =
-// exp(-1/x).
+// Falls from 1 at x = 0 to 0 at x = 1, with all derivatives 0 at both ends:
+// e(1-x) / (e(1-x) + e(x)) with e(x) = exp(-1/x).
 double smooth_step(double x) {
   if (x <= 0) return 1;
   if (x >= 1) return 0;
@@ -107,7 +107,7 @@ constexpr WindowInfo kWindows[] = {
      .overshoot = 0.086,
      .gain = [](double l, double cutoff,
                 const WindowOptions&) { return smooth_step(2 * (l / (cutoff + 1)) - 1); }},
-#ifdef RHOLM_EXTRA_WINDOWS  // a row of tests/one_list
+#ifdef RHOLM_EXTRA_WINDOWS  // tests/one_list adds a row here
 #include RHOLM_EXTRA_WINDOWS
 #endif
 };

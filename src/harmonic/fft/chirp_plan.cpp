@@ -10,7 +10,7 @@
 namespace rholm {
 namespace {
 
-// Without the library's care for infinite factors.
+// Multiplies without the checks for infinite factors of the operator of the standard library.
 template <typename T>
 std::complex<T> times(const std::complex<T>& a, const std::complex<T>& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
@@ -56,7 +56,7 @@ ChirpPlan<T> make_chirp_plan(std::size_t n) {
   return plan;
 }
 
-// A transform with e^{+...} is the conjugate of one with e^{-...} of conjugates.
+// The second, inverse transform is computed as the conjugate of a forward transform of conjugates.
 template <typename T>
 void run_chirp_plan(const ChirpPlan<T>& plan, const std::complex<T>* in, std::complex<T>* out) {
   const std::size_t n = plan.chirp.size(), length = plan.spectrum.size();

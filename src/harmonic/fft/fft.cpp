@@ -17,8 +17,8 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Calls visit(d, k) for the first of as many numbers as d has lanes; together they cover 0 ... n -
-// 1 < limit, and the last may overlap the one before.
+// Calls visit(d, k) for runs of Lanes(d) numbers that begin at k and together cover 0 ... n - 1.
+// The last run may overlap the one before. Requires n - 1 < limit, the number of readable values.
 template <typename T, class Visit>
 HWY_INLINE void visit_vectors(size_t n, size_t limit, const Visit& visit) {
   const hn::CappedTag<T, 16> d;
@@ -32,7 +32,7 @@ HWY_INLINE void visit_vectors(size_t n, size_t limit, const Visit& visit) {
   }
 }
 
-// With z_j = x_2j + i x_{2j+1} and its transform Z of n/2, X_k = E_k + w^k O_k, where
+// With z_j = x_2j + i x_{2j+1} and its transform Z of length n/2: X_k = E_k + w^k O_k. Here
 // 2 E_k = Z_k + conj(Z_{n/2-k}) and 2i O_k = Z_k - conj(Z_{n/2-k}).
 template <typename T>
 HWY_INLINE void UntangleAny(const T* HWY_RESTRICT z, const T* HWY_RESTRICT cosine,
@@ -55,7 +55,7 @@ HWY_INLINE void UntangleAny(const T* HWY_RESTRICT z, const T* HWY_RESTRICT cosin
   });
 }
 
-// The steps of UntangleAny() undone, real and imaginary parts exchanged.
+// Inverts UntangleAny() and exchanges the real and imaginary parts.
 template <typename T>
 HWY_INLINE void TangleAny(const T* HWY_RESTRICT row, const T* HWY_RESTRICT cosine,
                           const T* HWY_RESTRICT sine, size_t half, T* HWY_RESTRICT z) {
@@ -69,7 +69,7 @@ HWY_INLINE void TangleAny(const T* HWY_RESTRICT row, const T* HWY_RESTRICT cosin
     const V c = hn::LoadU(d, cosine + k), s = hn::LoadU(d, sine + k);
     const V even_re = hn::Add(a_re, b_re), even_im = hn::Sub(a_im, b_im);
     const V back_re = hn::Sub(a_re, b_re), back_im = hn::Add(a_im, b_im);
-    // i conj(w^k) times the difference.
+    // re and im hold i conj(w^k) times the difference.
     const V re = hn::NegMulAdd(c, back_im, hn::MulAdd(s, back_re, even_re));
     const V im = hn::MulAdd(s, back_im, hn::MulAdd(c, back_re, even_im));
     hn::StoreInterleaved2(im, re, d, z + 2 * k);
@@ -165,7 +165,7 @@ void RealFft<T>::forward(T* row, std::size_t used, T* work) const {
   }
 }
 
-// A transform with e^{+...} is one with e^{-...} of numbers whose parts are exchanged.
+// The inverse transform is a forward transform of numbers whose parts are exchanged.
 template <typename T>
 void RealFft<T>::backward(T* row, std::size_t used, T* work) const {
   std::fill(row + 2 * used, row + 2 * half_ + 2, T{0});

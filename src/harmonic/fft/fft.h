@@ -1,8 +1,8 @@
 // Fourier transforms of rows.
 //
-// A plan is made when a length is first asked for and kept for the life of the process; it depends
-// on the length alone, so that the same rows give the same bits in every run. Real transforms of n
-// are complex ones of n / 2.
+// A plan is made when a length is first used and is kept for the life of the process. It depends on
+// the length alone, so that the same rows give the same bits in every run. A real transform of n
+// numbers uses a complex transform of n / 2.
 #pragma once
 
 #include <complex>
@@ -12,13 +12,13 @@
 
 namespace rholm {
 
-// The smallest n' >= n that is fast to transform and a multiple of `multiple` (a power of two):
-// 1, 5 or 25 times a power of two, at least 16 from 128 on.
+// Returns the smallest length >= n that is fast to transform and a multiple of `multiple`, a power
+// of two. It is 1, 5 or 25 times a power of two; this power is at least 16 from n = 128 on.
 std::size_t smooth_length(std::size_t n, std::size_t multiple = 1);
 
-// X_k = sum_j x_j e^{-2 pi i jk/n}, n >= 1 complex numbers, T float or double. `in` is destroyed.
-// Lengths with other prime factors than 2, 3 and 5 take five to seven times as long
-// (bench/fft_bench).
+// Computes X_k = sum_j x_j e^{-2 pi i jk/n} of n >= 1 complex numbers; T is float or double.
+// Destroys `in`. Lengths that have prime factors other than 2, 3 and 5 take five to seven times as
+// long (bench/fft_bench).
 template <typename T>
 class ComplexFft {
  public:
@@ -29,21 +29,21 @@ class ComplexFft {
   const void* plan_;
 };
 
-// Of n real numbers, n even.
+// Transforms n real numbers, n even.
 template <typename T>
 class RealFft {
  public:
   explicit RealFft(std::size_t n);
-  // X_k = sum_j x_j e^{-2 pi i jk/n}, k = 0 ... used - 1 <= n/2, in the place of the n reals: a row
-  // has room for n + 2. `work`: n + 2 numbers more. May write, in the row, numbers up to k = n/2.
+  // Replaces the n reals of `row` by X_k = sum_j x_j e^{-2 pi i jk/n}, k = 0 ... used - 1 <= n/2.
+  // `row` and `work` each hold n + 2 numbers. May also write X_k up to k = n/2.
   void forward(T* row, std::size_t used, T* work) const;
-  // x_j = sum over |k| < used of X_k e^{+2 pi i jk/n}, X_-k = conj(X_k), used <= n/2.
+  // Inverts: x_j = sum over |k| < used of X_k e^{+2 pi i jk/n}, X_-k = conj(X_k), used <= n/2.
   void backward(T* row, std::size_t used, T* work) const;
 
  private:
   std::size_t half_;
   ComplexFft<T> fft_;
-  AlignedArray<T> cosine_, sine_;  // of e^{-2 pi i k/n}, k = 0 ... n/2
+  AlignedArray<T> cosine_, sine_;  // parts of e^{-2 pi i k/n}, k = 0 ... n/2
 };
 
 }  // namespace rholm

@@ -9,7 +9,7 @@
 namespace rholm {
 namespace {
 
-// Estimated, not measured, so that a length gives the same bits in every run.
+// Plans are estimated, not measured, so that a length gives the same bits in every run.
 constexpr unsigned kFlags = FFTW_ESTIMATE | FFTW_DESTROY_INPUT;
 
 fftw_plan make_plan(int n, fftw_complex* in, fftw_complex* out) {
@@ -42,7 +42,7 @@ const void* complex_plan(std::size_t n) {
   static std::mutex mutex;
   static auto& plans = *new std::map<std::size_t, typename Fftw<T>::Plan>;
   const std::lock_guard lock(mutex);
-  // The planner is one per process: the program's own calls must not meet ours in it.
+  // The process has one planner, which the program itself may also call: guard it with a lock.
   if (plans.empty()) Fftw<T>::guard_planner();
   auto& plan = plans[n];
   if (plan == nullptr) {

@@ -30,7 +30,7 @@ template <class V>
 HWY_INLINE Complex<V> Minus(const Complex<V>& a, const Complex<V>& b) {
   return {hn::Sub(a.re, b.re), hn::Sub(a.im, b.im)};
 }
-// a - i b and a + i b.
+// MinusTurned() returns a - i b; PlusTurned() returns a + i b.
 template <class V>
 HWY_INLINE Complex<V> MinusTurned(const Complex<V>& a, const Complex<V>& b) {
   return {hn::Add(a.re, b.im), hn::Sub(a.im, b.re)};
@@ -44,7 +44,7 @@ HWY_INLINE Complex<V> Times(const Complex<V>& a, const Complex<V>& w) {
   return {hn::NegMulAdd(a.im, w.im, hn::Mul(a.re, w.re)),
           hn::MulAdd(a.re, w.im, hn::Mul(a.im, w.re))};
 }
-// a + b t, t real.
+// Returns a + b t for a real t.
 template <class V>
 HWY_INLINE Complex<V> PlusPart(const Complex<V>& a, V t, const Complex<V>& b) {
   return {hn::MulAdd(t, b.re, a.re), hn::MulAdd(t, b.im, a.im)};
@@ -54,7 +54,7 @@ HWY_INLINE Complex<V> Part(V t, const Complex<V>& b) {
   return {hn::Mul(t, b.re), hn::Mul(t, b.im)};
 }
 
-// a_k = sum_j a_j w_R^(j k), in place.
+// Computes a_k = sum_j a_j w_R^(j k) in place.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void Butterfly(D, Complex<V> (&a)[2]) {
   const Complex<V> b = a[1];
@@ -107,7 +107,7 @@ HWY_INLINE void Butterfly(D d, Complex<V> (&a)[8]) {
   Complex<V> even[4] = {a[0], a[2], a[4], a[6]}, odd[4] = {a[1], a[3], a[5], a[7]};
   Butterfly(d, even);
   Butterfly(d, odd);
-  // Times w_8 and w_8^3.
+  // The factors of odd[1] and odd[3] are w_8 and w_8^3.
   const V half = hn::Set(d, T(0.70710678118654752440));
   const Complex<V> eighth = {hn::Mul(half, hn::Add(odd[1].re, odd[1].im)),
                              hn::Mul(half, hn::Sub(odd[1].im, odd[1].re))};
@@ -123,7 +123,8 @@ HWY_INLINE void Butterfly(D d, Complex<V> (&a)[8]) {
   a[7] = Minus(even[3], turned);
 }
 
-// How numbers lie in memory: the parts side by side (the caller's), or in two arrays, n apart.
+// Layout in memory: real and imaginary parts interleaved (as the caller has them), or in two arrays
+// which start n numbers apart.
 enum class Lie { kInterleaved, kSplit };
 
 template <Lie kLie, class D, typename T = hn::TFromD<D>>
@@ -150,10 +151,10 @@ HWY_INLINE void StoreAt(D d, const Complex<hn::Vec<D>>& a, T* y, std::size_t n, 
   }
 }
 
-// Calls visit(i) for the first of as many numbers as d has lanes; together they cover 0 ... n - 1,
-// n at least that many. The last may begin before the one before ends: what is there is written
-// twice, alike. visit() is called at one place, and captures by value, so that it is inlined with
-// all it needs in registers: else passes take a third longer (bench/fft_bench).
+// Calls visit(i) for runs of Lanes(d) numbers that begin at i and together cover 0 ... n - 1, where
+// n >= Lanes(d). The last run may overlap the one before; it then writes the same values again. A
+// single call of visit(), which captures by value, is inlined with its data in registers.
+// Otherwise, passes take a third longer (bench/fft_bench).
 template <class D, class Visit>
 HWY_INLINE void VisitVectors(D d, std::size_t n, const Visit& visit) {
   const std::size_t last = n - hn::Lanes(d);
@@ -163,7 +164,7 @@ HWY_INLINE void VisitVectors(D d, std::size_t n, const Visit& visit) {
   }
 }
 
-// The part of a pass at p with vectors along q, n numbers in all; without factors where they are 1.
+// Does the part of a pass at p, with vectors along q. Skips the twiddle factors, 1, if !kTurned.
 template <bool kTurned, int kRadix, Lie kFrom, Lie kTo, class D, typename T = hn::TFromD<D>>
 HWY_INLINE void PassAt(D d, std::size_t p, const RadixPass& pass, const T* HWY_RESTRICT twiddles,
                        const T* HWY_RESTRICT x, T* HWY_RESTRICT y) {
@@ -187,7 +188,7 @@ HWY_INLINE void PassAt(D d, std::size_t p, const RadixPass& pass, const T* HWY_R
   });
 }
 
-// Any pass with vectors along q.
+// Does any pass with vectors along q.
 template <int kRadix, Lie kFrom, Lie kTo, class D, typename T = hn::TFromD<D>>
 HWY_INLINE void PassAlongQ(D d, const RadixPass& pass, const T* HWY_RESTRICT twiddles,
                            const T* HWY_RESTRICT x, T* HWY_RESTRICT y) {
@@ -197,7 +198,7 @@ HWY_INLINE void PassAlongQ(D d, const RadixPass& pass, const T* HWY_RESTRICT twi
   }
 }
 
-// The first pass with radix 4 with vectors along p.
+// Does the first pass, of radix 4, with vectors along p.
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void FirstPassAlongP(D d, const RadixPass& pass, const T* HWY_RESTRICT twiddles,
                                 const T* HWY_RESTRICT x, T* HWY_RESTRICT y) {
@@ -218,8 +219,8 @@ HWY_INLINE void FirstPassAlongP(D d, const RadixPass& pass, const T* HWY_RESTRIC
 
 #if HWY_TARGET != HWY_SCALAR
 
-// The vectors a_0 ... a_3 hold blocks of 4 numbers, those of p = 0, 1, ... : writes a_0 ... a_3 of
-// each p after one another.
+// Each vector a_k holds blocks of 4 numbers, one block for each p = 0, 1, ... . Writes for each p
+// in turn its blocks from a_0, a_1, a_2 and a_3.
 template <class D, typename T = hn::TFromD<D>, class V = hn::Vec<D>>
 HWY_INLINE void StoreBlocksOf4(D d, const V& a0, const V& a1, const V& a2, const V& a3, T* y) {
   const hn::Half<D> half;
@@ -236,8 +237,8 @@ HWY_INLINE void StoreBlocksOf4(D d, const V& a0, const V& a1, const V& a2, const
   }
 }
 
-// The second pass of radix 4, s = 4, with vectors along p, of at least 8 numbers: each twiddle
-// factor stands in the table 4 times.
+// Does the second pass, of radix 4 with s = 4, with vectors along p of at least 8 numbers. The
+// table of twiddle factors holds each factor 4 times.
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void SecondPassAlongP(D d, const RadixPass& pass, const T* HWY_RESTRICT twiddles,
                                  const T* HWY_RESTRICT x, T* HWY_RESTRICT y) {
@@ -274,8 +275,8 @@ HWY_INLINE void PassOfRadix(D d, const RadixPass& pass, const T* twiddles, const
   }
 }
 
-// Calls pass(d) with the widest vectors of at most kLanes numbers that n numbers fill, and
-// says so; none of fewer than kLeast.
+// Calls pass(d) with the widest vectors of kLeast to kLanes numbers that n numbers fill. Returns
+// false if there are none.
 template <std::size_t kLanes, std::size_t kLeast, typename T, class Pass>
 HWY_INLINE bool WithWidest(std::size_t n, const Pass& pass) {
   const hn::CappedTag<T, kLanes> d;
@@ -348,8 +349,8 @@ void run_pass(const RadixPass& pass, const double* twiddles, const double* x, do
   HWY_DYNAMIC_DISPATCH(PassDouble)(pass, twiddles, x, y);
 }
 
-// Fours first, so that sequences lie side by side in whole vectors after two passes; then as few as
-// possible.
+// Two passes of radix 4 come first, because then sequences lie side by side in whole vectors. The
+// number of further passes is as small as possible.
 std::vector<std::size_t> radices_of(std::size_t n) {
   std::vector<std::size_t> radices;
   const auto take = [&](std::size_t radix) {
@@ -358,7 +359,7 @@ std::vector<std::size_t> radices_of(std::size_t n) {
   };
   const auto divides = [&](std::size_t radix) { return n % radix == 0; };
   for (int i = 0; i < 2 && divides(4); ++i) take(4);
-  // 16 is two fours, not 8 and 2.
+  // 16 is split into 4 and 4, not into 8 and 2.
   while (divides(8) && (!divides(16) || divides(32))) take(8);
   while (divides(4)) take(4);
   for (const std::size_t radix : {2, 3, 5}) {
@@ -410,8 +411,8 @@ RadixPlan<T> make_radix_plan(std::size_t n) {
   return plan;
 }
 
-// Passes go to and fro between the two arrays so that the last comes from `in`; where that would
-// make the first read what it writes, it writes elsewhere.
+// Passes alternate between the two arrays so that the last one reads `in`. If the first pass would
+// then write the array that it reads, it writes to a scratch array instead.
 template <typename T>
 void run_radix_plan(const RadixPlan<T>& plan, std::complex<T>* in, std::complex<T>* out) {
   T* const begin = reinterpret_cast<T*>(in);

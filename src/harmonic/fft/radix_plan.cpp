@@ -33,7 +33,7 @@ void execute(const void* plan, std::complex<T>* in, std::complex<T>* out) {
 template <typename T>
 const void* complex_plan(std::size_t n) {
   static std::mutex mutex;
-  static auto& plans = *new std::map<std::size_t, Plan<T>>;  // good to the last thread
+  static auto& plans = *new std::map<std::size_t, Plan<T>>;  // never destroyed
   const std::lock_guard lock(mutex);
   auto found = plans.find(n);
   if (found == plans.end()) found = plans.emplace(n, make_plan<T>(n)).first;

@@ -1,4 +1,4 @@
-// Direct transforms at scattered directions: phases e^{i m phi} times the sums over l of
+// Direct transforms at scattered directions: the phases e^{i m phi} times the sums over l of
 // order_sums.h.
 #include <algorithm>
 #include <array>
@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kDirectionsPerTask = 256;  // chosen: well above the cost of a task
 
-// Calls visit(m, j, cos(m phi_j), sin(m phi_j)) for every order and the directions [begin, end).
-// The powers of e^{i phi} grow an error of at most m rounding units, that of the direction itself.
+// Calls visit(m, j, cos(m phi_j), sin(m phi_j)) for every order m and the directions [begin, end).
+// Powers of e^{i phi} have errors up to m rounding units, as the rounding of phi itself causes.
 template <typename Visit>
 void visit_phases(const DirectionBlock& block, int degree, std::size_t begin, std::size_t end,
                   const Visit& visit) {
@@ -32,7 +32,7 @@ void visit_phases(const DirectionBlock& block, int degree, std::size_t begin, st
   }
 }
 
-// For each chunk of directions calls work(first, count, its part of the progress).
+// Calls work(first, count, part of the progress) for each chunk of directions.
 template <typename Work>
 void for_each_chunk(std::size_t n, int degree, const Work& work) {
   const std::size_t chunk = chunk_size(degree);
@@ -45,7 +45,7 @@ void for_each_chunk(std::size_t n, int degree, const Work& work) {
   }
 }
 
-// values[set][j] += sum_m re cos(m phi_j) + im sin(m phi_j)
+// Adds the sum over m of re cos(m phi_j) + im sin(m phi_j) to values[set][j].
 void sum_orders(const DirectionBlock& block, int degree, std::span<const OrderTable> tables,
                 std::span<double* const> values, const Context& context) {
   const Context silent{.threads = context.threads};
@@ -58,7 +58,7 @@ void sum_orders(const DirectionBlock& block, int degree, std::span<const OrderTa
   });
 }
 
-// values[set] = the function of sets[set] at every direction.
+// Returns in values[set] the function with coefficients sets[set] at every direction.
 std::vector<std::vector<double>> evaluate_sets(std::span<const Coefficients> sets,
                                                std::span<const Vec3> directions,
                                                const Context& context) {
@@ -101,7 +101,7 @@ void add_values(std::span<const Vec3> directions, std::span<const double> weight
                  });
 }
 
-// sum_j g_j . grad of the solid harmonics: one sum per component, of degree L.
+// Adds sum_j g_j . grad of the solid harmonics, by one sum of degree L for each component.
 void add_solid_gradients(std::span<const Vec3> directions, std::span<const Vec3> vectors,
                          Coefficients& sum, const Context& context) {
   std::array<Coefficients, 3> g = {Coefficients(sum.degree()), Coefficients(sum.degree()),
@@ -122,14 +122,14 @@ Vec3 times(const std::array<double, 6>& h, const Vec3& v) {
 
 Vec3 tangential(const Vec3& v, const Vec3& u) { return v - dot(v, u) * u; }
 
-// Second derivatives of f(x/|x|) at |x| = 1, contracted with h. With R = r^l Y, P the projection on
-// the tangent plane and f of degree 0:
+// Adds the second derivatives of f(x/|x|) at |x| = 1, contracted with h. With R = r^l Y, the
+// projection P on the tangent plane and f of degree 0,
 //   h : Hess f = P h P : Hess R - l R tr(P h P) - 2 (P h u) . grad f.
-// The first term by two gradients in a row, the second by weights that are multiplied by l.
+// Two gradients in a row give the first term; the second has weights that are multiplied by l.
 void add_hessians(std::span<const Vec3> directions, std::span<const std::array<double, 6>> hessians,
                   Coefficients& sum, const Context& context) {
   const std::size_t n = directions.size();
-  std::array<std::vector<Vec3>, 3> rows;  // of P h P
+  std::array<std::vector<Vec3>, 3> rows;  // the rows of P h P
   std::vector<Vec3> slope(n);
   std::vector<double> trace(n);
   for (auto& row : rows) row.resize(n);

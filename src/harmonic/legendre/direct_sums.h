@@ -1,4 +1,4 @@
-// Direct sums over scattered directions, O(N L^2): the oracle, and what few directions get.
+// Direct sums over scattered directions, O(N L^2): the oracle, also used for small numbers N.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // Gauss-Legendre nodes by Newton's method on P_n from Tricomi's asymptotic guess. The weights
-// 2 / ((1 - x^2) P_n'(x)^2) are stationary in x, so an error of the node hardly reaches them.
+// 2 / ((1 - x^2) P_n'(x)^2) are stationary in x: an error of the node hardly changes them.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -14,7 +14,7 @@ struct ValueAndSlope {
   double value, slope;
 };
 
-// P_n and P_n' at x in (-1, 1).
+// Returns P_n and P_n' at x in (-1, 1).
 ValueAndSlope legendre_polynomial(int n, double x) {
   double p0 = 1, p1 = x;
   for (int k = 2; k <= n; ++k) {
@@ -36,7 +36,7 @@ GaussRule gauss_legendre(int n) {
   for (int i = 0; i < (n + 1) / 2; ++i) {
     double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
     if (2 * i + 1 == n) x = 0;
-    // Three steps double the digits of a guess good to O(n^-2) beyond rounding; the fourth is free.
+    // The guess is good to O(n^-2): three steps reach rounding precision; one is a reserve.
     for (int step = 0; step < 4; ++step) {
       const ValueAndSlope p = legendre_polynomial(n, x);
       if (2 * i + 1 != n) x -= p.value / p.slope;

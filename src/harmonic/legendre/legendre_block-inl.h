@@ -1,5 +1,5 @@
-// The recurrence of legendre_order.h for a few vectors of sources at once: what all sums with
-// associated Legendre functions share, compiled for each target.
+// The recurrence of legendre_order.h for several vectors of sources at once. All sums with
+// associated Legendre functions share this code, which is compiled for each target.
 #include <cstddef>
 
 #include "harmonic/legendre/legendre_order.h"
@@ -22,14 +22,14 @@ using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 
-// Values are kept within 2^-480 ... 2^480 and scaled by 2^960 when they leave: products of two
-// never overflow, and what carries k < 0 is below 2^-480 and adds nothing to a sum.
+// Values stay within 2^-480 ... 2^480 by factors of 2^960: no product of two overflows. A value
+// with k < 0 is below 2^-480, and sums leave it out.
 constexpr double kBig = 0x1p480;
 constexpr double kSmall = 0x1p-480;
 constexpr double kUp = 0x1p960;
 constexpr double kDown = 0x1p-960;
 
-// p 2^(960 k), lane by lane.
+// The number p 2^(960 k) in each lane.
 struct Scaled {
   V p;
   V k;
@@ -40,7 +40,7 @@ HWY_INLINE Scaled normalise(D d, Scaled v) {
   const M low = hn::And(hn::Lt(size, hn::Set(d, kSmall)), hn::Gt(size, hn::Zero(d)));
   v.p = hn::IfThenElse(low, hn::Mul(v.p, hn::Set(d, kUp)), v.p);
   v.k = hn::IfThenElse(low, hn::Sub(v.k, hn::Set(d, 1.0)), v.k);
-  // Squares of squares would leave the range of double otherwise.
+  // Without this, squares of squares would leave the range of double.
   const M high = hn::Gt(size, hn::Set(d, kBig));
   v.p = hn::IfThenElse(high, hn::Mul(v.p, hn::Set(d, kDown)), v.p);
   v.k = hn::IfThenElse(high, hn::Add(v.k, hn::Set(d, 1.0)), v.k);
@@ -51,7 +51,7 @@ HWY_INLINE Scaled multiply(D d, Scaled a, Scaled b) {
   return normalise(d, {hn::Mul(a.p, b.p), hn::Add(a.k, b.k)});
 }
 
-// mu s^m by repeated squaring; s in [0, 1].
+// Returns mu s^m by repeated squaring, for s in [0, 1].
 HWY_INLINE Scaled start_value(D d, V s, int m, double mu) {
   Scaled result{hn::Set(d, mu), hn::Zero(d)};
   Scaled square = normalise(d, {s, hn::Zero(d)});
@@ -62,16 +62,16 @@ HWY_INLINE Scaled start_value(D d, V s, int m, double mu) {
   return result;
 }
 
-// The recurrence for a block of kVectors vectors of sources.
+// The state of the recurrence for a block of kVectors vectors of sources.
 constexpr int kVectors = 4;
 
 struct Block {
-  V x_minus_1[kVectors];  // of |x|
+  V x_minus_1[kVectors];  // |x| - 1
   V sign[kVectors];       // sign bit of x: 0 or -0
   V d[kVectors];          // d_l
   V p[kVectors];          // Pt_lm(|x|)
   V k[kVectors];
-  bool scaled;  // some lane has k < 0
+  bool scaled;  // true if some lane has k < 0
 };
 
 HWY_INLINE void start(D d, const LegendreOrder& order, const double* x, const double* s, Block& b) {
@@ -90,7 +90,7 @@ HWY_INLINE void start(D d, const LegendreOrder& order, const double* x, const do
   }
 }
 
-// From degree m + row to the next.
+// Takes the values from degree m + row to the next degree.
 HWY_INLINE void advance(D d, const LegendreOrder& order, int row, Block& b) {
   const V rho = hn::Set(d, order.rho[row]);
   const V of_difference = hn::Set(d, order.of_difference[row]);
@@ -101,7 +101,7 @@ HWY_INLINE void advance(D d, const LegendreOrder& order, int row, Block& b) {
   }
 }
 
-// After advance(), while some lane has k < 0: rescales lanes that have grown.
+// After advance(), while some lane has k < 0: rescales the lanes whose values have grown.
 HWY_INLINE void rescale(D d, Block& b) {
   b.scaled = false;
   for (int v = 0; v < kVectors; ++v) {
@@ -113,7 +113,7 @@ HWY_INLINE void rescale(D d, Block& b) {
   }
 }
 
-// Pt_lm, or 0 in lanes that are still below 2^-480.
+// Returns Pt_lm in `values`, or 0 in lanes that are still below 2^-480.
 HWY_INLINE void visible(D d, const Block& b, V* values) {
   for (int v = 0; v < kVectors; ++v) {
     values[v] = hn::IfThenElseZero(hn::Ge(b.k[v], hn::Zero(d)), b.p[v]);

@@ -1,4 +1,4 @@
-// The sums of one order kept apart by degree: what a function is when it is cut off anywhere.
+// Sums of one order kept apart by degree, which give the function for every truncation degree.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 namespace rholm {
 
-// Adds the terms of the order to the sums of the degrees:
-// sums[(l - m) n + j] += (c[l-m] cosine[j] + s[l-m] sine[j]) Pt_lm(x_j), l = m ... L.
-// n directions, a multiple of kLegendreLanes: cos theta, sin theta, cos m phi, sin m phi.
+// Adds (c[l-m] cosine[j] + s[l-m] sine[j]) Pt_lm(x_j) to sums[(l - m) n + j], l = m ... L.
+// Arrays hold n directions, a multiple of kLegendreLanes: `x` is cos theta, `cosine` cos m phi and
+// `sine` sin m phi.
 void add_by_degree(const LegendreOrder& order, const double* x, const double* sin_theta,
                    const double* cosine, const double* sine, std::size_t n, const double* c,
                    const double* s, double* sums);

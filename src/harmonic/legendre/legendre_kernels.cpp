@@ -22,7 +22,7 @@ void Adjoint(const LegendreOrder& order, const double* x, const double* s, size_
   const D d;
   const size_t lanes = hn::Lanes(d);
   const size_t rows = static_cast<size_t>(order.degree - order.m) + 1;
-  // Sums stay in lanes until the end: [row][cos, sin][lane].
+  // Sums stay apart by lane until the end, in the layout [row][cos, sin][lane].
   auto sums = hwy::AllocateAligned<double>(rows * 2 * lanes);
   for (size_t i = 0; i < rows * 2 * lanes; i += lanes) hn::Store(hn::Zero(d), d, sums.get() + i);
   for (size_t j = 0; j < n; j += kVectors * lanes) {
@@ -34,7 +34,7 @@ void Adjoint(const LegendreOrder& order, const double* x, const double* s, size_
       wi[v] = hn::LoadU(d, im + j + static_cast<size_t>(v) * lanes);
     }
     double* row = sums.get();
-    // Adds the values of one degree; every second one has the sign of x.
+    // Adds the values of one degree; they have the sign of x where l - m is odd.
     const auto add = [&](const V* values, bool odd) HWY_ATTR {
       V sum_c = hn::Load(d, row), sum_s = hn::Load(d, row + lanes);
       for (int v = 0; v < kVectors; ++v) {
@@ -88,7 +88,7 @@ void ForwardSets(const LegendreOrder& order, const double* x, const double* s, s
   for (size_t j = 0; j < n; j += kVectors * lanes) {
     Block b;
     start(d, order, x + j, s + j, b);
-    // Sums over even l - m first; the sign of x comes to those over odd l - m at the end.
+    // Sums over odd l - m are kept apart; they get the sign of x at the end.
     V sum_re[kSets][2][kVectors], sum_im[kSets][2][kVectors];
     for (int set = 0; set < kSets; ++set) {
       for (int v = 0; v < kVectors; ++v) {

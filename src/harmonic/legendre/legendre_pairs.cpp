@@ -14,9 +14,9 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr size_t kMoments = 6;  // sum, square, fourth of the cosine, then of the sine coefficients
+constexpr size_t kMoments = 6;  // sum, square and fourth power, first for cosine coefficients
 
-// Adds the moments of a block of pairs to six vectors of sums.
+// Adds the moments of a block of pairs to three vectors of sums.
 HWY_INLINE void add_moments(D d, const V* va, const V* vb, const double* wa, const double* wb,
                             double* sums) {
   V sum = hn::Load(d, sums);
@@ -36,7 +36,7 @@ HWY_INLINE void add_moments(D d, const V* va, const V* vb, const double* wa, con
   hn::Store(fourth, d, sums + 2 * hn::Lanes(d));
 }
 
-// Pt_lm with its sign, 0 in lanes that are still below 2^-480.
+// Returns Pt_lm with its sign in `values`, and 0 in lanes that are still below 2^-480.
 HWY_INLINE void signed_values(D d, const Block& b, bool odd, V* values) {
   if (b.scaled) {
     visible(d, b, values);
@@ -53,7 +53,7 @@ void PairMomentsOf(const LegendreOrder& order, const PairSide& a, const PairSide
   const size_t lanes = hn::Lanes(d);
   const int last = order.degree - order.m;
   const size_t size = (static_cast<size_t>(last) + 1) * kMoments * lanes;
-  // Sums stay in lanes until the end: [row][moment][lane].
+  // Sums stay apart by lane until the end, in the layout [row][moment][lane].
   auto sums = hwy::AllocateAligned<double>(size);
   for (size_t i = 0; i < size; i += lanes) hn::Store(hn::Zero(d), d, sums.get() + i);
   for (size_t j = 0; j < n; j += kVectors * lanes) {

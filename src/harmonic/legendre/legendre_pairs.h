@@ -1,4 +1,4 @@
-// Moments of differences between pairs of sources: what a Monte Carlo sum knows of its own error.
+// Moments of differences between pairs of sources, which estimate the error of a Monte Carlo sum.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@ namespace rholm {
 struct PairSide {
   const double* x = nullptr;   // cos theta
   const double* s = nullptr;   // sin theta
-  const double* re = nullptr;  // its number of this order
+  const double* re = nullptr;  // complex weight for this order
   const double* im = nullptr;
 };
 
-// Sums over pairs, index l - m, of the cosine or the sine coefficients.
+// Sums over pairs for the cosine or for the sine coefficients, with index l - m.
 struct PairMoments {
-  double* sum = nullptr;     // of a + b, a = Pt_lm(x_a) re_a
-  double* square = nullptr;  // of (a - b)^2
-  double* fourth = nullptr;  // of (a - b)^4
+  double* sum = nullptr;     // sum of a + b, a = Pt_lm(x_a) re_a
+  double* square = nullptr;  // sum of (a - b)^2
+  double* fourth = nullptr;  // sum of (a - b)^4
 };
 
-// Adds those of n pairs, n a multiple of kLegendreLanes.
+// Adds the moments of n pairs to c and s; n is a multiple of kLegendreLanes.
 void legendre_pair_moments(const LegendreOrder& order, const PairSide& a, const PairSide& b,
                            std::size_t n, const PairMoments& c, const PairMoments& s);
 

@@ -1,4 +1,4 @@
-// Harmonics of low degree in the lanes of a vector. Included once per target, by kernels.
+// Harmonics of low degree in the lanes of a vector. Kernels include this file once per target.
 
 #if defined(RHOLM_HARMONIC_LOW_HARMONICS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RHOLM_HARMONIC_LOW_HARMONICS_INL_H_
@@ -16,16 +16,16 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Where lanes look: a point of the sphere, and its place in the plane of the stereographic
-// projection from the south pole, (s1, s2) = (X, Y) / (1 + Z).
+// Directions in lanes: a point (x, y, z) of the sphere, and its stereographic projection from the
+// south pole, (s1, s2) = (X, Y) / (1 + Z).
 template <class V>
 struct LowDirection {
   V x, y, z, s1, s2;
 };
 
-// Calls visit(l, m, p, dp) for all orders and degrees, p_lm(Z) and its derivative, degrees of one
-// order after the other; before each order begin(m, re, im, re_below, im_below) with (X + iY)^m and
-// (X + iY)^(m-1).
+// Calls visit(l, m, p, dp) with p_lm(Z) and its derivative for all orders and degrees, all degrees
+// of one order after another. Before each order, calls begin(m, re, im, re_below, im_below) with
+// (X + iY)^m and (X + iY)^(m-1).
 template <class D, class Begin, class Visit>
 HWY_INLINE void VisitLowHarmonics(D d, int degree, const LowDirection<hn::Vec<D>>& at,
                                   const Begin& begin, const Visit& visit) {
@@ -52,7 +52,7 @@ HWY_INLINE void VisitLowHarmonics(D d, int degree, const LowDirection<hn::Vec<D>
   }
 }
 
-// The same for l + m even, with the derivative by Z^2.
+// Does the same for even l + m, with the derivative with respect to Z^2.
 template <class D, class Begin, class Visit>
 HWY_INLINE void VisitEvenHarmonics(D d, int degree, const LowDirection<hn::Vec<D>>& at,
                                    const Begin& begin, const Visit& visit) {
@@ -81,25 +81,25 @@ HWY_INLINE void VisitEvenHarmonics(D d, int degree, const LowDirection<hn::Vec<D
   }
 }
 
-// A sum of harmonics and its derivatives along the two unit tangents of the plane's axes.
+// A sum of harmonics and its derivatives along the two unit tangents of the axes of the plane.
 template <class V>
 struct LowSum {
   V value, d1, d2;
 };
 
-// sum_i c_i Y_i for coefficients in the order of atlas.h, even basis or full.
+// Returns sum_i c_i Y_i for coefficients in the order of atlas.h, of the even or the full basis.
 template <class D>
 HWY_INLINE LowSum<hn::Vec<D>> SumLowHarmonics(D d, int degree, bool even, const hn::TFromD<D>* c,
                                               const LowDirection<hn::Vec<D>>& at) {
   using V = hn::Vec<D>;
   LowSum<V> sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  // Of one order: sum of p c, sum of p s, and of the derivatives.
+  // For one order: the sums of p c and of p s, and the sums of their derivatives.
   V re = hn::Zero(d), im = re, re_below = re, im_below = re;
   V pc = hn::Zero(d), ps = pc, dc = pc, ds = pc;
   V up = hn::Add(at.z, hn::Set(d, hn::TFromD<D>(1)));
-  if (even) up = hn::Mul(up, hn::Add(at.z, at.z));  // derivatives by Z^2
+  if (even) up = hn::Mul(up, hn::Add(at.z, at.z));  // derivatives are with respect to Z^2
   const auto finish = [&](int m) HWY_ATTR {
-    // f = A pc + B ps, A + iB = (X + iY)^m; along e_1: pc dA/dX + ps dB/dX - s1 (m f + (1 + Z) f').
+    // f = A pc + B ps, A + iB = (X + iY)^m. Along e_1: pc dA/dX + ps dB/dX - s1 (m f + (1 + Z) f').
     const V order = hn::Set(d, static_cast<hn::TFromD<D>>(m));
     const V f = hn::MulAdd(pc, re, hn::Mul(ps, im));
     const V slope = hn::MulAdd(order, f, hn::Mul(up, hn::MulAdd(dc, re, hn::Mul(ds, im))));
@@ -136,8 +136,8 @@ HWY_INLINE LowSum<hn::Vec<D>> SumLowHarmonics(D d, int degree, bool even, const 
   return sum;
 }
 
-// The same of all harmonics up to a degree, from what to_powers() makes of their coefficients:
-// Horner's rule in Z for each order.
+// Returns the sum of all harmonics up to kDegree from the coefficients that to_powers() computes,
+// by Horner's rule in Z for each order.
 template <int kDegree, class D>
 HWY_INLINE LowSum<hn::Vec<D>> SumPowers(D d, const hn::TFromD<D>* c,
                                         const LowDirection<hn::Vec<D>>& at) {
@@ -174,7 +174,7 @@ HWY_INLINE LowSum<hn::Vec<D>> SumPowers(D d, const hn::TFromD<D>* c,
     sum.d2 = hn::MulAdd(order, fy, sum.d2);
     re_below = re, im_below = im;
   }
-  // u . grad f + df/dZ: see SumLowHarmonics().
+  // Adds u . grad f + df/dZ as SumLowHarmonics() does.
   turn = hn::MulAdd(hn::Add(at.z, hn::Set(d, hn::TFromD<D>(1))), along_z, turn);
   sum.d1 = hn::NegMulAdd(at.s1, turn, sum.d1);
   sum.d2 = hn::NegMulAdd(at.s2, turn, sum.d2);

@@ -11,7 +11,7 @@ template <std::size_t kCount>
 void set_starts(std::array<double, kCount>& start) {
   start[0] = std::sqrt(0.25 / std::numbers::pi);
   for (std::size_t m = 1; m < kCount; ++m) {
-    // (2m+1)/(2m), and twice that at m = 1: cosine and sine share what e^{im phi} has.
+    // The ratio is (2m+1)/(2m), and twice this at m = 1, where cosine and sine split e^{im phi}.
     const double twice = 2 * static_cast<double>(m);
     start[m] = start[m - 1] * std::sqrt((m == 1 ? 2.0 : 1.0) * (twice + 1) / twice);
   }
@@ -30,7 +30,7 @@ LowHarmonics make() {
   return h;
 }
 
-// Z p_l = beta_{l+1} p_{l+1} + beta_l p_{l-1}, twice.
+// Applies Z p_l = beta_{l+1} p_{l+1} + beta_l p_{l-1} twice.
 EvenHarmonics make_even() {
   EvenHarmonics h{};
   set_starts(h.start);
@@ -48,7 +48,7 @@ EvenHarmonics make_even() {
   return h;
 }
 
-// p_lm by powers of Z: [m][l][power], one in two of them is zero.
+// p_lm as coefficients of powers of Z, [m][l][power]; every second coefficient is zero.
 using PowersOfZ =
     std::array<std::array<std::array<double, kMaxPowersDegree + 1>, kMaxPowersDegree + 1>,
                kMaxPowersDegree + 1>;

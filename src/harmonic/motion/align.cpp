@@ -19,19 +19,20 @@ namespace {
 
 constexpr std::size_t kMostPeaks = 64;        // chosen: the group of a cube has 24 rotations
 constexpr std::size_t kMostAmbiguities = 32;  // chosen
-// Maxima closer than this are one: half the step of a grid of degree 64.
+// Two maxima closer than this angle are one. It is half the step of a grid of degree 64.
 constexpr double kSameRotation = 0.01;
-// Between the correlations of peaks before and after their last refinement.
+// Largest change in the relative correlation of a peak by its last refinement.
 constexpr double kSlack = 0.1;
-// Correlations closer than this are equal: rounding.
+// Two correlations closer than this difference are equal up to rounding.
 constexpr double kSameCorrelation = 1e-12;
-// An axis of rotation within this of a free axis is that axis: 6 degrees.
+// An axis of rotation counts as a free axis if the cosine between them is above this: 6 degrees.
 constexpr double kSameAxis = 0.995;
 
-// Parts of the mean: below, coefficients are what rounding and the precision of an analysis leave.
+// Smallest significant coefficients relative to the mean. Smaller ones are due to rounding and to
+// the limited precision of an analysis.
 constexpr double kNothing = 1e-10;
 
-// Surfaces are seen from their centroids up to here: a second's work.
+// Largest degree for which surfaces are expanded about their centroids: takes about a second.
 constexpr int kMaxCenteredDegree = 256;
 
 void check(const Coefficients& a, const Coefficients& b, const AlignOptions& options) {
@@ -49,17 +50,17 @@ double largest_of(const Coefficients& f) {
   return largest;
 }
 
-// Degrees 0 ... L divided by `unit`, so that squares neither overflow nor vanish.
+// Returns the degrees 0 ... L divided by `unit`, so that squares neither overflow nor underflow.
 Coefficients scaled(const Coefficients& f, int degree, double unit) {
   Coefficients result = f.resized(degree);
   for (double& value : result.values()) value /= unit;
   return result;
 }
 
-// What turns: both functions up to the degree of the refinement, in units of their largest numbers.
+// Both functions up to the degree of the refinement, in units of their largest coefficients.
 struct Pair {
   Coefficients a, b;
-  double norms = 0;  // |a| |b| without degree 0; 0 where one of them is a sphere
+  double norms = 0;  // |a| |b| without degree 0; 0 if one is a sphere
 
   Pair(const Coefficients& a_all, const Coefficients& b_all, const AlignOptions& options) {
     const int degree =
@@ -83,7 +84,7 @@ struct Pair {
 std::vector<Rotation> starts(const Pair& pair, const AlignOptions& options,
                              const Context& context) {
   if (options.start == AlignStart::kCorrelation) {
-    // Where they are laid on each other already, that is among many that are equally good.
+    // The identity is added, because it may be one among many rotations that are equally good.
     std::vector<Rotation> peaks =
         correlation_peaks(pair.a, pair.b, options.bandwidth, kMostPeaks, context);
     peaks.push_back({});
@@ -98,7 +99,7 @@ std::vector<Rotation> starts(const Pair& pair, const AlignOptions& options,
   return result;
 }
 
-// Sorted by value, maxima that are the same rotation dropped, and those far below the best.
+// Sorts by value; drops repeated rotations and maxima more than `below` under the best.
 void keep_best(std::vector<CorrelationMaximum>& maxima, double below) {
   std::stable_sort(maxima.begin(), maxima.end(),
                    [](const auto& x, const auto& y) { return x.value > y.value; });
@@ -112,8 +113,8 @@ void keep_best(std::vector<CorrelationMaximum>& maxima, double below) {
   maxima = std::move(kept);
 }
 
-// Newton's iteration from all starts: first with the degrees of the search, which is fast, then
-// with all from what is left.
+// Runs Newton's iteration from all starts: first with the degrees of the search, which is fast. The
+// best maxima are then refined with all degrees.
 std::vector<CorrelationMaximum> find_maxima(const Pair& pair, const AlignOptions& options,
                                             const Context& context) {
   const int coarse = std::min(options.bandwidth, pair.a.degree());
@@ -136,7 +137,7 @@ std::vector<CorrelationMaximum> find_maxima(const Pair& pair, const AlignOptions
   return maxima;
 }
 
-// Directions in which the correlation hardly changes.
+// Returns the axes about which a rotation hardly changes the correlation.
 std::vector<Vec3> free_axes_of(const CorrelationMaximum& best, double norms, double margin) {
   std::vector<Vec3> axes;
   for (int i = 0; i < 3; ++i) {
@@ -147,7 +148,7 @@ std::vector<Vec3> free_axes_of(const CorrelationMaximum& best, double norms, dou
   return axes;
 }
 
-// The same but for a turn about a free axis.
+// Returns true if a and b differ only by a rotation about a free axis.
 bool is_along(const std::vector<Vec3>& axes, const Rotation& a, const Rotation& b) {
   const Vec3 axis = axis_angle_of(compose(a, inverse(b))).axis;
   return axes.size() > 1 || std::any_of(axes.begin(), axes.end(), [&](const Vec3& other) {
@@ -156,7 +157,7 @@ bool is_along(const std::vector<Vec3>& axes, const Rotation& a, const Rotation& 
 }
 
 struct Found {
-  std::vector<AlignedRotation> rotations;  // best first, none for a sphere
+  std::vector<AlignedRotation> rotations;  // best first; the identity for a sphere
   std::vector<Vec3> free_axes;
 };
 
@@ -182,8 +183,8 @@ Found find_rotations(const Coefficients& a, const Coefficients& b, bool mirrored
   return found;
 }
 
-// Best first. Which of the equally good ones is the largest to the last bit is chance, so that they
-// come by their angle, images of the mirror last.
+// Sorts the best first. Rounding decides which of several equally good rotations is the largest.
+// They are therefore sorted by their angle, with mirrored ones last.
 void sort_by_correlation(std::vector<AlignedRotation>& all) {
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& x, const auto& y) { return x.correlation > y.correlation; });
@@ -196,7 +197,7 @@ void sort_by_correlation(std::vector<AlignedRotation>& all) {
   });
 }
 
-// Root mean square of what the coefficients leave out, if that is known: errors are of a radius.
+// Returns the RMS of the truncated part of a radius if it is known, and otherwise 0.
 double left_out(const Expansion& expansion) {
   const bool known = expansion.errors && expansion.function == RadialFunction::kRadius;
   return known ? expansion.errors->rms.value_or(0) : 0;
@@ -318,7 +319,7 @@ Expansion placed(const Expansion& a, const Placement& placement, const Context& 
 
 namespace {
 
-// The smallest turn that takes one unit vector to another.
+// Returns the smallest rotation that takes one unit vector to another.
 Rotation turn_between(const Vec3& from, const Vec3& to) {
   const Vec3 axis = cross(from, to);
   if (norm(axis) > 1e-15) return rotation_about(axis, std::atan2(norm(axis), dot(from, to)));
@@ -327,7 +328,7 @@ Rotation turn_between(const Vec3& from, const Vec3& to) {
   return rotation_about(across, std::numbers::pi);
 }
 
-// Where values are equal only the axis that stands alone is one; the others follow it.
+// Where two values are equal, only the axis of the third is defined; the other axes follow from it.
 void settle_equal_axes(double mean, PrincipalAxes& found) {
   const auto equal = [&](int i) {
     return found.values[i] - found.values[i + 1] <= kNothing * std::abs(mean);
@@ -348,7 +349,7 @@ void settle_equal_axes(double mean, PrincipalAxes& found) {
 
 }  // namespace
 
-// Degree 2 in this basis, all of x^2 ... with positive factors:
+// The harmonics of degree 2 in this basis, where the squares have positive factors:
 //   sqrt(5/16pi) (2z^2 - x^2 - y^2), sqrt(15/4pi) xz, yz, xy, sqrt(15/16pi) (x^2 - y^2).
 PrincipalAxes principal_axes(const Coefficients& coefficients, RadialFunction function) {
   const Coefficients f = coefficients.resized(3);
@@ -362,7 +363,7 @@ PrincipalAxes principal_axes(const Coefficients& coefficients, RadialFunction fu
   Coefficients odd(3);
   for (int m = 0; m <= 3; ++m) odd.c(3, m) = sign * f.c(3, m), odd.s(3, m) = sign * f.s(3, m);
   const std::vector<double> values = evaluate(odd, result.axes, {.engine = Engine::kDirect});
-  // Below this degree 3 says nothing, and an axis keeps the sign nearer to the one it is laid on.
+  // Below this, degree 3 does not choose the sign: the axis points along its coordinate axis.
   const double mean = f.c(0, 0), least = kNothing * std::abs(mean);
   const auto choose_sign = [&](Vec3& axis, double value, double nearer) {
     if (std::abs(value) > least ? value < 0 : nearer < 0) axis = -axis;

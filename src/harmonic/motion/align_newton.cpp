@@ -11,7 +11,7 @@ namespace {
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-// Makes a[p][q] zero (Golub and Van Loan, section 8.5); columns of v turn along.
+// Makes a[p][q] zero (Golub and Van Loan, section 8.5) and rotates the columns of v.
 void jacobi_step(Matrix& a, Matrix& v, int p, int q) {
   if (a[p][q] == 0) return;
   const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
@@ -42,7 +42,7 @@ Eigen3 eigen_of_symmetric(const Matrix& rows) {
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < i; ++k) a[i][k] = a[k][i];
   }
-  // Convergence is quadratic: five sweeps reach rounding, the rest costs nothing then.
+  // Convergence is quadratic: five sweeps reach rounding precision. More cost almost nothing.
   for (int sweep = 0; sweep < 12; ++sweep) {
     jacobi_step(a, v, 0, 1);
     jacobi_step(a, v, 0, 2);
@@ -63,14 +63,14 @@ Eigen3 eigen_of_symmetric(const Matrix& rows) {
 namespace {
 
 constexpr int kMaxSteps = 40;
-// Radians: a quarter of the wave of degree 8, and where rounding of the gradient ends the way.
+// Radians: a quarter wave of degree 8, and the precision that rounding of the gradient allows.
 constexpr double kLongestStep = 0.2, kShortestStep = 1e-11;
-// Curvatures below this part of the largest are noise, steps along them are held back.
+// Curvatures below this fraction of the largest are noise; steps along their axes are limited.
 constexpr double kFlat = 1e-9;
 
 // With Z_m = C_m - i S_m for m > 0 and Z_0 = sqrt2 C_0, lambda_m = sqrt((l-m)(l+m+1)):
-//   L_x Z_m = (i/2) (lambda_{m-1} Z_{m-1} + lambda_m Z_{m+1}),    L_x C_0 = lambda_0 S_1 / sqrt2,
-//   L_y Z_m = (1/2) (lambda_{m-1} Z_{m-1} - lambda_m Z_{m+1}),    L_y C_0 = -lambda_0 C_1 / sqrt2,
+//   L_x Z_m = (i/2) (lambda_{m-1} Z_{m-1} + lambda_m Z_{m+1}),    L_x C_0 = lambda_0 S_1 / sqrt2.
+//   L_y Z_m = (1/2) (lambda_{m-1} Z_{m-1} - lambda_m Z_{m+1}),    L_y C_0 = -lambda_0 C_1 / sqrt2.
 //   L_z Z_m = -i m Z_m.
 void derivatives_of_degree(const Coefficients& f, int l, std::array<Coefficients, 3>& result) {
   using Complex = std::complex<double>;
@@ -97,7 +97,7 @@ Vec3 newton_step(const Vec3& gradient, const Eigen3& curvature) {
   for (const double value : curvature.values) largest = std::max(largest, std::abs(value));
   Vec3 step;
   for (int i = 0; i < 3; ++i) {
-    // Uphill also where the surface is curved the other way.
+    // The absolute value makes the step go uphill where the curvature has the wrong sign, too.
     const double bend = std::max(std::abs(curvature.values[i]), kFlat * largest);
     if (bend > 0) step += dot(gradient, curvature.vectors[i]) / bend * curvature.vectors[i];
   }
@@ -158,7 +158,7 @@ CorrelationMaximum refine_rotation(const Coefficients& a, const Coefficients& b,
         turned = std::move(there);
         higher = true;
       } else if (norm(step) < 1e-7) {
-        return best;  // the rest changes the correlation by less than rounding
+        return best;  // further steps change the correlation by less than rounding
       }
     }
     if (!higher) return best;

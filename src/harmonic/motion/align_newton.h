@@ -1,7 +1,7 @@
-// The correlation <R a, b> near a rotation: gradient, Hessian, and Newton's way to its maximum.
+// The correlation <R a, b> near a rotation: gradient, Hessian and Newton's iteration to a maximum.
 //
-// With L_k the derivative of a rotation about axis k at angle 0, antisymmetric, and exp(w . L) the
-// rotation by |w| about w:
+// With the antisymmetric derivative L_k of a rotation about axis k at angle 0, and the rotation
+// exp(w . L) by |w| about w:
 //   d/dw_k <exp(w.L) R a, b> = <L_k R a, b>,    d2/dw_j dw_k = -<L_j R a, L_k b>, symmetrised.
 #pragma once
 
@@ -14,28 +14,28 @@
 
 namespace rholm {
 
-// Eigenvectors of a symmetric 3 x 3 matrix.
+// Eigenvalues and eigenvectors of a symmetric 3 x 3 matrix.
 struct Eigen3 {
   std::array<double, 3> values;  // descending
   std::array<Vec3, 3> vectors;   // orthonormal, right-handed
 };
 
-// Of the matrix with rows[i][k]; only i <= k is read. By Jacobi's rotations.
+// Decomposes the matrix with rows[i][k] by Jacobi's rotations; reads only i <= k.
 Eigen3 eigen_of_symmetric(const std::array<std::array<double, 3>, 3>& rows);
 
-// L_k f, k = x, y, z.
+// Returns L_k f for k = x, y, z.
 std::array<Coefficients, 3> rotation_derivatives(const Coefficients& f);
 
-// sum of products over degrees 1 ... L, both of one degree.
+// Returns the sum of products over degrees 1 ... L; a and b have the same degree.
 double correlation(const Coefficients& a, const Coefficients& b);
 
 struct CorrelationMaximum {
   Rotation rotation;
   double value = 0;  // <R a, b>
-  Eigen3 curvature;  // of minus the Hessian: axes in the frame of b, values descending
+  Eigen3 curvature;  // negative Hessian, with axes in the frame of b
 };
 
-// The maximum uphill from `start`; a and b of one degree.
+// Returns the maximum uphill from `start`; a and b have the same degree.
 CorrelationMaximum refine_rotation(const Coefficients& a, const Coefficients& b,
                                    const Rotation& start, const Context& context);
 

@@ -15,11 +15,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Samples per wave of the highest degree and angle: its crests are then hit within 0.9 of their
-// height.
+// Number of samples per wave of the highest degree, for each angle. The largest sample of a crest
+// then has at least 0.9 of its height.
 constexpr int kSamplesPerWave = 3;
 
-// c_lm, m = -l ... l, with the phase: (-1)^m (C - i S) / sqrt 2, and c_{l,-m} = (-1)^m conj(c_lm).
+// Returns c_lm, |m| <= l, with phase: (-1)^m (C - i S) / sqrt 2, c_{l,-m} = (-1)^m conj(c_lm).
 std::vector<Complex> complex_coefficients(const Coefficients& f, int l) {
   std::vector<Complex> c(2 * static_cast<std::size_t>(l) + 1);
   c[l] = f.c(l, 0);
@@ -36,7 +36,7 @@ Complex power_of_i(int n) {
   return kPowers[((n % 4) + 4) % 4];
 }
 
-// Values of the correlation, [alpha][beta][gamma], angles 2 pi / n apart; all of beta's circle.
+// Values of the correlation, [alpha][beta][gamma], at angles 2 pi / n apart, also for beta.
 class Cube {
  public:
   explicit Cube(int bandwidth)
@@ -83,7 +83,7 @@ void Cube::add_degree(const Coefficients& a, const Coefficients& b, int l, Quart
   }
 }
 
-// Lines along each of the three angles. A line is `stride` apart.
+// Transforms the lines along each of the three angles; numbers of a line are `stride` apart.
 void Cube::transform(const Context& context) {
   const ComplexFft<double> fft(n_);
   for (const std::size_t stride : {std::size_t{1}, n_, n_ * n_}) {
@@ -105,7 +105,7 @@ struct Peak {
   Rotation rotation;
 };
 
-// No neighbour is higher. At beta = 0 and pi the circle goes on to the same rotations again.
+// Returns true if no neighbour is higher. Beyond beta = 0 and pi, the grid repeats rotations.
 bool is_peak(const Cube& cube, int i, int j, int k) {
   const double value = cube.value(i, j, k);
   for (int di = -1; di <= 1; ++di) {

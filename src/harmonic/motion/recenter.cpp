@@ -1,6 +1,6 @@
-// With p = d + rho u, d the new centre seen from the old one: the root rho of
-//   F(rho) = |p| - r(p/|p|),    F' = (p . u - grad r . u) / |p|,
-// for each direction u by Newton's steps, kept within a bracket.
+// Newton's steps within a bracket find the root rho of F for each direction u. With p = d + rho u
+// and the new centre d seen from the old one,
+//   F(rho) = |p| - r(p/|p|),    F' = (p . u - grad r . u) / |p|.
 #include "rholm/recenter.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 namespace rholm {
 namespace {
 
-constexpr int kMaxSteps = 100;  // 53 halvings end any bracket
+constexpr int kMaxSteps = 100;  // 53 bisections close any bracket
 constexpr double kPrecision = 1e-13;
 
 Grid grid_for(int degree, int factor) {
@@ -32,7 +32,7 @@ std::vector<Vec3> directions_of(const Grid& grid) {
   std::vector<Vec3> directions;
   directions.reserve(static_cast<std::size_t>(grid.n_theta) * static_cast<std::size_t>(grid.n_phi));
   for (const double theta : grid_colatitudes(grid)) {
-    ask_cancel();  // a ring has thousands
+    ask_cancel();  // a ring has thousands of points
     for (int k = 0; k < grid.n_phi; ++k) {
       const double phi = 2 * std::numbers::pi * k / grid.n_phi;
       directions.push_back(
@@ -42,7 +42,7 @@ std::vector<Vec3> directions_of(const Grid& grid) {
   return directions;
 }
 
-// Radii instead of the expanded function.
+// Replaces the values of the expanded function by radii.
 void to_radius(RadialFunction function, std::span<double> values) {
   CancelPoll poll;
   for (double& value : values) {
@@ -56,7 +56,7 @@ void to_radius(RadialFunction function, std::span<double> values) {
   }
 }
 
-// One root per direction of a grid.
+// Finds one root for each direction of a grid.
 class Rays {
  public:
   Rays(const Expansion& expansion, const Vec3& to, std::span<const Vec3> directions,
@@ -102,7 +102,7 @@ class Rays {
     open_ = std::move(left);
   }
 
-  // Returns whether the root is found.
+  // Returns true if the root is found.
   bool newton(std::size_t i, double r, const Vec3& slope) {
     const Vec3 p = point(i), &u = directions_[i];
     const double distance = norm(p);
@@ -121,19 +121,19 @@ class Rays {
   Vec3 d_;
   std::span<const Vec3> directions_;
   std::vector<double> rho_, low_, high_;
-  std::vector<std::size_t> open_;  // rays without a root yet
+  std::vector<std::size_t> open_;  // rays whose root is not yet found
 };
 
-// The surface turns its front to the new centre where its outward normal, r u - grad r, and the way
-// from there, r u - d, make less than a right angle: r^2 - n . d > 0, linear in d.
+// The surface faces the new centre where two vectors form an acute angle: its outward normal, r u -
+// grad r, and r u - d. The condition is r^2 - n . d > 0, linear in d.
 struct NewView {
-  double way = 1;            // the part of d from which a quarter of r^2 is left everywhere
-  std::vector<Vec3> behind;  // points, seen from d, where the surface turns its back to it
+  double way = 1;            // fraction of d at which a quarter of r^2 is left everywhere
+  std::vector<Vec3> behind;  // points, seen from d, where the surface faces away from d
 };
 
 NewView view_from(const Expansion& expansion, const Vec3& d, std::span<const Vec3> directions,
                   const Context& context) {
-  // Chosen: nearer to the border steep sides take more degrees.
+  // Chosen: closer to the limit, steeper slopes need higher degrees.
   constexpr double kMargin = 0.25;
   ValuesAndGradients f = evaluate_with_gradient(expansion.coefficients, directions, {}, context);
   to_radius(expansion.function, f.values);
@@ -160,8 +160,9 @@ bool is_inside(const Expansion& expansion, const Vec3& d, const Context& context
   return norm(d) < r[0];
 }
 
-// How far ripples fold back: rays to the points that show their back meet the surface elsewhere,
-// too. The largest way between two such places, in parts of the distance.
+// Returns how far ripples of the surface fold back. A ray from d to a point that faces away from d
+// also meets the surface elsewhere. The result is the largest distance between the two points,
+// relative to the distance of the first point.
 double depth_of_folds(const Expansion& expansion, const Vec3& d, const std::vector<Vec3>& behind,
                       double highest, const Context& context) {
   std::vector<Vec3> directions;
@@ -179,8 +180,8 @@ double depth_of_folds(const Expansion& expansion, const Vec3& d, const std::vect
   return depth;
 }
 
-// A series that ends ripples, and may turn its back to a centre that sees the shape: what folds
-// back by less is seen as one of its sides (chosen: below what series of degree 16 leave of cells).
+// Folds that are shallower than this are accepted. A truncated series ripples, and may face away
+// from a centre that sees the shape (chosen: below what series of degree 16 leave out of cells).
 constexpr double kShallow = 0.02;
 
 [[noreturn]] void refuse_hidden(const Vec3& d, const NewView& view) {
@@ -192,12 +193,12 @@ constexpr double kShallow = 0.02;
                   " directions of a grid; choose a centre nearer to the old one");
 }
 
-// The surface on a grid of twice the degree, and how it is seen from `d`.
+// The surface on a grid of twice the degree, and its view from `d`.
 struct Sight {
   Grid grid;
   std::vector<Vec3> directions;
-  std::vector<double> radii;  // from the old centre
-  double highest = 0;         // no ray from d is longer within the surface
+  std::vector<double> radii;  // measured from the old centre
+  double highest = 0;         // upper limit of the rays from d within the surface
   NewView view;
   bool seen = false;
 };
@@ -270,7 +271,7 @@ Expansion recentered(const Expansion& expansion, const Vec3& center, const Conte
   result.center = center;
   result.unit = expansion.unit;
   result.method = expansion.method;
-  // Radial errors are along other rays now, and the series is cut off anew.
+  // Radial errors do not carry over: rays differ, and the series is truncated anew.
   if (expansion.errors) result.errors.emplace().diagonal = expansion.errors->diagonal;
   Sight sight = sight_from(expansion, d, {.threads = context.threads, .progress = {}});
   if (!sight.seen) refuse_hidden(d, sight.view);

@@ -1,5 +1,5 @@
-// Rotations as unit quaternions. Angles come from pairs of components by atan2, so that sums of
-// Euler angles keep their precision where each alone is undetermined (beta near 0 or pi).
+// Rotations as unit quaternions. Angles come from pairs of components by atan2. Sums of Euler
+// angles are then precise even if each angle is undetermined (beta near 0 or pi).
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -10,7 +10,7 @@
 namespace rholm {
 namespace {
 
-// How far a matrix may be from orthogonal: numbers rounded to four digits.
+// Largest error of orthogonality of a matrix: allows numbers rounded to four digits.
 constexpr double kOrthogonality = 1e-4;
 
 Rotation normalized(const Rotation& r) {
@@ -58,7 +58,7 @@ Rotation rotation_of(const EulerAngles& angles) {
           c * std::sin(sum)};
 }
 
-// From the largest component, which the matrix has to full precision (Shepperd 1978).
+// Starts from the largest component, which the matrix gives to full precision (Shepperd 1978).
 Rotation rotation_of(const RotationMatrix& matrix) {
   const RotationMatrix& m = matrix;
   check_orthogonal(m);
@@ -95,7 +95,7 @@ AxisAngle axis_angle_of(const Rotation& rotation) {
 
 EulerAngles euler_angles_of(const Rotation& rotation) {
   const Rotation r = normalized(rotation);
-  // At beta = 0 and pi only the sum or the difference exists; atan2(0, 0) = 0 picks the other.
+  // At beta = 0 or pi, only their sum or difference exists; atan2(0, 0) = 0 fixes the other.
   const double sum = std::atan2(r.z, r.w), difference = std::atan2(-r.x, r.y);
   return {sum + difference, 2 * std::atan2(std::hypot(r.x, r.y), std::hypot(r.w, r.z)),
           sum - difference};

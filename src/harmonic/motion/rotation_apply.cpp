@@ -1,4 +1,4 @@
-// Rotated coefficients: R = Rz(a - 90) J^-1 Rz(b) J Rz(c + 90), degree by degree.
+// Rotated coefficients: R = Rz(a - 90) J^-1 Rz(b) J Rz(c + 90), for each degree.
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -14,17 +14,17 @@ namespace {
 
 using Phases = std::vector<std::complex<double>>;
 
-// Degrees of one task, so that its memory is used again. Chosen: 1/8 of a millisecond at L = 64.
+// Number of degrees in one task, which share memory. Chosen: 1/8 of a millisecond at L = 64.
 constexpr std::size_t kDegreesPerTask = 8;
 
-// e^{i m angle}, m = 0 ... L.
+// Returns e^{i m angle}, m = 0 ... L.
 Phases phases(int degree, double angle) {
   Phases result(static_cast<std::size_t>(degree) + 1);
   for (int m = 0; m <= degree; ++m) result[m] = {std::cos(m * angle), std::sin(m * angle)};
   return result;
 }
 
-// Rz(angle): C + i S times e^{i m angle}.
+// Applies Rz(angle), which multiplies C + i S by e^{i m angle}.
 void turn_about_z(const Phases& phase, int l, double* c, double* s) {
   for (int m = 1; m <= l; ++m) {
     const double x = c[m], y = s[m];
@@ -33,9 +33,9 @@ void turn_about_z(const Phases& phase, int l, double* c, double* s) {
   }
 }
 
-// Once: what was done to the coefficients after they were found.
+// Appends to `method` what was done to the coefficients, but not twice in a row.
 void add_note(std::string& method, const std::string& note) {
-  constexpr std::size_t kMaxLength = 256;  // of texts in a model's file
+  constexpr std::size_t kMaxLength = 256;  // bytes of a text in a model file
   if (method.empty() || method.ends_with(note) || method.size() + 2 + note.size() > kMaxLength) {
     return;
   }
@@ -57,7 +57,7 @@ Coefficients rotate(const Coefficients& coefficients, const Rotation& rotation,
   const auto body = [&](std::size_t begin, std::size_t end) {
     QuarterTurn turn;
     for (std::size_t at = begin; at < end; ++at) {
-      const int l = degree - static_cast<int>(at);  // the largest first
+      const int l = degree - static_cast<int>(at);  // the highest degree first
       double *c = &result.c(l, 0), *s = &result.s(l, 0);
       turn_about_z(first, l, c, s);
       if (about_z) continue;
@@ -89,7 +89,7 @@ Coefficients mirror(const Coefficients& coefficients, Axis axis) {
     for (int m = 0; m <= l; ++m) {
       const bool odd = (axis == Axis::kZ ? l + m : axis == Axis::kX ? m : 0) % 2 == 1;
       const bool odd_sine = axis == Axis::kZ ? odd : !odd;
-      if (odd) result.c(l, m) = -result.c(l, m) + 0.0;  // 0, not -0
+      if (odd) result.c(l, m) = -result.c(l, m) + 0.0;  // Adding 0 turns -0 into 0.
       if (odd_sine && m > 0) result.s(l, m) = -result.s(l, m) + 0.0;
     }
   }

@@ -9,13 +9,13 @@
 namespace rholm {
 namespace {
 
-// Columns are carried in units of a power of this one (2^-600) until they have grown to their size:
-// from degree 1000 on first values would underflow.
+// Columns are scaled by powers of this number, 2^-600, until their values have grown to normal
+// size. From degree 1000 on, the first values would underflow.
 constexpr double kTiny = 0x1p-600;
 
-constexpr int kLanes = 8;  // partial sums, a fixed number so that results do not depend on vectors
+constexpr int kLanes = 8;  // number of partial sums, fixed so that results do not depend on vectors
 
-// sum of d[k] z[k] over even k and over odd k < n.
+// Returns the sums of d[k] z[k] over even k and over odd k < n.
 std::pair<double, double> alternating_dots(const double* d, const double* z, int n) {
   double part[kLanes] = {};
   int k = 0;
@@ -26,7 +26,7 @@ std::pair<double, double> alternating_dots(const double* d, const double* z, int
   return {(part[0] + part[2]) + (part[4] + part[6]), (part[1] + part[3]) + (part[5] + part[7])};
 }
 
-// y[k] += d[k] (k even ? even : odd), k < n.
+// Adds d[k] even to y[k] for even k < n, and d[k] odd for odd k < n.
 void add_alternating(const double* d, double even, double odd, int n, double* y) {
   int k = 0;
   for (; k + 2 <= n; k += 2) {
@@ -48,8 +48,8 @@ void QuarterTurn::set_degree(int l) {
   descend();
 }
 
-// Row m1 = l, into next_: from m2 = 0, C(2l, l) 4^-l = prod (1 - 1/2k), upwards by the ratio
-// C(2l, l+m+1) / C(2l, l+m) = (l-m)/(l+m+1).
+// Computes row m1 = l into next_, upwards from m2 = 0: C(2l, l) 4^-l = prod (1 - 1/2k), and the
+// ratio C(2l, l+m+1) / C(2l, l+m) = (l-m)/(l+m+1).
 void QuarterTurn::start_values() {
   const int l = degree_;
   double square = 1;
@@ -71,7 +71,7 @@ void QuarterTurn::start_values() {
 
 void QuarterTurn::descend() {
   const int l = degree_;
-  // Columns with pending factors are the last ones, at any row.
+  // In every row, the columns with pending factors are the last ones.
   int first_pending =
       static_cast<int>(std::find_if(pending_.begin(), pending_.end(), [](int p) { return p > 0; }) -
                        pending_.begin());
@@ -104,11 +104,11 @@ double QuarterTurn::delta(int m1, int m2) const {
   return m1 >= m2 ? signs * row(m1)[m2] : signs * sign(m2 - m1) * row(m2)[m1];
 }
 
-// In the real basis only cosines with l + m1 + m2 even meet, and sines with it odd:
+// In the real basis, only cosines with even l + m1 + m2 and sines with odd l + m1 + m2 contribute:
 //   C'_m1 = (-1)^l w_m1 sum w_m2 Delta_{m1 m2} C_m2,   S'_m1 = -(-1)^l (the same of S),
 // w_0 = 1 and w_m = sqrt 2. The inverse is the transpose: the same without the sign in front. Each
-// number of the triangle serves once: in_[q] has at m a cosine where q + m is even and a sine where
-// it is odd, so that row m1 with q = (l + m1) mod 2 is one pass.
+// number of the triangle is read once. The array in_[q] has at m a cosine for even q + m and a sine
+// for odd q + m. Row m1 with q = (l + m1) mod 2 thus takes one pass.
 void QuarterTurn::apply(Way way, double* c, double* s) {
   const int l = degree_;
   const double sigma = l % 2 == 0 ? 1 : -1;

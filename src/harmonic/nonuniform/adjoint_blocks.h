@@ -1,4 +1,4 @@
-// An adjoint sum over sources that come block by block, by either engine.
+// An adjoint sum over sources that are added in blocks, by either engine.
 #pragma once
 
 #include <memory>
@@ -13,12 +13,12 @@ namespace rholm {
 struct AdjointNeeds {
   int degree = 0;
   Engine engine = Engine::kDirect;
-  double allowed = 1e-12;   // to be left of generic sums, relative: see NonuniformNeeds
-  std::size_t sources = 0;  // about how many will come
+  double allowed = 1e-12;   // relative error of generic sums: see NonuniformNeeds
+  std::size_t sources = 0;  // approximate number of sources to be added
 };
 
-// Adds up w conj(Y) of blocks of sources; the same bits for any number of threads, if blocks are
-// cut alike.
+// Adds up w conj(Y) of blocks of sources. The result has the same bits for any number of threads if
+// the blocks are the same.
 class AdjointBlocks {
  public:
   explicit AdjointBlocks(const AdjointNeeds& needs);

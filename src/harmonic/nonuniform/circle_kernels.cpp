@@ -13,9 +13,9 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Calls visit(row, index of the row, index of its mirror image, whether another row may share one
-// of them) for all rows. The circle has n points, row r is at -r, its mirror image at r - w: rows w
-// + 1 ... n/2 have places of their own.
+// Calls visit(row, index, index of the mirror image, shared) for all rows; `shared` tells that
+// another row may use one of the two indices. The circle has n points: row r is at -r, its mirror
+// image at r - w. No other row uses the indices of rows w + 1 ... n/2.
 template <class Visit>
 HWY_INLINE void visit_rows(const GridLayout& layout, const Visit& visit) {
   const size_t n = layout.n_theta, w = static_cast<size_t>(layout.width);
@@ -26,8 +26,8 @@ HWY_INLINE void visit_rows(const GridLayout& layout, const Visit& visit) {
   }
 }
 
-// Rows lie a page or more apart, which the processor's own prefetching does not follow.
-constexpr size_t kRowsAhead = 12;  // measured (scripts/constants): 8 to 16 are alike
+// Rows are a page or more apart, where the processor does not prefetch by itself.
+constexpr size_t kRowsAhead = 12;  // measured (scripts/constants): 8 to 16 are equally fast
 
 template <typename T>
 HWY_INLINE void GatherAny(const GridLayout& layout, const T* HWY_RESTRICT rows,
@@ -103,7 +103,7 @@ HWY_INLINE void MultiplyAny(const Factors<T>& factors, const T* HWY_RESTRICT in,
   }
 }
 
-// Vectors of double, and as many elements of what circles are made of.
+// Vectors of double, and vectors with as many elements of the type of the circles.
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 template <typename T>
@@ -127,7 +127,7 @@ HWY_INLINE void store_complex(V re, V im, T* to) {
   const Narrow<T> d;
   hn::StoreInterleaved2(narrow(d, re), narrow(d, im), d, to);
 }
-// The numbers from `last` down.
+// Loads numbers in descending order of their index, from `last` on.
 template <typename T>
 HWY_INLINE void load_down(const T* last, V& re, V& im) {
   load_complex(last + 2 - 2 * kLanes, re, im);
@@ -139,16 +139,16 @@ HWY_INLINE void store_down(V re, V im, T* last) {
   store_complex(hn::Reverse(D(), re), hn::Reverse(D(), im), last + 2 - 2 * kLanes);
 }
 
-// Calls visit(q) for the beginnings of vectors that cover 0 ... n - 1, n >= kLanes; the last two
-// may overlap.
+// Calls visit(q) for the start indices of vectors that cover 0 ... n - 1, n >= kLanes. The last two
+// vectors may overlap.
 template <class Visit>
 HWY_INLINE void visit_vectors(size_t n, const Visit& visit) {
   for (size_t q = 0; q + kLanes < n; q += kLanes) visit(q);
   visit(n - kLanes);
 }
 
-// Ring q of the north is at q and, seen from the other side, at 2 n - 1 - q; that of the south at
-// n - 1 - q and n + q.
+// Northern ring q is at index q and, on the other half of the circle, at 2 n - 1 - q. Its southern
+// mirror image is at n - 1 - q and at n + q.
 template <typename T>
 HWY_INLINE void SplitAny(const T* HWY_RESTRICT circle, size_t n, const RingParts& even,
                          const RingParts& odd) {
@@ -194,7 +194,7 @@ HWY_INLINE void JoinAny(const RingParts& even, const RingParts& odd, size_t n,
   });
 }
 
-// Functions of both types under names that can be exported.
+// Defines the functions of both types under names that can be exported.
 #define RHOLM_CIRCLE_KERNELS(T, Name)                                                        \
   void Gather##Name(const GridLayout& layout, const T* rows, T* const* circles) {            \
     GatherAny(layout, rows, circles);                                                        \

@@ -1,6 +1,6 @@
-// What the inner loops take: nanoseconds of one core, by which windows, grids, rules and points are
-// chosen. All constants of the kind stand in cost_model.cpp; bench/cost_model_bench measures each
-// anew and prints it beside the one in use. Only their ratios matter.
+// Costs of the inner loops in nanoseconds of one core, which choose windows, grids, rules and
+// points. All such constants are in cost_model.cpp. The program bench/cost_model_bench measures
+// each again and prints it beside the one in use. Only the ratios matter.
 #pragma once
 
 #include <cstddef>
@@ -9,34 +9,34 @@
 
 namespace rholm {
 
-// Spreading one source of 0, 1 or 2 derivatives, or interpolating one point.
+// Cost of spreading a source with 0, 1 or 2 derivatives, or of interpolating a point.
 double source_cost(int width, bool single, int derivatives);
-// The same where the window is not known yet, and adding a cell of one grid to another.
+// The cost while the window is unknown, and the cost of adding a cell of one grid to another.
 double typical_source_cost();
 double typical_cell_cost();
-// Work that two threads are worth it for.
+// Amount of work from which a second thread is worthwhile.
 double second_thread_cost();
 
-// One cell between so many grids and their transforms: cleared, added up, folded, gathered.
+// Cost of a cell of `grids` grids before their transform: cleared, summed, folded and gathered.
 double cell_cost(bool single, std::size_t grids);
-// The Fourier transform of a row of so many complex numbers, a length of small factors.
+// Cost of the Fourier transform of `points` complex numbers, a length of small prime factors.
 double row_cost(std::size_t points, bool single);
-// Legendre sums between so many rings, both hemispheres, and the degrees up to L.
+// Cost of Legendre sums on `rings` rings of both hemispheres, for degrees up to L.
 double legendre_cost(int degree, std::size_t rings);
-// All between grids and coefficients.
+// Cost of all steps between grids and coefficients.
 double grid_cost(const SphereFourier& fourier, bool single, std::size_t grids);
 
-// Sums term by term.
+// Cost of direct sums, term by term.
 double direct_cost(std::size_t sources, int degree, int derivatives);
 
-// What a face of a surface has more than sources at its corners (transform/mesh_pass): a node of
-// its own, found and spread; one in common with others; second derivatives at the corners.
+// Further costs of a face of a surface beside its corners (transform/mesh_pass). They are for a
+// quadrature node of its own, a node shared with other faces, and second derivatives at corners.
 double own_node_cost();
 double common_node_cost();
 double hessians_cost();
 
-// The error of an expansion at points of a surface (transform/error): a point, and the grid that
-// all are interpolated on.
+// Costs of the error of an expansion at points of a surface (transform/error). They are for a
+// point, and for the grid from which all points are interpolated.
 double error_point_cost();
 double error_grid_cost(int degree);
 

@@ -1,4 +1,4 @@
-// The sums of evaluate() of one function, for who asks for them again and again.
+// The sums of evaluate() of one function, for repeated evaluation.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +15,18 @@ namespace rholm {
 
 class DirectionSums {
  public:
-  // By whichever engine is cheaper for about so many directions in all, with gradients or without.
+  // Takes the cheaper engine for about `directions` directions, with or without gradients.
   DirectionSums(const Coefficients& coefficients, std::size_t directions, bool with_gradient,
                 const SumOptions& options, const Context& context);
   DirectionSums(const DirectionSums&) = delete;
   DirectionSums& operator=(const DirectionSums&) = delete;
 
-  // Values, and gradients if wanted, which they may be only if they were.
+  // Returns values and, on request, gradients; these require `with_gradient` at construction.
   ValuesAndGradients at(std::span<const Vec3> directions, bool with_gradient,
                         const Context& context) const;
 
  private:
-  std::optional<Coefficients> direct_;  // where there is no grid
+  std::optional<Coefficients> direct_;  // set if there is no grid
   std::optional<NonuniformPlan> plan_;
   std::optional<GridFunction<float>> single_;
   std::optional<GridFunction<double>> double_;

@@ -39,7 +39,7 @@ Vec3 GridFunction<T>::polar_gradient(const Vec3& u, SourceBatch<T>& batch) const
   const std::array<Vec3, 2> axes = tangents(u);
   std::vector<PolarNode> nodes;
   for (const Vec3& axis : axes) {
-    // Half of these stand for the other axis, with weight 0.
+    // Half of these nodes are along the other axis and have weight 0.
     add_gradient_nodes(u, axis, step, nodes);
   }
   for (std::size_t k = 0; k < nodes.size(); ++k) {

@@ -1,4 +1,4 @@
-// A function of direction on the grid of a plan, to be read at many directions in batches.
+// A function of direction on the grid of a plan, which is read at many directions in batches.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace rholm {
 
-// A lane without a source: any direction will do.
+// Fills the lanes without a source; any direction is allowed there.
 template <typename T>
 void pad(SourceBatch<T>& batch, std::size_t n) {
   constexpr std::size_t kLanes = 16;
@@ -27,18 +27,18 @@ void pad(SourceBatch<T>& batch, std::size_t n) {
 template <typename T>
 class GridFunction {
  public:
-  // The plan must outlive it.
+  // Keeps a reference to the plan.
   GridFunction(const NonuniformPlan& plan, const Coefficients& coefficients,
                const Context& context);
 
-  // What batches hold is this many times the function and its gradient: a power of two that
-  // brings the largest coefficient to 1 ... 2 for single precision, which ends at 1e38.
+  // Batches hold the function and its gradient times this factor. It is a power of two that brings
+  // the largest coefficient to 1 ... 2, because single precision ends at 1e38.
   double scale() const { return scale_; }
-  // Values at the first n positions of the batch, on request gradients too; of those listed as
-  // `near` a pole, gradients are to be asked of polar_gradient(). Positions beyond n are
-  // overwritten. By any number of threads, each with a batch of its own.
+  // Reads values at the first n positions of the batch and, on request, gradients. Call
+  // polar_gradient() for the gradients of positions listed in `near`, which are close to a pole.
+  // Overwrites positions beyond n. Thread-safe for separate batches.
   void read(SourceBatch<T>& batch, std::size_t n, bool with_gradient, PolarSources& near) const;
-  // Overwrites the batch.
+  // Returns the gradient next to a pole; overwrites the batch.
   Vec3 polar_gradient(const Vec3& u, SourceBatch<T>& batch) const;
 
  private:

@@ -52,7 +52,7 @@ void load_sources(const ScatteredSources& sources, std::size_t first, std::size_
   }
 }
 
-// Sources, and how much of them is used.
+// Sources, and the number of their derivatives that is used.
 struct SourceKind {
   const ScatteredSources& sources;
   int derivatives;
@@ -120,7 +120,7 @@ void GridSpreader<T>::add_polar(const SourceBatch<T>& batch, const PolarSources&
   for (std::size_t i = 0; i < polar.count; ++i) {
     const std::uint32_t j = polar.index[i];
     const Vec3 x = {batch.x[0][j], batch.x[1][j], batch.x[2][j]};
-    // Derivatives of a function of direction alone fall with the distance.
+    // Derivatives of a function of direction alone are inversely proportional to the distance.
     const double r = norm(x);
     const Vec3 u = x / r;
     polar_.clear();

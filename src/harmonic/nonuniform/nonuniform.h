@@ -1,4 +1,4 @@
-// The fast transforms at scattered directions: what scattered.cpp and the mesh pass build on.
+// The fast transforms at scattered directions, on which scattered.cpp and the mesh pass build.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@
 
 namespace rholm {
 
-// One grid that batches of sources are added to, in the order of the calls; windows in T.
+// A grid to which batches of sources are added, in the order of the calls; windows are in T.
 template <typename T>
 class GridSpreader {
  public:
   GridSpreader(const NonuniformPlan& plan, const GridKernel<T>& kernel);
-  // The first n sources of the batch, whose positions beyond n are overwritten.
+  // Adds the first n sources of the batch; overwrites its positions beyond n.
   void add(SourceBatch<T>& batch, std::size_t n, int derivatives);
-  // All that was added; no more may be.
+  // Returns the sum of all sources; nothing may be added afterwards.
   double* grid() { return grid_.data(); }
   std::size_t n_cells() const { return plan_.fourier.layout.cells(); }
 
@@ -29,21 +29,21 @@ class GridSpreader {
   const NonuniformPlan& plan_;
   const GridKernel<T>& kernel_;
   AlignedArray<double> grid_;
-  std::vector<PolarNode> polar_;  // of the batch in work
+  std::vector<PolarNode> polar_;  // nodes of the current batch
 };
 
-// sum += the transform of all grids.
+// Adds the transform of all grids to `sum`.
 template <typename T>
 void finish_adjoint(const NonuniformPlan& plan, std::span<GridSpreader<T>> spreaders,
                     Coefficients& sum, const Context& context, const ParallelStage& stage);
 
 void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& sources,
                             int derivatives, Coefficients& sum, const Context& context);
-// Of two kinds in one grid: those without derivatives cost less.
+// Adds sources of two kinds to one grid; sources without derivatives cost less.
 void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& values,
                             const ScatteredSources& hessians, Coefficients& sum,
                             const Context& context);
-// The function at directions; gradients on request.
+// Returns the values of the function at directions and, on request, its gradients.
 template <typename T>
 ValuesAndGradients read_at(const GridFunction<T>& function, std::span<const Vec3> directions,
                            bool with_gradient, const Context& context);

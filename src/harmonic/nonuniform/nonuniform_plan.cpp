@@ -12,12 +12,12 @@
 namespace rholm {
 namespace {
 
-// Oversampling that is tried (chosen: plans of the table in docs/performance.md have 1.5 to 3.2).
+// Range of oversampling to try (chosen: plans of the table in docs/performance.md have 1.5 to 3.2).
 constexpr double kSmallSigma = 1.15, kLargeSigma = 4;
 
 double predicted_error(const NonuniformNeeds& needs, int width, double sigma) {
   const double degree = std::max(needs.degree, 1);
-  // The largest of many draws is 1.3 times the typical one; few degrees make for less average.
+  // The largest of many errors is 1.3 times the typical one; low degrees average over less.
   const double error = window_error(width, sigma) * 1.3 * (1 + 4 / degree);
   double derivatives = 1;
   if (needs.derivatives > 0) {
@@ -32,12 +32,12 @@ double predicted_error(const NonuniformNeeds& needs, int width, double sigma) {
   return error * derivatives;
 }
 
-// What the windows may add to the rounding of single precision.
+// Returns the error that windows may add to the rounding of single precision.
 double window_share(double allowed, double rounding) {
   return std::sqrt(std::max(allowed * allowed - rounding * rounding, 0.0));
 }
 
-// The grids that a width has to be tried with: the smallest that is good enough and the next.
+// Calls visit(points) for the grids to try for a width: the smallest accurate one, and the next.
 template <typename Visit>
 void visit_grids(const NonuniformNeeds& needs, int width, double allowed, const Visit& visit) {
   constexpr std::size_t kLeastPoints = 32;  // caps of 16 rows must not meet
@@ -56,8 +56,8 @@ void visit_grids(const NonuniformNeeds& needs, int width, double allowed, const 
 }  // namespace
 
 std::size_t grid_count(const NonuniformPlan& plan, std::size_t sources) {
-  // A second grid is taken where it costs less than a twentieth of the work, up to eight, and
-  // always where a second thread is worth it (chosen).
+  // A further grid is used if it costs less than a twentieth of the work, up to eight grids. A
+  // second grid is always used if a second thread is worthwhile (chosen).
   constexpr double kWorkPerGrid = 20;
   const double work = typical_source_cost() * static_cast<double>(sources);
   const double grid = typical_cell_cost() * static_cast<double>(plan.fourier.layout.cells());
@@ -74,8 +74,8 @@ NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs) {
   const double allowed =
       best.single ? window_share(needs.allowed, single_rounding(needs.degree, needs.derivatives))
                   : needs.allowed;
-  // Wide windows on coarse grids range over so many powers of ten that single precision loses
-  // another digit.
+  // Values of wide windows on coarse grids span a range of powers of ten in which single precision
+  // loses another digit.
   constexpr int kMaxSingleWidth = 10;
   const int widest = best.single ? kMaxSingleWidth : kMaxSpreadWidth;
   for (int width = kMinSpreadWidth; width <= widest; ++width) {
@@ -90,7 +90,7 @@ NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs) {
     });
   }
   if (best.fourier.layout.width == 0) {
-    // Beyond what windows can do: the best there is, at a price that lets direct sums be taken.
+    // No window is accurate enough: takes the best one, whose cost makes direct sums the choice.
     const std::size_t points = smooth_length(
         std::max<std::size_t>(32, 5 * static_cast<std::size_t>(std::max(needs.degree, 1))), 4);
     best.fourier = sphere_fourier(needs.degree, grid_layout(kMaxSpreadWidth, points, points));

@@ -1,4 +1,4 @@
-// Derivatives at a direction next to a pole by values around it, where longitudes are of no use.
+// Derivatives next to a pole, where longitudes lose precision, from values around a direction.
 #pragma once
 
 #include <algorithm>
@@ -10,29 +10,29 @@
 
 namespace rholm {
 
-// Central differences of order 8 along great circles: the derivative of a harmonic of degree L is
-// exact to (L step)^8 / 630 of L times its size.
+// Central differences of order 8 along great circles. The relative error of the derivative of a
+// harmonic of degree L is (L step)^8 / 630 of L times its size.
 inline constexpr std::array<double, 4> kFirstDifference = {4.0 / 5, -1.0 / 5, 4.0 / 105,
                                                            -1.0 / 280};
 inline constexpr std::array<double, 4> kSecondDifference = {8.0 / 5, -1.0 / 5, 8.0 / 315,
                                                             -1.0 / 560};
 inline constexpr double kSecondMiddle = -205.0 / 72;
 
-// For L = 4 ... 150 (nonuniform_test): truncation stays below 1e-13 in double and 1e-7 in single
-// precision, rounding of values, divided by the step or its square, below 2e-13 and 1e-6.
+// Returns the step in radians. For L = 4 ... 150 (nonuniform_test), the truncation error is below
+// 1e-13 in double and 1e-7 in single precision, and rounding errors below 2e-13 and 1e-6.
 template <typename T>
 double difference_step(int degree) {
   return (sizeof(T) == 4 ? 0.2 : 0.06) / std::max(degree, 1);
 }
 
-// Sine of the colatitude below which derivatives are taken from values around them (chosen: 16
-// values for a gradient, 34 for a Hessian, which adds 1 to 3 ns to the mean source).
+// Returns the sine of the colatitude below which values around a direction give its derivatives.
+// Chosen: 16 values for a gradient and 34 for a Hessian add 1 to 3 ns to the mean source.
 inline double polar_sine(int degree, int derivatives) {
   const double least = static_cast<double>(derivatives) / std::max(degree, 1);
   return derivatives > 1 ? std::max(least, 0.05) : least;
 }
 
-// Two orthonormal directions at right angles to u.
+// Returns two orthonormal directions at right angles to u.
 inline std::array<Vec3, 2> tangents(const Vec3& u) {
   const Vec3 a = normalized(cross(std::abs(u.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, u));
   return {a, cross(u, a)};
@@ -47,7 +47,7 @@ struct PolarNode {
   double weight;
 };
 
-// Appends values whose weighted sum is g . grad f at u.
+// Appends nodes with weights whose weighted sum of values is g . grad f at u.
 inline void add_gradient_nodes(const Vec3& u, const Vec3& g, double step,
                                std::vector<PolarNode>& nodes) {
   for (const Vec3& t : tangents(u)) {
@@ -60,8 +60,8 @@ inline void add_gradient_nodes(const Vec3& u, const Vec3& g, double step,
   }
 }
 
-// The same for h : Hess f(x/|x|) at |x| = 1, h = xx, xy, xz, yy, yz, zz: second derivatives along
-// the principal directions of its tangential part, and -2 (h u) . grad f.
+// Appends nodes for h : Hess f(x/|x|) at |x| = 1, h = xx, xy, xz, yy, yz, zz: second derivatives
+// along the principal directions of the tangential part of h, and -2 (h u) . grad f.
 inline void add_hessian_nodes(const Vec3& u, const std::array<double, 6>& h, double step,
                               std::vector<PolarNode>& nodes) {
   const auto times = [&](const Vec3& v) {

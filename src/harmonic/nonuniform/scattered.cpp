@@ -1,4 +1,4 @@
-// Sums at scattered directions: which engine does them.
+// Sums at scattered directions: the choice of the engine.
 #include <fmt/format.h>
 
 #include <optional>
@@ -26,7 +26,7 @@ void check_size(std::size_t directions, std::size_t values, const char* what) {
               fmt::format("there are {} directions but {} {}", directions, values, what));
 }
 
-// The plan for the fast engine, if that is wanted and cheaper.
+// Returns the plan for the fast engine, if that engine is wanted and cheaper.
 std::optional<NonuniformPlan> fast_plan(int degree, std::size_t sources, int derivatives,
                                         const SumOptions& options) {
   check_options(options);

@@ -1,5 +1,5 @@
-// Where sources lie on the grid, and what derivatives by position are in grid steps: inner loops of
-// spread.cpp, compiled for each target.
+// Positions of sources on the grid, and their derivatives by position in units of grid steps: inner
+// loops of spread.cpp, compiled for each target.
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -21,11 +21,11 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Sources worked on together: their windows stay in the first-level cache (scripts/constants).
+// Number of sources in a block: their windows stay in the first-level cache (scripts/constants).
 template <typename T>
 constexpr size_t kBlock = 512 / sizeof(T);
 
-// Where sources lie on the grid, and the factors of the function and its derivatives by grid steps.
+// Positions of sources on the grid, and the factors of the function and its derivatives in steps.
 template <typename T>
 struct Placed {
   alignas(64) T x[3][kBlock<T>];
@@ -42,8 +42,8 @@ struct Placed {
 };
 
 // atan(x) / x as a polynomial in x^2, |x| <= tan(pi/8), through its values at Chebyshev nodes
-// (computed in extended precision): relative error 2^-40, which is enough for windows in single
-// precision, and 2^-59.
+// (computed in extended precision). The relative error is 2^-40, which suffices for windows in
+// single precision, and 2^-59 for double precision.
 constexpr double kAtanForSingle[] = {
     0.9999999999992447616, -0.3333333327692249070, 0.1999999305355568210, -0.1428538655374759761,
     0.1110345690887282952, -0.0899255290552062902, 0.0697419768394907185, -0.0376551059691399053};
@@ -65,7 +65,7 @@ HWY_INLINE V short_atan(D d, V x) {
   const V xx = hn::Mul(x, x);
   constexpr auto& c = atan_powers<T>();
   constexpr int n = static_cast<int>(std::size(c));
-  // Even and odd powers of x^2 apart: two shorter chains.
+  // Two shorter dependency chains, for even and for odd powers of x^2.
   const V x4 = hn::Mul(xx, xx);
   V even = hn::Set(d, c[n - 2]), odd = hn::Set(d, c[n - 1]);
   for (int q = n - 4; q >= 0; q -= 2) {
@@ -75,29 +75,29 @@ HWY_INLINE V short_atan(D d, V x) {
   return hn::Mul(x, hn::MulAdd(odd, xx, even));
 }
 
-// eighth pi/4 + rest, |rest| <= pi/8.
+// The angle eighth pi/4 + rest, where |rest| <= pi/8.
 template <class V>
 struct Angle {
   V eighth, rest;
 };
 
-// Of the direction (x, y), in [0, 2 pi], for windows in T.
+// Returns the angle of the direction (x, y), in [0, 2 pi], for windows in T.
 template <typename T, class D, class V = hn::Vec<D>>
 HWY_INLINE Angle<V> angle_of(D d, V y, V x) {
   const V zero = hn::Zero(d);
   const auto steep = hn::Gt(hn::Abs(y), hn::Abs(x));
-  // Quarters: 0 or, just before a whole turn, 4 around +x; 1 around +y; 2 around -x; 3 around -y.
+  // Quarters: 0 or, just before a full turn, 4 around +x; 1 around +y; 2 around -x; 3 around -y.
   const auto negative_y = hn::Lt(y, zero);
   const V near_x = hn::IfThenElse(hn::Lt(x, zero), hn::Set(d, 4.0),
                                   hn::IfThenElseZero(negative_y, hn::Set(d, 8.0)));
   const V near_y = hn::IfThenElse(negative_y, hn::Set(d, 6.0), hn::Set(d, 2.0));
   const V quarter = hn::IfThenElse(steep, near_y, near_x);
-  // The tangent from the middle of the quarter, its denominator made positive.
+  // The tangent is measured from the middle of the quarter; its denominator is made positive.
   const V base = hn::IfThenElse(steep, y, x);
   const V across = hn::IfThenElse(steep, hn::Neg(x), y);
   const V den = hn::Abs(base);
   const V num = hn::Xor(across, hn::And(base, hn::SignBit(d)));
-  // From the quarter's ends where that is nearer.
+  // The angle is measured from the end of the quarter if that is nearer.
   const V sign = hn::And(num, hn::SignBit(d));
   const V size = hn::Abs(num);
   const auto outer = hn::Gt(size, hn::Mul(den, hn::Set(d, 0.41421356237309503)));
@@ -109,7 +109,7 @@ HWY_INLINE Angle<V> angle_of(D d, V y, V x) {
   return {hn::Add(quarter, step), short_atan<T>(d, tangent)};
 }
 
-// Limited to 0 ... last, whatever the input was.
+// Stores integers limited to 0 ... last, for any input.
 template <class D>
 HWY_INLINE void store_integers(D, hn::Vec<D> v, size_t last, int32_t* to) {
   const hn::Rebind<int32_t, D> di;
@@ -127,13 +127,13 @@ HWY_INLINE void store_as(D, hn::Vec<D> v, float* to) {
   hn::Store(hn::DemoteTo(df, v), df, to);
 }
 
-// Grid steps per radian.
+// Returns the number of grid steps per radian.
 template <typename T>
 T steps(size_t n) {
   return static_cast<T>(static_cast<double>(n) / (2 * std::numbers::pi));
 }
 
-// First tap and distance from it, for an angle of at most `last` steps on a circle of n points.
+// Stores the first tap and the distance from it for an angle of at most `last` steps, n a turn.
 template <class D, typename T>
 HWY_INLINE void store_place(D d, const Angle<hn::Vec<D>>& angle, size_t n, size_t last,
                             int32_t* first, T* u) {
@@ -145,8 +145,8 @@ HWY_INLINE void store_place(D d, const Angle<hn::Vec<D>>& angle, size_t n, size_
   store_integers(d, cell, last, first);
 }
 
-// Angles are found in double precision for windows in single as well: rounding a direction is a
-// shift of L 2^-25 wave lengths, alike for neighbours, that does not average out.
+// Finds angles in double precision for windows in single precision, too. A rounded direction moves
+// by L 2^-25 wave lengths, equally for neighbours, and this does not average out.
 template <typename T>
 HWY_INLINE void place(const GridLayout& layout, const SourceBatch<T>& batch, size_t from,
                       size_t count, Placed<T>& out) {
@@ -166,7 +166,7 @@ HWY_INLINE void place(const GridLayout& layout, const SourceBatch<T>& batch, siz
   }
 }
 
-// The local frame of a source, and what turns derivatives into grid steps.
+// The local frame of a source, and the factors that turn derivatives into grid steps.
 template <class V>
 struct Frame {
   V inverse_r, inverse_sine, cos_theta, sin_theta, cos_phi, sin_phi;
@@ -192,7 +192,7 @@ HWY_INLINE Frame<hn::Vec<D>> frame_of(D d, const Placed<T>& placed, size_t at) {
   return frame;
 }
 
-// Of a function of direction alone: f_theta = r (g . e_theta), f_phi = r sin(theta) (g . e_phi).
+// For a function of direction alone, f_theta = r (g . e_theta), f_phi = r sin(theta) (g . e_phi).
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void place_gradient(D d, const GridLayout& layout, const SourceBatch<T>& batch,
                                size_t from, size_t at, const Frame<hn::Vec<D>>& f, Placed<T>& out) {
@@ -210,7 +210,7 @@ HWY_INLINE void place_gradient(D d, const GridLayout& layout, const SourceBatch<
   hn::Store(hn::Mul(along, per_phi), d, out.phi + at);
 }
 
-// h_ij d_i d_j f for a function of direction alone, components in the frame (r, theta, phi):
+// Computes h_ij d_i d_j f for a function of direction alone. In components of (r, theta, phi),
 //   r^2 times it = h_tt f_tt + 2 h_tp (f_tp - cot f_p) / sin + h_pp (f_pp / sin^2 + cot f_t)
 //                  - 2 h_rt f_t - 2 h_rp f_p / sin.
 template <class D, typename T = hn::TFromD<D>>
@@ -249,7 +249,7 @@ HWY_INLINE void place_hessian(D d, const GridLayout& layout, const SourceBatch<T
   hn::Store(hn::Mul(pp, hn::Mul(per_phi, per_phi)), d, out.phi_phi + at);
 }
 
-// Lists sources whose sin theta is below the limit.
+// Lists the sources whose sin theta is below the limit.
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void list_polar(D d, const Frame<hn::Vec<D>>& frame, T limit, size_t at, size_t n,
                            PolarSources& polar) {

@@ -16,16 +16,16 @@ constexpr double kPi = std::numbers::pi;
 using Complex = std::complex<double>;
 
 constexpr std::size_t kRowsPerTask = 8;  // chosen: about 20 us
-// Chosen: a task's work arrays are set up for several blocks; pairs of orders stay together.
+// Chosen: several blocks share the work arrays of a task; pairs of orders stay together.
 constexpr int kOrdersPerTask = 2 * kOrderBlock;
 
-// What all orders need.
+// Transforms and factors that all orders share.
 template <typename T>
 struct Circle {
   std::size_t n_theta, n_rings;
   ComplexFft<T> grid_fft, ring_fft;
-  // e^{-ik (w/2) h} e^{-i k pi/(2n)} / (2 n window(k)) for k = 0 ... L and for k = -L ... -1: from
-  // the grid's waves to the rings'.
+  // e^{-ik (w/2) h} e^{-i k pi/(2n)} / (2 n window(k)) for k = 0 ... L and for k = -L ... -1: takes
+  // waves on the grid to waves on the rings.
   Factors<T> factors, negative_factors;
 
   explicit Circle(const SphereFourier& f)
@@ -45,7 +45,7 @@ struct Circle {
     }
   }
 
-  // `to`, a circle of n_to waves, from one of n_from.
+  // Fills `to`, a circle of n_to waves, from a circle of n_from waves.
   void copy_waves(const T* from, std::size_t n_from, T* to, std::size_t n_to) const {
     const std::size_t used = factors.size, negative = negative_factors.size;
     multiply(factors, from, to);
@@ -54,13 +54,13 @@ struct Circle {
   }
 };
 
-// e^{i m (w/2) h} / window(m): the phase of the first column.
+// Returns e^{i m (w/2) h} / window(m), which includes the phase of the first column.
 Complex phase_of_order(const SphereFourier& f, int m) {
   const double step = 2 * kPi / static_cast<double>(f.layout.n_phi);
   return std::polar(1 / f.phi.fourier(m), m * step * f.layout.width / 2);
 }
 
-// Work arrays of one task, and its steps.
+// Work arrays of one task, and the steps that use them.
 template <typename T>
 class Orders {
  public:
@@ -78,12 +78,12 @@ class Orders {
     for (int pair = 0; pair < kPairs; ++pair) circle_of_[pair] = circles_.data() + pair * longest;
     first_ = circles_.data() + kPairs * longest;
     second_ = first_ + longest;
-    // Ring sums want zeros beyond the last ring.
+    // Ring sums require zeros beyond the last ring.
     std::fill(rows_.begin(), rows_.end(), 0.0);
   }
 
-  // Orders first ... first + count - 1 from rows of complex numbers, zeros for orders above the
-  // degree.
+  // Computes orders first ... first + count - 1 from rows of complex numbers. The rows hold zeros
+  // for orders above the degree.
   void adjoint(const T* grid, int first, int count, Coefficients& sum) {
     gather_circles(fourier_.layout, grid + 2 * static_cast<std::size_t>(first), circle_of_.data());
     std::fill(coefficients_.begin(), coefficients_.end(), 0.0);
@@ -124,12 +124,12 @@ class Orders {
     double* at = rows_.data() + odd * (4 * rings_.padded);
     return {at, at + rings_.padded, at + 2 * rings_.padded, at + 3 * rings_.padded};
   }
-  // Of the k-th order of the block, index l - first.
+  // Coefficients of the k-th order of the block, with index l - first.
   double* re_of(int k) { return coefficients_.data() + 2 * (k * degrees_); }
   double* im_of(int k) { return re_of(k) + degrees_; }
 
-  // Calls visit(l, k) for the degrees of the block's orders, all orders of a degree together, as
-  // they lie in Coefficients.
+  // Calls visit(l, k) for the degrees of the block's orders: all orders of one degree together, as
+  // Coefficients stores them.
   template <typename Visit>
   void visit_coefficients(int first, int count, const Visit& visit) {
     for (int l = first; l <= fourier_.degree; ++l) {
@@ -145,7 +145,7 @@ class Orders {
     if (first == 0) std::fill(im_of(0), im_of(0) + degrees_, 0.0);
     std::array<double, kOrderBlock> re{}, im{};
     for (int k = 0; k < count; ++k) {
-      // a + b and a - b at both ends of a circle make each order twice.
+      // The circle contains each order twice, in a + b and in a - b.
       const Complex phase = 0.5 * phase_of_order(fourier_, first + k);
       re[k] = phase.real();
       im[k] = phase.imag();
@@ -153,16 +153,16 @@ class Orders {
     visit_coefficients(first, count, [&](int l, int k) {
       const double a = re_of(k)[l - first], b = im_of(k)[l - first];
       sum.c(l, first + k) += re[k] * a - im[k] * b;
-      // The transform has e^{-i m phi}: its imaginary part is that of -sin.
+      // The transform has e^{-i m phi}: its imaginary part belongs to -sin.
       sum.s(l, first + k) -= re[k] * b + im[k] * a;
     });
   }
 
-  // Transpose of add_coefficients().
+  // Does the transpose of add_coefficients().
   void take_coefficients(const Coefficients& coefficients, int first, int count) {
     std::array<double, kOrderBlock> re{}, im{};
     for (int k = 0; k < count; ++k) {
-      // The transform back to reals counts every order but 0 twice, as m and -m.
+      // The inverse real transform counts every order except 0 twice, as m and -m.
       const Complex phase =
           (first + k == 0 ? 0.5 : 0.25) * std::conj(phase_of_order(fourier_, first + k));
       re[k] = phase.real();
@@ -258,12 +258,12 @@ void grid_to_coefficients(const SphereFourier& fourier, std::span<double* const>
                      const double* more = grids[g] + row * layout.stride;
                      for (std::size_t c = 0; c < layout.stride; ++c) values[c] += more[c];
                    }
-                   // Columns of the next turn.
+                   // Adds the columns of the next turn.
                    for (std::size_t c = layout.n_phi; c < layout.stride; ++c) {
                      values[c - layout.n_phi] += values[c];
                    }
                    fft.forward(values, used, work.data());
-                   // Up to whole blocks of orders.
+                   // Fills up to whole blocks of orders.
                    std::fill(values + 2 * used, values + 2 * whole, 0.0);
                  }
                });

@@ -1,11 +1,11 @@
-// Between the grid of scattered sources (spread.h) and coefficients: Fourier transforms along both
-// angles, then Legendre sums on rings.
+// Transforms between the grid of scattered sources (spread.h) and coefficients: Fourier transforms
+// along both angles, then Legendre sums on rings.
 //
-// A harmonic of order m is, along the great circle through the poles, a trigonometric polynomial of
-// degree l, even in theta for even m and odd for odd m. Its values on n > L rings theta_q = (q +
-// 1/2) pi / n fix it: with them continued to the circle, a Fourier transform gives its
-// coefficients, division by the windows' transforms and another one the values on the grid. All
-// steps are linear; the way from the grid to coefficients is their transpose, backwards.
+// On the great circle through the poles, a harmonic of order m is a trigonometric polynomial of
+// degree l, with the parity of m in theta. Its values on n > L rings theta_q = (q + 1/2) pi / n
+// determine it. Their Fourier transform gives its coefficients. Division by the windows'
+// transforms and another transform give the grid. Coefficients come from the grid by the
+// transposes.
 #pragma once
 
 #include <complex>
@@ -30,12 +30,12 @@ SphereFourier sphere_fourier(int degree, const GridLayout& layout);
 template <typename T>
 GridKernel<T> grid_kernel(const SphereFourier& fourier);
 
-// sum += the transpose of coefficients_to_grid() applied to the sum of the grids, which are
-// destroyed.
+// Applies the transpose of coefficients_to_grid() to the sum of the grids, and adds the result to
+// `sum`. Destroys the grids.
 void grid_to_coefficients(const SphereFourier& fourier, std::span<double* const> grids,
                           Coefficients& sum, const Context& context, const ParallelStage& stage);
 
-// Fills the whole grid, all rows and columns that taps can reach.
+// Fills the whole grid: all rows and columns that taps can reach.
 template <typename T>
 void coefficients_to_grid(const SphereFourier& fourier, const Coefficients& coefficients, T* grid,
                           const Context& context, const ParallelStage& stage);

@@ -17,9 +17,9 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Neighbours in a mesh share cells, and a load that overlaps a store that is still on its way to
-// the cache waits for it: sources are taken in steps of this (scripts/constants; 5 instead of 8 ns
-// for six rows of eight cells, from 0.3 to 3 cells between neighbours).
+// Neighbours in a mesh share cells, and a load that overlaps a store on its way to the cache waits
+// for it. Sources are therefore taken in steps of this number. Measured (scripts/constants): 5
+// instead of 8 ns for six rows of eight cells, from 0.3 to 3 cells between neighbours.
 template <typename T>
 constexpr size_t kApart = kBlock<T> / 4;
 
@@ -40,9 +40,9 @@ HWY_INLINE hn::Vec<D> in_double(D d, hn::Vec<hn::Rebind<float, D>> taps) {
   return hn::PromoteTo(d, taps);
 }
 
-// kColumns are added to in each row: from the first tap on or, of wide windows, from the group on
-// that it lies in. Products are in double precision: to turn the few taps of a source into doubles
-// takes less time than to turn all products.
+// Adds to kColumns columns in each row, which begin at the first tap or, for wide windows, at the
+// group of the first tap. Products are in double precision: converting the taps of a source to
+// double takes less time than converting all products.
 template <int kColumns, int kOrders, typename T>
 void spread_rows(const GridLayout& layout, const Placed<T>& p, const Windows<T>& w, size_t n,
                  double* HWY_RESTRICT grid) {
@@ -81,7 +81,7 @@ void spread_rows(const GridLayout& layout, const Placed<T>& p, const Windows<T>&
   });
 }
 
-// Sums of up to four lanes that are left, of the function and its derivatives by theta and phi.
+// Sums of up to four remaining lanes: the function and its derivatives by theta and phi.
 template <typename T>
 struct Partial {
   alignas(64) T lanes[3][kBlock<T>][4];
@@ -114,7 +114,7 @@ HWY_INLINE hn::Vec<D> sum_partial(D d, const T (*lanes)[4]) {
   }
 }
 
-// The function and, for two orders, its derivatives by grid steps.
+// Interpolates the function and, for two orders, its derivatives by grid steps.
 template <int kPadded, int kOrders, typename T>
 void interpolate_rows(const GridLayout& layout, Placed<T>& p, const Windows<T>& w, size_t n,
                       const T* HWY_RESTRICT grid) {
@@ -128,7 +128,7 @@ void interpolate_rows(const GridLayout& layout, Placed<T>& p, const Windows<T>& 
   Partial<T> partial;
   poison_all(partial);
   for (size_t j = 0; j < n; ++j) {
-    // Sums over rows with the window in theta, and with its derivative.
+    // Sums over rows with the window in theta, and with the derivative of the window.
     V sum[kVectors], slope[kVectors];
     for (size_t v = 0; v < kVectors; ++v) sum[v] = slope[v] = hn::Zero(d);
     const T* HWY_RESTRICT row = grid + static_cast<size_t>(p.row[j]) * stride + p.column[j];
@@ -176,12 +176,12 @@ HWY_INLINE void with_padded_width(int width, const Work& work) {
   work(std::integral_constant<int, 16>());
 }
 
-// Calls work with the columns of spread_rows() as a constant.
+// Calls work with the number of columns of spread_rows() as a constant.
 template <class Work>
 HWY_INLINE void with_columns(int width, const Work& work) {
   if (width <= 4) return work(std::integral_constant<int, 4>());
   if (width <= kWidestNarrow) return work(std::integral_constant<int, kWidestNarrow>());
-  // Where the first tap may be the last column of its group.
+  // The first tap may be the last column of its group, so that width + 3 columns are needed.
   if (width <= 9) return work(std::integral_constant<int, 12>());
   if (width <= 13) return work(std::integral_constant<int, 16>());
   work(std::integral_constant<int, 20>());
@@ -230,7 +230,7 @@ void spread_batch(const GridKernel<T>& kernel, const SourceBatch<T>& batch, size
   }
 }
 
-// From derivatives by grid steps to the gradient by position.
+// Computes the gradient by position from the derivatives by grid steps.
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void store_gradient(D d, const GridLayout& layout, const Placed<T>& placed, size_t at,
                                size_t from, SourceBatch<T>& batch) {
@@ -327,10 +327,10 @@ GridLayout grid_layout(int width, std::size_t n_phi, std::size_t n_theta) {
   GridLayout layout{
       .width = width, .n_phi = n_phi, .n_theta = n_theta, .rows = n_theta / 2 + width, .stride = 0};
   constexpr std::size_t kLine = 16;  // a cache line of floats, two of doubles
-  // Sources reach to column n_phi + 19 at most, by the groups of the widest windows; the transform
-  // needs n_phi + 2.
+  // The groups of the widest windows reach at most to column n_phi + 19; the transform needs
+  // n_phi + 2 columns.
   layout.stride = (n_phi + 20 + kLine - 1) / kLine * kLine;
-  // Rows a multiple of 4 KiB apart would fall into the same sets of the cache.
+  // Rows at distances of a multiple of 4 KiB would share the same sets of the cache.
   if (layout.stride * sizeof(float) % 2048 == 0) layout.stride += kLine;
   return layout;
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// I_0(x) = sum (x/2)^2k / k!^2: all terms positive, so nothing is lost.
+// I_0(x) = sum (x/2)^2k / k!^2: all terms are positive, so that no digits cancel.
 template <typename R>
 R bessel_i0(R x) {
   const R quarter = x * x / 4;
@@ -24,7 +24,7 @@ R bessel_i0(R x) {
   return sum;
 }
 
-// Polynomials through functions at the n Chebyshev nodes.
+// Fits polynomials through the values of functions at the n Chebyshev nodes.
 template <typename R>
 class ChebyshevFit {
  public:
@@ -37,7 +37,7 @@ class ChebyshevFit {
     }
   }
 
-  // Coefficients in powers of u.
+  // Returns the coefficients of the powers of u.
   template <typename F>
   std::vector<R> powers(const F& f) const {
     std::vector<R> chebyshev(n_, R(0)), result(n_, R(0));
@@ -47,7 +47,7 @@ class ChebyshevFit {
         chebyshev[k] += R(k == 0 ? 1 : 2) / static_cast<R>(n_) * value * cosines_[j * n_ + k];
       }
     }
-    // T_k in powers of u: T_{k+1} = 2 u T_k - T_{k-1}.
+    // T_k in powers of u follows from T_{k+1} = 2 u T_k - T_{k-1}.
     std::vector<R> now(n_, R(0)), before(n_, R(0)), next(n_);
     now[0] = 1;
     for (int k = 0; k < n_; ++k) {
@@ -75,9 +75,9 @@ double SpreadWindow::fourier(double k) const {
   return width * std::sinh(s) / (s * scale);
 }
 
-// The transform is large up to omega = beta: set to the lowest alias, n - band, it would be ideal
-// for white sums; 1 % less gives a little to the jump at the window's ends
-// (bench/window_bench with 1 in its place).
+// The transform is large up to omega = beta. Setting this limit to the lowest alias, n - band, is
+// ideal for sums with a white spectrum. A 1 % lower limit allows for the jump at the ends of the
+// window (bench/window_bench with 1 in its place).
 SpreadWindow spread_window(int width, std::size_t band, std::size_t points) {
   const double share = 1 - static_cast<double>(band) / static_cast<double>(points);
   const double beta = 0.99 * kPi * width * share;
@@ -85,8 +85,8 @@ SpreadWindow spread_window(int width, std::size_t band, std::size_t points) {
 }
 
 int spread_terms(int width) {
-  // A tap spans 2/w of the window, so that powers fall fast. bench/window_bench, oversampling 1.25
-  // ... 3: fewer would add more than a tenth to the error of values or derivatives.
+  // A tap spans 2/w of the window, so that powers decay fast. With fewer terms, the error of values
+  // or derivatives grows by more than a tenth (bench/window_bench, oversampling 1.25 ... 3).
   constexpr int kTerms[] = {4, 6, 6, 6, 8, 8, 10, 10, 10, 12, 12, 12, 14, 14};
   return kTerms[width - kMinSpreadWidth];
 }
@@ -96,7 +96,7 @@ SpreadTable<T> spread_table(const SpreadWindow& window) {
   SpreadTable<T> table;
   table.width = window.width;
   table.terms = spread_terms(window.width);
-  // Powers lose a few digits, derivatives more: those of double are computed in extended precision.
+  // Powers lose digits, derivatives even more: the powers for double use extended precision.
   using R = std::conditional_t<sizeof(T) == sizeof(double), long double, double>;
   const R beta = window.beta, scale = bessel_i0(beta);
   const ChebyshevFit<R> fit(table.terms);
@@ -114,7 +114,7 @@ SpreadTable<T> spread_table(const SpreadWindow& window) {
   for (int derivative = 0; derivative < 3; ++derivative) {
     for (std::vector<R>& p : powers) {
       for (const R c : p) *out++ = static_cast<T>(c);
-      // d/dx = -2 d/du.
+      // The derivative is d/dx = -2 d/du.
       for (std::size_t q = 0; q + 1 < p.size(); ++q) p[q] = -2 * static_cast<R>(q + 1) * p[q + 1];
       p.back() = 0;
     }

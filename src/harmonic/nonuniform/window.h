@@ -1,10 +1,10 @@
-// The window of the nonuniform transform: Kaiser and Bessel's, on w grid points.
+// The Kaiser-Bessel window of the nonuniform transform, on w grid points.
 //
-//   k(z) = I_0(beta sqrt(1 - z^2)) / I_0(beta), |z| <= 1, z = 2 (distance in grid steps) / w,
-//   its Fourier transform  w sinh(s) / (s I_0(beta)), s = sqrt(beta^2 - (pi w k / n)^2).
+//   k(z) = I_0(beta sqrt(1 - z^2)) / I_0(beta), |z| <= 1, z = 2 (distance in grid steps) / w.
+// Its Fourier transform is w sinh(s) / (s I_0(beta)), s = sqrt(beta^2 - (pi w k / n)^2).
 // It is an entire function of z inside its support, so that polynomials approximate it and its
-// derivatives equally well, and its aliasing decays like exp(-pi w sqrt(1 - 1/sigma)), sigma = n /
-// (2 L) (Jackson, Meyer, Nishimura, Macovski 1991; Barnett 2021 for the rate).
+// derivatives equally well. Its aliasing decays like exp(-pi w sqrt(1 - 1/sigma)), sigma = n / (2
+// L) (Jackson, Meyer, Nishimura, Macovski 1991; Barnett 2021 for the rate).
 #pragma once
 
 #include <cstddef>
@@ -16,34 +16,34 @@ namespace rholm {
 inline constexpr int kMinSpreadWidth = 3;
 inline constexpr int kMaxSpreadWidth = 16;
 
-// Points that a row of taps takes in memory: a whole number of vectors.
+// Returns the length of a row of taps in memory: a whole number of vectors.
 constexpr int padded_width(int width) { return width <= 4 ? 4 : width <= 8 ? 8 : 16; }
 
-// The window for waves up to order `band` on n points a turn.
+// The window for waves up to order `band` on n points per turn.
 struct SpreadWindow {
   int width = 0;  // w
   double beta = 0;
   std::size_t points = 0;  // n
   double scale = 0;        // I_0(beta)
 
-  // The transform at wave number k <= band.
+  // Returns the Fourier transform at wave number k <= band.
   double fourier(double k) const;
 };
 SpreadWindow spread_window(int width, std::size_t band, std::size_t points);
 
-// The window as polynomials: taps i = 0 ... w - 1 are the grid points c0 + i of a source at x,
-// c0 = ceil(x), at distance c0 + i - w/2 - x from it (the grid point c stands for the position c -
-// w/2). With u = 2 (c0 - x) - 1 in [-1, 1]
-//   k(tap i) = p_i(u) = sum_q c_iq u^q,   k(tap w - 1 - i) = p_i(-u),
-// and the derivatives by x in grid steps, -2 p_i'(u) and 4 p_i''(u), likewise, the first with the
-// other sign.
+// The window as polynomials. Tap i = 0 ... w - 1 of a source at x is the grid point c0 + i, where
+// c0 = ceil(x). Its distance from x is c0 + i - w/2 - x, as grid point c has position c - w/2. With
+// u = 2 (c0 - x) - 1 in [-1, 1],
+//   k(tap i) = p_i(u) = sum_q c_iq u^q,   k(tap w - 1 - i) = p_i(-u).
+// The derivatives by x in grid steps are -2 p_i'(u) and 4 p_i''(u) for tap i, and 2 p_i'(-u) and 4
+// p_i''(-u) for tap w - 1 - i.
 int spread_terms(int width);  // an even number, 4 ... kMaxSpreadTerms
 inline constexpr int kMaxSpreadTerms = 14;
 template <typename T>
 struct SpreadTable {
   int width = 0;
   int terms = 0;                 // q = 0 ... terms - 1
-  AlignedArray<T> coefficients;  // [3][(w + 1) / 2][terms]: of the derivatives 0, 1, 2
+  AlignedArray<T> coefficients;  // [3][(w + 1) / 2][terms]: derivatives 0, 1, 2
   const T* row(int derivative, int tap) const {
     return coefficients.data() +
            (static_cast<std::size_t>(derivative) * ((width + 1) / 2) + tap) * terms;

@@ -8,15 +8,16 @@
 
 namespace rholm {
 
-// The rate is that of window.h; the factor is that of bench/window_bench: 1.3 at sigma = 1.25, 1.9
-// at 1.5, 3 at 2, 4.7 at 2.8, within 30 % for widths 3 ... 16.
+// window.h gives the rate. bench/window_bench measures the factor: 1.3 at sigma = 1.25, 1.9 at 1.5,
+// 3 at 2, 4.7 at 2.8, within 30 % for widths 3 ... 16.
 double window_error(int width, double sigma) {
   return (2.1 * sigma - 1.2) * std::exp(-std::numbers::pi * width * std::sqrt(1 - 1 / sigma));
 }
 
-// Aliases have wave numbers around n - L, and longitudes near the poles count 1 / sin(theta) times:
-// the l2 norm of 1 / sin^2 down to a polar sine is 0.7 times its inverse, and three times that
-// where few sources are so near: fewer than thirty within twice the polar sine (chosen).
+// Aliases have wave numbers around n - L, and derivatives in phi near the poles count
+// 1 / sin(theta) times. Down to a polar sine, the l2 norm of 1 / sin^2 is 0.7 times the inverse of
+// the polar sine. The norm counts three times if fewer than thirty sources are within twice the
+// polar sine (chosen).
 constexpr double kGradientAsWeight = 9;  // gradient_factor() at an oversampling of 1.86
 double gradient_factor(double sigma) { return 2.6 * sigma * sigma; }
 double hessian_factor(double sigma, int degree, std::size_t sources) {

@@ -1,4 +1,4 @@
-// The windows of sources by their polynomials: inner loops of spread.cpp, compiled for each target.
+// The windows of sources from polynomials: inner loops of spread.cpp, compiled for each target.
 #include <cstddef>
 
 #include "harmonic/nonuniform/source_place-inl.h"
@@ -20,14 +20,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kMaxTaps = kMaxSpreadWidth;
 
-// Columns that are added to the grid together by wide windows, from a multiple of it on: a vector
-// that lies across two lines of the cache takes twice as long.
+// Wide windows add whole groups of this many columns, which begin at a multiple of it. A vector
+// that spans two cache lines takes twice as long.
 constexpr int kGroup = 4;
 constexpr int kWidestNarrow = 8;
 
-// Windows and derivatives of a block of sources. In theta one array per tap, ready to be broadcast;
-// in phi four taps of a source together, ready to be loaded as vectors, or, to spread wide ones,
-// all of them, a group of zeros before them and zeros behind.
+// Windows and derivatives of a block of sources. In theta there is one array per tap, to be
+// broadcast. In phi, four taps of a source are together, to be loaded as vectors; `wide`, for
+// spreading wide windows, has all taps with zeros before and behind them.
 template <typename T>
 struct Windows {
   alignas(64) T theta[3][kMaxTaps][kBlock<T>];
@@ -35,7 +35,7 @@ struct Windows {
   alignas(64) T wide[3][kBlock<T>][kGroup + kMaxTaps + kGroup];
 };
 
-// What stays as it is from block to block: the zeros around the taps of wide windows.
+// Sets the zeros around the taps of wide windows, which are the same for all blocks.
 template <int kOrders, typename T>
 HWY_INLINE void clear_around_taps(int width, Windows<T>& w) {
   const hn::CappedTag<T, kGroup> d;
@@ -49,14 +49,14 @@ HWY_INLINE void clear_around_taps(int width, Windows<T>& w) {
   }
 }
 
-// The window and its derivatives at one tap, lanes are sources.
+// The window and its derivatives at one tap; lanes are sources.
 template <class V>
 struct Tap {
   V value, slope, curvature;
 };
 
-// Evaluates the windows at u: calls store(tap number, Tap). The taps of the window's other half are
-// those of -u.
+// Evaluates the windows at u and calls store(tap number, Tap). The taps of the other half of the
+// window are the mirror images at -u.
 template <int kTerms, int kOrders, class D, typename T, class Store>
 HWY_INLINE void windows_at(D d, const SpreadTable<T>& table, hn::Vec<D> u, const Store& store) {
   using V = hn::Vec<D>;
@@ -90,7 +90,7 @@ HWY_INLINE void windows_at(D d, const SpreadTable<T>& table, hn::Vec<D> u, const
   }
 }
 
-// What multiplies the window in phi and its derivatives, for one tap in theta.
+// Returns the factors of the window in phi and of its derivatives, for one tap in theta.
 template <int kOrders, class D, typename T = hn::TFromD<D>, class V = hn::Vec<D>>
 HWY_INLINE Tap<V> apply_factors(D d, const Placed<T>& p, size_t at, const Tap<V>& tap) {
   Tap<V> by;
@@ -114,7 +114,7 @@ HWY_INLINE void store_tap(D d, const Tap<V>& tap, hn::TFromD<D>* to, size_t stri
   if constexpr (kOrders > 2) hn::Store(tap.curvature, d, to + 2 * stride);
 }
 
-// Four taps of as many sources as d has lanes, one after the other in `taps`, source by source.
+// Stores four taps of Lanes(d) sources, given tap by tap in `taps`, source by source.
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void store_fours(D d, const T* taps, T* to) {
   constexpr size_t kLanes = hn::MaxLanes(D());
@@ -134,15 +134,15 @@ HWY_INLINE void store_fours(D d, const T* taps, T (*rows)[kRow], int first) {
   }
 }
 
-// Windows of n placed sources, rounded up to whole vectors; those in theta times the factors of
-// the sources if kFactors.
+// Evaluates the windows of n placed sources, rounded up to whole vectors. If kFactors, the windows
+// in theta are multiplied by the factors of the sources.
 template <int kTerms, int kOrders, bool kFactors, typename T>
 void evaluate_windows(const GridKernel<T>& kernel, const Placed<T>& p, size_t n, Windows<T>& out) {
   const hn::CappedTag<T, 16> d;
   using V = hn::Vec<decltype(d)>;
   constexpr size_t kLanes = hn::MaxLanes(hn::CappedTag<T, 16>());
   constexpr size_t kThetaStride = kMaxTaps * kBlock<T>, kPhiStride = kMaxTaps * kLanes;
-  // Zeros beyond the width, as far as is loaded.
+  // Taps beyond the width are zeros, as far as they are loaded.
   const bool wide = kFactors && kernel.layout.width > kWidestNarrow;
   const int blocks = (wide ? kernel.layout.width + 3 : padded_width(kernel.layout.width)) / 4;
   alignas(64) T taps[kOrders * kPhiStride] = {};
@@ -173,7 +173,7 @@ void evaluate_windows(const GridKernel<T>& kernel, const Placed<T>& p, size_t n,
   }
 }
 
-// The same for the number of terms of the kernel.
+// Evaluates the windows for the number of terms of the kernel.
 template <int kOrders, bool kFactors, typename T>
 HWY_INLINE void evaluate_windows(const GridKernel<T>& kernel, const Placed<T>& p, size_t n,
                                  Windows<T>& out) {
@@ -194,7 +194,7 @@ HWY_INLINE void evaluate_windows(const GridKernel<T>& kernel, const Placed<T>& p
   }
 }
 
-// Taps lane ... lane + Lanes(d) - 1 of source j in phi.
+// Loads the taps lane ... lane + Lanes(d) - 1 of source j in phi.
 template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE hn::Vec<D> load_taps(D d, const T (*phi)[kBlock<T>][4], size_t j, size_t lane) {
 #if HWY_TARGET != HWY_SCALAR

@@ -18,37 +18,37 @@
 namespace rholm {
 namespace {
 
-// Integrals over the colatitude of functions on equiangular rings, as sums over few other rings.
+// Turns integrals over the colatitude of functions on equiangular rings into sums over fewer rings.
 //
 // The terms F(theta) of order m of a function of degree D continue over the poles as a
-// trigonometric polynomial of degree D, F(-theta) = (-1)^m F(theta), which n rings determine. It is
-// evaluated on N >= D + L + 1 rings, where Fejer's rule is exact for F Pt_lm, l <= L; multiplied by
-// its weights; and what is left of that beyond the frequencies of Pt_lm, which is orthogonal to it,
-// is taken off: L + 1 rings then give the same sums as the N.
+// trigonometric polynomial of degree D. With F(-theta) = (-1)^m F(theta), n rings determine it. F
+// is evaluated on N >= D + L + 1 rings, where Fejer's rule is exact for F Pt_lm, l <= L, and is
+// multiplied by the weights. Frequencies of the product above L are orthogonal to Pt_lm and are
+// removed. L + 1 rings then give the same sums as the N rings.
 class RingResampler {
  public:
-  // Of an equiangular grid, for degrees up to L <= exact_degree(grid).
+  // Takes an equiangular grid, for degrees up to L <= exact_degree(grid).
   RingResampler(const Grid& grid, int degree);
 
-  // theta_q = (q + 1/2) pi / n_rings().
+  // The rings are at theta_q = (q + 1/2) pi / n_rings().
   std::size_t n_rings() const { return to_.rings; }
 
   struct Work {
     explicit Work(const RingResampler& resampler);
     AlignedArray<std::complex<double>> in, out;
   };
-  // values[i], i < n_theta, becomes values[q], q < n_rings(): int F Pt sin dtheta is the sum of
-  // values[q] Pt_lm(theta_q). `values` has room for the longer of the two.
+  // Turns values[i], i < n_theta, into values[q], q < n_rings(), so that int F Pt sin dtheta is the
+  // sum of values[q] Pt_lm(theta_q). `values` has room for the longer of the two.
   void run(int m, std::complex<double>* values, Work& work) const;
 
  private:
-  // Rings and their mirror images beyond the poles: 2 pi j / length + offset.
+  // Rings and their mirror images beyond the poles, at angles 2 pi j / length + offset.
   struct Circle {
     std::size_t rings, length;
     double offset;
     ComplexFft<double> fft;
   };
-  // Frequencies |k| <= top, from one circle to another; the results are in work.out.
+  // Factors that move frequencies |k| <= top between circles; the results are in work.out.
   struct Move {
     std::vector<std::complex<double>> factor;  // k = 0 ... top
   };
@@ -103,7 +103,7 @@ RingResampler::Move RingResampler::make_move(const Circle& from, const Circle& t
 void RingResampler::apply(const Move& move, const Circle& from, const Circle& to, Work& work) {
   from.fft.forward(work.in.data(), work.out.data());
   std::fill(work.in.data(), work.in.data() + to.length, Complex{});
-  // Frequency k at -k: the transform back is the transform forth.
+  // Frequency k is stored at -k, so that a forward transform computes the inverse.
   work.in[0] = work.out[0] * move.factor[0];
   for (std::size_t k = 1; k < move.factor.size(); ++k) {
     work.in[to.length - k] = work.out[k] * move.factor[k];
@@ -138,7 +138,7 @@ void RingResampler::run(int m, Complex* values, Work& work) const {
 }
 
 constexpr std::size_t kOrdersPerTask = 8;  // chosen: a cache line of Coefficients
-constexpr double kFourierPart = 0.3;       // of the time, measured, for the progress
+constexpr double kFourierPart = 0.3;       // part of the time, measured, for the progress
 
 void check_grid(const Grid& grid) {
   const int least = grid.kind == GridKind::kEquiangularWithPoles ? 2 : 1;
@@ -155,7 +155,7 @@ void check_grid(const Grid& grid) {
   }
 }
 
-// Rows of one order over the northern rings, as ring_sums.h wants them.
+// Rows of one order over the northern rings, in the layout of ring_sums.h.
 struct OrderRows {
   explicit OrderRows(std::size_t padded) {
     for (auto& part : parts) {
@@ -166,8 +166,8 @@ struct OrderRows {
   AlignedArray<double> parts[4];
 };
 
-// What belongs to the orders of one task, side by side: single orders of RingPairs and Coefficients
-// are far apart in memory.
+// Copies of the data of one task's orders side by side: in RingPairs and Coefficients, the numbers
+// of one order are far apart in memory.
 class OrderBlock {
  public:
   OrderBlock(const RingPairs& pairs, std::size_t begin, std::size_t end)
@@ -180,7 +180,7 @@ class OrderBlock {
         s_(orders_ * count_) {}
 
   double* at(std::size_t pair, std::size_t m) { return &pairs_[4 * (pair * count_ + m - begin_)]; }
-  // [l - m]
+  // Arrays with index l - m.
   double* c(std::size_t m) { return &c_[(m - begin_) * orders_]; }
   double* s(std::size_t m) { return &s_[(m - begin_) * orders_]; }
 
@@ -215,7 +215,7 @@ HalfRings north_of(const std::vector<double>& colatitudes) {
   return HalfRings(std::span(colatitudes).first((colatitudes.size() + 1) / 2));
 }
 
-// Integrates over the colatitude, order by order: the sums of `pairs` become coefficients.
+// Integrates over the colatitude for each order: turns the sums of `pairs` into coefficients.
 class OrderAnalysis {
  public:
   OrderAnalysis(const Grid& grid, int degree)

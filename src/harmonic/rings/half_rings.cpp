@@ -6,9 +6,9 @@
 namespace rholm {
 namespace {
 
-// log2(sin theta) of a pole: low enough that no order or degree brings it back, l^m < 2^(15 m).
+// Replaces log2(sin theta) at a pole: so low that no factor l^m < 2^(15 m) compensates it.
 constexpr double kLog2OfPole = -1e5;
-// Bits of log2_sin: its product with an order below 2^15 has 53.
+// Keeps so few bits of log2_sin that its product with an order below 2^15 has 53 bits.
 constexpr double kSplit = 0x1p15 + 1;
 
 }  // namespace

@@ -1,6 +1,6 @@
-// A block of rings goes through three phases as the degree grows: hidden, while all its values are
-// negligible and only the recurrence runs; mixed, while some lanes still carry a scaled exponent;
-// and whole, without any test.
+// A block of rings goes through three phases as the degree grows. While it is hidden, all its
+// values are negligible and only the recurrence runs. While it is mixed, some lanes still have a
+// scaled exponent. When it is whole, no tests are needed.
 #include "harmonic/rings/ring_kernels.h"
 
 #include <algorithm>
@@ -17,23 +17,24 @@
 #define RHOLM_RING_KERNELS_ONCE
 namespace rholm {
 
-// Values below this add nothing: half a unit in the last place of 1 over 2048 terms that might be
-// alike.
+// Values below this are left out: half a unit in the last place of 1, divided by 2048 terms that
+// may all be equal.
 constexpr double kNegligible = 0x1p-64;
 
-// Steps between looks at the exponents. Values grow by less than 2^16 a step at degrees to 2^14,
-// where alpha^2 < 2^15 + 3: by less than 2^128, so that those from 2^480 do not overflow.
+// Number of steps between tests of the exponents. A step multiplies values by less than 2^16 for
+// degrees up to 2^14, where alpha^2 < 2^15 + 3. Eight steps multiply by less than 2^128, so that
+// values from 2^480 do not overflow.
 constexpr std::size_t kStepsPerLook = 8;
 
-// Steps whose sums stay in the first level cache, [step][4][lane], while all rings pass by.
+// Number of steps, [step][4][lane], whose sums stay in the first-level cache for all rings.
 constexpr std::size_t kStepsAtOnce = 64;
 
 enum class Phase : std::uint8_t { kHidden, kMixed, kWhole, kSkipped };
 
-// The factors of a step, and what they go with: [j].
+// The factors of a step, with index j, and the variable that they multiply.
 struct StepFactors {
   StepKind kind;
-  bool of_sin;  // y = s^2, else x^2
+  bool of_sin;  // y = s^2 if true, otherwise x^2
   const double* f[3];
 };
 
@@ -49,14 +50,14 @@ using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 
-// Vectors of a block: 4 + 3 registers each in the forward sums.
+// Number of vectors in a block; the forward sums need 4 + 3 registers for each.
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
 constexpr int kVectors = 4;
 #else
 constexpr int kVectors = 2;
 #endif
 
-// Values are u 2^(960 k), k <= 0: what carries k < 0 is far below kNegligible.
+// Values are u 2^(960 k), k <= 0; a value with k < 0 is far below kNegligible.
 constexpr double kBig = 0x1p480;
 constexpr double kDown = 0x1p-960;
 
@@ -69,7 +70,7 @@ struct Block {
 
 HWY_INLINE size_t block_size(D d) { return kVectors * hn::Lanes(d); }
 
-// 2^f for |f| <= 1/2 and a little more: Taylor's series of e^{f ln 2} to a last term of 4e-18.
+// Returns 2^f for |f| <= 1/2 and slightly more: Taylor series of e^{f ln 2}, last term 4e-18.
 HWY_INLINE V exp2_fraction(D d, V f) {
   constexpr double kCoefficients[] = {1. / 6227020800,
                                       1. / 479001600,
@@ -91,14 +92,14 @@ HWY_INLINE V exp2_fraction(D d, V f) {
   return sum;
 }
 
-// 2^e for whole |e| < 1023: 2^52 + 1023 + e has the exponent's bits in the lowest places.
+// Returns 2^e for whole |e| < 1023: the lowest bits of 2^52 + 1023 + e are the exponent's bits.
 HWY_INLINE V exp2_whole(D d, V e) {
   const hn::RebindToUnsigned<D> du;
   const V shifted = hn::Add(e, hn::Set(d, 0x1p52 + 1023));
   return hn::BitCast(d, hn::ShiftLeft<52>(hn::BitCast(du, shifted)));
 }
 
-// Pt_mm = mu s^m = mu 2^(m log2 s).
+// Computes Pt_mm = mu s^m = mu 2^(m log2 s).
 HWY_INLINE void start(D d, const RingOrder& order, const HalfRings& rings, size_t at, StepKind kind,
                       Block& b) {
   const V m = hn::Set(d, order.m);
@@ -129,7 +130,7 @@ HWY_INLINE StepFactors factors_of(const RingOrder& order, const HalfRings& rings
     case StepKind::kLambda:
       break;
   }
-  // The smaller of x^2 and s^2 loses nothing of a small angle.
+  // The smaller of x^2 and s^2 keeps full precision for small angles.
   if (rings.sin2[at] < rings.cos2[at]) return {kind, true, {order.minus_a.data(), c, nullptr}};
   return {kind, false, {a, b, nullptr}};
 }
@@ -140,14 +141,14 @@ HWY_INLINE void load_y(D d, const StepFactors& factors, const HalfRings& rings, 
     const V x2 = hn::Load(d, rings.cos2.data() + at), s2 = hn::Load(d, rings.sin2.data() + at);
     block.y[i] = factors.of_sin ? s2 : x2;
     if (factors.kind == StepKind::kEither) {
-      // At a pole s^2 is negligible, but must be below zero.
+      // At a pole, s^2 is negligible but -s^2 must be below zero.
       const V minus_s2 = hn::Neg(hn::Max(s2, hn::Set(d, 0x1p-1000)));
       block.y[i] = hn::IfThenElse(hn::Lt(s2, x2), minus_s2, x2);
     }
   }
 }
 
-// From lambda_j = u and lambda_{j-1} = v to lambda_{j+1} in the place of v.
+// Computes lambda_{j+1} into v from lambda_j = u and lambda_{j-1} = v.
 HWY_INLINE void lambda_step(D d, const StepFactors& factors, size_t j, const V* y, const V* u,
                             V* v) {
   const V f0 = hn::Set(d, factors.f[0][j]), f1 = hn::Set(d, factors.f[1][j]);
@@ -179,13 +180,13 @@ HWY_INLINE void other_step(D d, const StepFactors& factors, size_t j, Block& b) 
   }
 }
 
-// Steps on from j to end, and calls use.one(even, odd, j) with the values that go with even and odd
-// parts, or use.two(lambda_j, lambda_{j+1}, j) if it wants pairs.
+// Runs the steps from j to end. Calls use.one(even, odd, j) with the values for even and odd parts,
+// or use.two(lambda_j, lambda_{j+1}, j) if `use` takes pairs.
 template <StepKind kKind, typename Use>
 HWY_INLINE void run(D d, const StepFactors& factors, size_t j, size_t end, Block& b,
                     const Use& use) {
   if constexpr (kKind == StepKind::kLambda) {
-    // Two steps a turn need no copies of registers.
+    // Two steps per iteration need no copies of registers.
     for (; j + 1 < end; j += 2) {
       if constexpr (!Use::kPairs) use.one(b.u, b.u, j);
       lambda_step(d, factors, j, b.y, b.u, b.v);
@@ -245,7 +246,7 @@ HWY_INLINE Phase first_phase(D d, const RingOrder& order, const HalfRings& rings
   return stays_hidden(order.m, order.degree, largest) ? Phase::kSkipped : Phase::kHidden;
 }
 
-// Runs the recurrence until values count, at most to `end`; returns where.
+// Runs the recurrence until a value is significant, at most to `end`; returns the step reached.
 template <StepKind kKind>
 HWY_INLINE size_t pass_hidden(D d, const StepFactors& factors, size_t j, size_t end, Block& b,
                               Phase& phase) {
@@ -308,7 +309,7 @@ struct RowSums {
       hn::Store(sum, d, at);
     }
   }
-  // Eight chains of additions at a time hide their latency.
+  // Eight independent chains of additions hide their latency.
   HWY_INLINE void two(const V* first, const V* second, size_t j) const {
     double* at = row(j);
     V sum[8];
@@ -339,7 +340,7 @@ HWY_INLINE void adjoint_block(D d, const StepFactors& factors, size_t j, size_t 
   if (phase == Phase::kWhole) run<kKind>(d, factors, j, end, b, RowSums{d, weights, rows});
 }
 
-// Lane i of the result is the sum of the lanes of vector i.
+// Returns a vector whose lane i is the sum of the lanes of vector i.
 template <size_t kCount>
 HWY_INLINE V lane_sums(D d, const double* rows) {
 #if HWY_TARGET != HWY_SCALAR
@@ -352,7 +353,7 @@ HWY_INLINE V lane_sums(D d, const double* rows) {
   return hn::Load(d, rows);
 }
 
-// The recurrences of all blocks between two runs of kStepsAtOnce: u, v, k and the phase.
+// The states of the recurrences of all blocks between two runs of kStepsAtOnce: u, v, k and phase.
 class States {
  public:
   States(size_t padded, bool needed) : padded_(padded), room_(needed ? 4 * padded : 0) {}
@@ -379,7 +380,7 @@ class States {
   double* values_ = room_.data();
 };
 
-// Steps [j, end) of the block at `at`; returns false if it is not one of those asked for.
+// Adds steps [j, end) of the block at `at`; returns false if the block is not of the wanted kind.
 HWY_INLINE bool add_block(D d, const RingOrder& order, const HalfRings& rings,
                           const double* const* parts, bool single, size_t at, size_t j, size_t end,
                           States& states, double* rows) {
@@ -473,7 +474,7 @@ HWY_INLINE void forward_block(D d, const StepFactors& factors, size_t end, const
     V k[kVectors];
     for (int i = 0; i < kVectors; ++i) k[i] = b.k[i];
     run<kKind>(d, factors, j, stop, b, RingSums{d, terms, sums});
-    // Sums of hidden lanes, until here zero, may have become anything.
+    // Hidden lanes were zero before these steps but may now hold any number.
     for (int i = 0; i < kVectors; ++i) {
       for (int part = 0; part < 4; ++part) {
         sums.s[part][i] = hn::IfThenElseZero(visible(d, k[i]), sums.s[part][i]);

@@ -12,11 +12,11 @@
 
 namespace rholm {
 
-// Memory of one sum over rings: on the stack as long as it is small, where an allocation would take
-// a good part of the time.
+// Memory for one sum over rings. It is on the stack if it is small, where an allocation would take
+// a large part of the time.
 class RingScratch {
  public:
-  // n numbers, not set.
+  // Reserves n numbers, which are not initialised.
   explicit RingScratch(std::size_t n) {
     if (n > kOnStack) {
       heap_ = AlignedArray<double>(n);
@@ -32,22 +32,22 @@ class RingScratch {
   AlignedArray<double> heap_;
 };
 
-inline constexpr std::size_t kStepPadding = 8;  // rows of sums that are written beyond the last
+inline constexpr std::size_t kStepPadding = 8;  // rows of sums that are written beyond the last one
 
-// How a block of kRingBlock rings is gone through, see ring_order.h: in steps of lambda with the
-// factor from x^2 or from s^2, or from either as the ring wants it; in differences; in single
-// degrees. kDirect blocks, few rings far apart at a high degree, are left to legendre_kernels.h.
+// The recurrence of a block of kRingBlock rings, see ring_order.h. Steps of lambda use x^2 or s^2
+// per block (kLambda) or per ring (kEither); kPolar uses differences, kSingle single degrees.
+// Blocks of distant rings at a high degree (kDirect) use legendre_kernels.h.
 enum class StepKind : std::uint8_t { kLambda, kEither, kPolar, kSingle, kDirect };
 StepKind step_kind(const RingOrder& order, const HalfRings& rings, std::size_t block);
 
-// The sums over rings of kSingle blocks, or of all others but kDirect ones, in sums[4j ...]: of
-// {p_j, r_j} or lambda_j times {even_re, even_im, x odd_re, x odd_im}. Returns false, and leaves
-// the sums, if there is no such block.
+// Sums over the rings of kSingle blocks if `single`, otherwise of all others but kDirect ones. The
+// entries sums[4j ...] are for {p_j, r_j} or lambda_j times {even_re, even_im, x odd_re, x odd_im}.
+// Returns false, and leaves the sums unchanged, if there is no such block.
 bool ring_step_adjoint(const RingOrder& order, const HalfRings& rings, const double* const* parts,
                        bool single, double* sums);
 
-// {even_re, even_im, odd_re, odd_im} = sum over j of factors[4j ...] times lambda_j, or {p_j, r_j}
-// in kSingle blocks, the odd ones times x; zeros in kDirect blocks.
+// Sums factors[4j ...] times lambda_j, or {p_j, r_j} in kSingle blocks, over j into {even_re,
+// even_im, odd_re, odd_im}, the odd sums times x. kDirect blocks get zeros.
 void ring_step_forward(const RingOrder& order, const HalfRings& rings, const double* lambda_factors,
                        const double* single_factors, double* const* parts);
 

@@ -19,7 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 
-// Numbers first, first + 2, ... of a table that is split by parity.
+// Returns the numbers first, first + 2, ... of a table that is split by parity.
 HWY_INLINE const double* from(const std::array<AlignedArray<double>, 2>& table, int first) {
   return table[first & 1].data() + first / 2;
 }
@@ -31,7 +31,7 @@ void Eps(const RingTables& tables, RingOrder& order) {
   const double *more1 = from(tables.root, 2 * m + 1), *more2 = from(tables.root, 2 * m + 2);
   const double *inverse1 = from(tables.inverse_root, m + 1),
                *inverse2 = from(tables.inverse_root, m + 2);
-  // Two steps more, which the last alpha reaches for.
+  // The last alpha needs two more steps.
   for (size_t j = 0; j < order.n_steps() + 2; j += hn::Lanes(d)) {
     const V odd = hn::Mul(hn::LoadU(d, root1 + j), hn::LoadU(d, more1 + j));
     const V even = hn::Mul(hn::LoadU(d, root2 + j), hn::LoadU(d, more2 + j));
@@ -50,7 +50,7 @@ void Factors(const RingTables& tables, RingOrder& order) {
     const V even = hn::LoadU(d, order.eps_even.data() + j);
     const V alpha = hn::LoadU(d, order.alpha.data() + j);
     const V a = hn::Mul(alpha, alpha), minus_a = hn::Neg(a);
-    // 1 - eps_l^2 - eps_{l+1}^2, which must not be formed as a difference.
+    // 1 - eps_l^2 - eps_{l+1}^2, which loses digits if it is formed as a difference.
     const V rest = hn::MulAdd(excess, hn::LoadU(d, product + j), half);
     hn::StoreU(a, d, order.a.data() + j);
     hn::StoreU(minus_a, d, order.minus_a.data() + j);
@@ -100,14 +100,15 @@ HWY_EXPORT(Factors);
 HWY_EXPORT(PolarFactors);
 HWY_EXPORT(EquatorialFactors);
 
-constexpr std::size_t kPadding = 16;  // vectors that reach beyond, and a value more
+constexpr std::size_t kPadding = 16;  // for vectors that reach beyond the end, and one more value
 
-// Below e^-45 < 2^-64: half a unit in the last place of 1 over 2048 terms that might be alike.
+// e^-45 < 2^-64: half a unit in the last place of 1, over 2048 terms that may all be equal.
 constexpr double kLogNegligible = 45;
 
-// Where the two-degree step is not good enough: sin theta or cos theta below this. Its errors were
-// measured against 34 digits (ring_sums_test against 19), L = 64 ... 4096; these limits keep them
-// near 1e-13 of the largest value. Up to L = 128 they do nowhere reach that near the equator.
+// The two-degree step is not accurate enough where sin theta or cos theta is below these limits.
+// They keep its errors near 1e-13 of the largest value. The errors were measured against 34 digits
+// (by ring_sums_test against 19) for L = 64 ... 4096. Up to L = 128, the errors near the equator
+// stay below that.
 double polar_limit(int degree) { return 1.5e-3 * std::sqrt(degree); }
 double single_limit(int degree) { return degree <= 128 ? 0 : 3e-4 * std::sqrt(degree); }
 
@@ -149,8 +150,8 @@ void set_ring_order(const RingTables& tables, int m, RingOrder& order) {
     make_room(n, *array);
   }
   HWY_DYNAMIC_DISPATCH(Eps)(tables, order);
-  // Every second alpha comes by a product, alpha_{j+2} = alpha_j g_j / g_{j+1}: a chain of
-  // divisions would be slower, and two chains of products would drift apart.
+  // Every second alpha comes from a product, alpha_{j+2} = alpha_j g_j / g_{j+1}. A chain of
+  // divisions would be slower, and rounding errors would separate two chains of products.
   const double *odd = order.eps_odd.data(), *even = order.eps_even.data();
   double alpha = 1 / odd[0];
   for (std::size_t j = 0; j < n; j += 2) {
@@ -175,10 +176,10 @@ void set_ring_order(const RingTables& tables, int m, RingOrder& order) {
   }
 }
 
-// Below the turning point s_0 = m / Lambda, Lambda = l + 1/2, Pt_lm falls off as exp(-S) with
-//   S = int sqrt(m^2 / sin^2 - Lambda^2) dtheta >= m (artanh w - w),   w^2 = 1 - (s / s_0)^2,
-// where 1 / cos theta >= 1 was left out; artanh w - w >= w^3 / 3. The step that goes beyond
-// `degree` is taken into account.
+// Below the turning point s_0 = m / Lambda, Lambda = l + 1/2, Pt_lm decays as exp(-S) with
+//   S = int sqrt(m^2 / sin^2 - Lambda^2) dtheta >= m (artanh w - w),   w^2 = 1 - (s / s_0)^2.
+// This bound omits a factor 1 / cos theta >= 1, and artanh w - w >= w^3 / 3. It includes the step
+// that goes beyond `degree`.
 bool stays_hidden(int m, int degree, double s) {
   const double z = (degree + 2.0) * s;
   if (z >= m) return false;

@@ -16,7 +16,7 @@ using Complex = std::complex<double>;
 
 constexpr std::size_t kPairsPerTask = 8;  // chosen: 50 us and more from L = 256 on
 
-// Of a pair: the rows of values, the second one empty for an equator ring.
+// The rows of values of a pair; `south` is empty for a ring on the equator.
 template <typename Value>
 struct Rows {
   std::span<Value> north, south;

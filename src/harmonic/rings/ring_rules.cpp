@@ -1,5 +1,5 @@
 // Gauss's rule by Newton's method on P_n(cos theta) in theta itself, with the recurrence in
-// differences that legendre_kernels.h has for m = 0: with t = 1 - cos theta = 2 sin^2(theta/2),
+// differences of legendre_kernels.h for m = 0. With t = 1 - cos theta = 2 sin^2(theta/2),
 //   (l+1) (P_{l+1} - P_l) = l (P_l - P_{l-1}) - (2l+1) t P_l,
 //   dP_n/dtheta = n (P_n - P_{n-1} - t P_n) / sin theta,   w = 2 / (dP_n/dtheta)^2.
 #include "harmonic/rings/ring_rules.h"
@@ -15,13 +15,13 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kBatch = 16;  // chosen: nodes at once, hides the latency of the recurrence
+constexpr std::size_t kBatch = 16;  // chosen: nodes at once, hides latency
 
 struct Batch {
   std::array<double, kBatch> theta, value, slope;
 };
 
-// value = P_n, slope = dP_n/dtheta.
+// Sets value to P_n and slope to dP_n/dtheta.
 void evaluate_batch(std::size_t n, Batch& batch) {
   std::array<double, kBatch> t, p, d;
   for (std::size_t i = 0; i < kBatch; ++i) {
@@ -52,12 +52,12 @@ RingRule gauss_ring_rule(std::size_t n) {
   for (std::size_t first = 0; 2 * first < n; first += kBatch) {
     Batch batch;
     for (std::size_t i = 0; i < kBatch; ++i) {
-      // Tricomi's guess; beyond the equator anything that can be evaluated.
+      // Tricomi's guess; angles beyond the equator are not used and repeat the last one.
       const double at = static_cast<double>(std::min(first + i, n / 2));
       const double theta = std::numbers::pi * (at + 0.75) / (size + 0.5);
       batch.theta[i] = theta + 1 / (8 * size * size * std::tan(theta));
     }
-    // The guess is good to O(n^-3) or, at the poles, 1 % of a spacing; each step doubles the
+    // The error of the guess is O(n^-3) or, at the poles, 1 % of the spacing; each step doubles the
     // digits.
     for (int step = 0; step < 4; ++step) {
       evaluate_batch(n, batch);
@@ -77,9 +77,10 @@ RingRule gauss_ring_rule(std::size_t n) {
 }
 
 RingRule fejer_ring_rule(std::size_t n) {
-  // The integral of the trigonometric polynomial through the values, of degree n - 1:
-  // w_i = (1/n) sum over even |k| < n of mu_k e^{i k theta_i}, mu_k = int cos(k theta) sin(theta)
-  // dtheta = 2 / (1 - k^2).
+  // Integrates the trigonometric polynomial of degree n - 1 through the values. The weights
+  // are
+  // w_i = (1/n) sum over even |k| < n of mu_k e^{i k theta_i}, where
+  // mu_k = int cos(k theta) sin(theta) dtheta = 2 / (1 - k^2).
   const std::size_t circle = 2 * n;
   AlignedArray<std::complex<double>> in(circle), out(circle);
   std::fill(in.begin(), in.end(), 0.0);

@@ -6,17 +6,17 @@
 
 namespace rholm {
 
-// sum_i w_i f(theta_i) = int_0^pi f sin(theta) dtheta.
+// A rule with sum_i w_i f(theta_i) = int_0^pi f sin(theta) dtheta.
 struct RingRule {
   std::vector<double> colatitudes;  // ascending, symmetric about the equator
   std::vector<double> weights;
 };
 
-// Exact for polynomials in cos(theta) of degree 2n - 1. Colatitudes are accurate relative to
-// themselves, where the arccos of a node near 1 would not be. O(n^2).
+// Returns a rule that is exact for polynomials in cos(theta) of degree 2n - 1, in O(n^2).
+// Colatitudes have full relative accuracy, unlike the arccos of a node near 1.
 RingRule gauss_ring_rule(std::size_t n);
 
-// theta_i = (i + 1/2) pi / n, exact for degree n - 1 (Fejer).
+// Returns the rule with theta_i = (i + 1/2) pi / n, which is exact for degree n - 1 (Fejer).
 RingRule fejer_ring_rule(std::size_t n);
 
 }  // namespace rholm

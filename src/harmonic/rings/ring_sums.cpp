@@ -13,18 +13,18 @@ static_assert(kRingBlock == kLegendreLanes);
 
 namespace {
 
-// Rings of a block are far apart if there are both sin theta and cos theta below this: formed from
-// the larger of x^2 and s^2, the step's factor loses at most a bit to those that are not.
+// The rings of a block are far apart if some sin theta and some cos theta are below this. In other
+// blocks, factors of a step lose at most a bit if formed from the larger of x^2 and s^2.
 constexpr double kWide = 0.5;
 
-// Between sums or factors [4j ...] of the steps and coefficients of the degrees m + 2j, m + 2j + 1.
-// The last step has an odd degree or not.
+// The functions below convert between sums or factors [4j ...] of the steps and coefficients of the
+// degrees m + 2j and m + 2j + 1. The last step has no odd degree if ends_even().
 bool ends_even(const RingOrder& order) { return (order.degree - order.m) % 2 == 0; }
 
 // c_k += alpha_j eps_{k+1} sum_j + alpha_{j-1} eps_k sum_{j-1},   c_{k+1} += alpha_j sum_j
 void from_lambda(const RingOrder& order, const double* sums, double* c, double* s) {
   const std::size_t n = order.n_steps(), n_odd = ends_even(order) ? n - 1 : n;
-  double re = 0, im = 0;  // of the step before
+  double re = 0, im = 0;  // terms of the step before
   for (std::size_t j = 0; j < n; ++j) {
     const double even = order.alpha[j] * order.eps_odd[j];
     const double next = order.alpha[j] * order.eps_even[j];
@@ -53,7 +53,7 @@ void from_single(const RingOrder& order, const double* sums, double* c, double* 
   }
 }
 
-// The transpose of from_lambda().
+// Does the transpose of from_lambda().
 void to_lambda(const RingOrder& order, const double* c, const double* s, double* factors) {
   const std::size_t n = order.n_steps();
   for (std::size_t j = 0; j + 1 < n; ++j) {
@@ -73,7 +73,7 @@ void to_lambda(const RingOrder& order, const double* c, const double* s, double*
   factors[4 * j + 3] = no_odd ? 0 : alpha * s[2 * j + 1];
 }
 
-// The transpose of from_single().
+// Does the transpose of from_single().
 void to_single(const RingOrder& order, const double* c, const double* s, double* factors) {
   const std::size_t n = order.n_steps();
   for (std::size_t j = 0; j < n; ++j) {
@@ -86,7 +86,7 @@ void to_single(const RingOrder& order, const double* c, const double* s, double*
   }
 }
 
-// The blocks of kDirect steps, by the sums of single degrees.
+// Calls visit(first ring) for each kDirect block, whose sums are formed for single degrees.
 template <typename Visit>
 void visit_direct_blocks(const RingOrder& order, const HalfRings& rings, const Visit& visit) {
   for (std::size_t block = 0; block * kRingBlock < rings.padded; ++block) {
@@ -136,7 +136,7 @@ StepKind step_kind(const RingOrder& order, const HalfRings& rings, std::size_t b
   const double s = rings.least_sin[block], x = rings.least_cos[block];
   const bool polar = s < order.polar_below, single = x < order.single_below;
   if (s < kWide && x < kWide) {
-    // Where the few blocks of a low degree reach from pole to equator, the two-degree step does.
+    // At a low degree, few blocks reach from pole to equator, and the two-degree step is accurate.
     return order.degree > 128 && (polar || single) ? StepKind::kDirect : StepKind::kEither;
   }
   return polar ? StepKind::kPolar : single ? StepKind::kSingle : StepKind::kLambda;

@@ -25,8 +25,8 @@ std::vector<double> evaluate_rings(const Coefficients& coefficients,
   evaluate_orders(block, {&coefficients, 1}, tables, context, {"transform", 0, 0.8});
   std::vector<double> values(colatitudes.size() * columns);
   const ComplexFft<double> fft(columns);
-  // re cos + im sin is the real part of (re + i im) e^{-i m phi}; orders that agree modulo n_phi
-  // are one on the ring.
+  // re cos + im sin is the real part of (re + i im) e^{-i m phi}. Orders that are equal modulo
+  // n_phi coincide on the ring.
   parallel_for(colatitudes.size(), 1, context, {"transform", 0.8, 1},
                [&](std::size_t begin, std::size_t end) {
                  AlignedArray<std::complex<double>> in(columns), out(columns);

@@ -67,7 +67,7 @@ std::vector<CoefficientsFormatLine> coefficients_format_lines() {
 const std::vector<CoefficientsFormatLine>& coefficients_format_table() {
   static const std::vector<CoefficientsFormatLine> table = [] {
     std::vector<CoefficientsFormatLine> lines = coefficients_format_lines();
-#ifdef RHOLM_EXTRA_COEFFICIENTS_FORMATS  // a line of tests/cli/made_up_formats.cpp
+#ifdef RHOLM_EXTRA_COEFFICIENTS_FORMATS  // tests/cli/made_up_formats.cpp adds a line here
     lines.push_back(
 #include RHOLM_EXTRA_COEFFICIENTS_FORMATS
     );

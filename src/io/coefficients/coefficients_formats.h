@@ -16,14 +16,14 @@ namespace rholm {
 struct CoefficientsFormatLine {
   CoefficientsFormatInfo info = {};
   ToldBy told_by = ToldBy::kNothing;
-  bool (*looks_like)(std::string_view bytes) = nullptr;  // for all but kNothing
-  // Whether bytes that look like the format are coefficients and nothing else.
+  bool (*looks_like)(std::string_view bytes) = nullptr;  // required unless told_by is kNothing
+  // Returns true if bytes that look like the format hold coefficients and nothing else.
   bool (*is_surely)(std::string_view bytes) = nullptr;
   CoefficientsParser* parse = nullptr;
   CoefficientsFormatter* write = nullptr;
 };
 
-// The lines in the order in which people see them; info.file.read and .written are set.
+// Returns the lines in the order in which people see them, with info.file.read and .written set.
 const std::vector<CoefficientsFormatLine>& coefficients_format_table();
 const CoefficientsFormatLine& line_of(CoefficientsFormat format);
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-// Bare text, which no format claims, is taken for the one that is told by nothing.
+// Finds the format of the bytes. Plain text that no format claims gets the kNothing format.
 const CoefficientsFormatLine& detect(std::string_view bytes) {
   const std::vector<CoefficientsFormatLine>& table = coefficients_format_table();
   for (const ToldBy by : {ToldBy::kSignature, ToldBy::kFirstWord, ToldBy::kLines}) {
@@ -31,7 +31,7 @@ const CoefficientsFormatLine& detect(std::string_view bytes) {
   });
 }
 
-// The names of all formats but the model file.
+// Returns the names of all formats but the model file.
 std::vector<std::string> format_names() {
   std::vector<std::string> names;
   for (const CoefficientsFormatInfo& format : coefficients_formats()) {
@@ -40,8 +40,8 @@ std::vector<std::string> format_names() {
   return names;
 }
 
-// The convention of the numbers: what the file says, else the options; what is taken from the
-// options without the caller having insisted is listed.
+// Returns the convention of the numbers: from the file if it states one, otherwise from the
+// options. Lists in `assumed` what comes from the options, unless the caller overrides the file.
 Convention settle_convention(const ParsedCoefficients& parsed,
                              const CoefficientsReadOptions& options,
                              std::vector<std::string>& assumed) {
@@ -172,7 +172,7 @@ void write_coefficients(const Expansion& expansion, const std::filesystem::path&
   }
   check_expansion(expansion, name);
   const Coefficients external = to_convention(expansion.coefficients, options.convention);
-  check_coefficients(external, name);  // the largest numbers may overflow with a factor above 1
+  check_coefficients(external, name);  // a factor above 1 may make the largest numbers overflow
   write_file(path, line_of(*format).write(expansion, external, options.convention));
 }
 

@@ -15,15 +15,16 @@
 namespace rholm {
 namespace {
 
-// Units and names of methods are words; chosen long enough for any, short enough for one line.
+// Largest size in bytes of a unit or a method's name; chosen long enough for any, short enough for
+// one line.
 constexpr std::size_t kMaxTextLength = 256;
 
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
   throw Error(ErrorCode::kInvalidInput, name + ": " + what);
 }
 
-// Length of the UTF-8 sequence that starts at text[0], 0 if it is not one (RFC 3629: no overlong
-// forms, no surrogates, nothing above U+10FFFF).
+// Returns the length of the UTF-8 sequence that starts at text[0], or 0 if it is invalid. RFC 3629
+// allows no overlong forms, no surrogates and nothing above U+10FFFF.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(0);

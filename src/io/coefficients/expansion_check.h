@@ -1,4 +1,4 @@
-// Is an expansion one that every format can hold? Layer: io, private (and the model file's).
+// Checks that every format can hold an expansion. Layer: io, private (and the model file's).
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace rholm {
 
-// Throws InvalidInput, with `name` and the offending value, unless all numbers are finite, S_l0
-// and the places m > l are zero, the norms are not negative, and unit and method are
-// short single lines of UTF-8 without blanks at their ends. What passes reads back
-// the same from every format that has room for it.
+// Throws InvalidInput, with `name` and the offending value, unless the expansion is valid. All
+// numbers must be finite, S_l0 and the entries m > l zero, and norms not negative. Unit and method
+// must be short single lines of UTF-8 without blanks at their ends. A valid expansion reads back
+// unchanged from every format that has room for it.
 void check_expansion(const Expansion& expansion, const std::string& name);
 
-// The coefficients alone.
+// Checks the coefficients only.
 void check_coefficients(const Coefficients& coefficients, const std::string& name);
 
 }  // namespace rholm

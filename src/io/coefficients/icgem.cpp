@@ -1,7 +1,7 @@
-// ICGEM-like text: a header of lines `key value` up to `end_of_head`, then lines `gfc l m C S`.
-// The format is made for gravity fields, which have a gravity constant and a reference radius
-// (Expansion::gravity). A shape has neither, and they are passed over. What is no shape has the
-// function `other`. Keys that begin with `rholm_` say what the standard ones cannot.
+// ICGEM-like text: a header of lines `key value` up to `end_of_head`, then lines `gfc l m C S`. The
+// format is made for gravity fields, which have a gravity constant and a reference radius
+// (Expansion::gravity). A shape has neither, and both are ignored. The function of a file without a
+// shape is `other`. Keys that begin with `rholm_` hold what standard keys cannot.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ constexpr std::string_view kProduct = "shape";
 constexpr std::string_view kOtherProduct = "other";
 constexpr std::string_view kGravityProduct = "gravity_field";
 
-// ICGEM's word for the 4-pi normalization, and ours for what it has no word for.
+// Returns ICGEM's word for the 4-pi normalization, and our words for other normalizations.
 const char* norm_name(Normalization normalization) {
   return normalization == Normalization::kFourPi ? "fully_normalized" : to_string(normalization);
 }
@@ -39,7 +39,7 @@ Normalization parse_norm(std::string_view value, const TextLine& line) {
                           *line.name, in_quotes(value)));
 }
 
-// A line of a header as it stands.
+// Key and value of a header line, unchanged.
 struct KeyAndValue {
   std::string_view key, value;
 };
@@ -86,7 +86,7 @@ void take_key(const TextLine& line, Header& header) {
   }
 }
 
-// What a file says to be no shape, or of a gravity constant, are not radii, unless it says so.
+// Sets the function of a file for which another product or a gravity constant excludes radii.
 void settle_function(Header& header) {
   const std::string product =
       header.product.value_or(std::string(header.gravity_constant ? kGravityProduct : kProduct));
@@ -98,13 +98,13 @@ void settle_function(Header& header) {
   header.parsed.product = shown.substr(1, shown.size() - 2);
 }
 
-// A finite number above 0, of text that may be anything.
+// Returns a finite number above 0, or none; the text may be anything.
 std::optional<double> positive(const std::optional<KeyAndValue>& said) {
   const std::optional<double> value = said ? number_of(said->value) : std::nullopt;
   return value && std::isfinite(*value) && *value > 0 ? value : std::nullopt;
 }
 
-// Those of a gravity field are kept if there are both; others are passed over.
+// Keeps constant and radius of a gravity field if both are there; otherwise ignores them.
 void settle_gravity(Header& header) {
   const std::optional<double> constant = positive(header.gravity_constant);
   const std::optional<double> radius = positive(header.radius);
@@ -119,7 +119,7 @@ void settle_gravity(Header& header) {
   }
 }
 
-// Before `begin_of_head`, if a file has it, stands free text.
+// Skips the free text that precedes `begin_of_head`, if the file has this line.
 void pass_free_text(TextCursor& text, const std::string& name) {
   TextCursor ahead = text;
   while (!ahead.at_end()) {
@@ -147,7 +147,7 @@ Header parse_header(TextCursor& text, const std::string& name) {
 
 }  // namespace
 
-// Some line at the beginning starts with a word that only ICGEM files have there.
+// Looks for a line near the beginning that starts with a word which only ICGEM files have there.
 bool looks_like_icgem(std::string_view bytes) {
   bytes = bytes.substr(0, kHeaderBytes);
   while (!bytes.empty()) {

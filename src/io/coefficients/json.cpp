@@ -1,5 +1,5 @@
-// Coefficients as plain JSON, read as a stream of events: no tree is built, so that deep nesting or
-// a foreign file costs no more memory than the numbers that are kept. The one user of
+// Coefficients as plain JSON, read as a stream of events. No tree is built, so that deep nesting or
+// a foreign file costs no more memory than the numbers that are kept. Only this file uses
 // nlohmann/json for coefficients.
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ constexpr const char* kFormat = "rholm-coefficients";
 constexpr int kVersion = 1;
 constexpr std::size_t kMaxDepth = 64;  // chosen: far beyond any use of unknown keys
 
-// The rows l = 0 ... of "C" or "S", row l with m = 0 ... l.
+// The rows l = 0 ... of "C" or "S", where row l has m = 0 ... l.
 struct Rows {
   bool given = false;
   std::size_t count = 0;
@@ -64,7 +64,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
     refuse(kind + " is not what belongs at the key " + in_quotes(key_));
   }
   bool is_at(Place place) const { return !places_.empty() && places_.back() == place; }
-  // Where a number of that key is kept; null if none is.
+  // Returns where the number of the current key is stored, or null if it is not a known number.
   std::optional<double>* known_number();
   bool is_known_key();
   bool enter(Place place);
@@ -77,14 +77,14 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
   CancelPoll poll_;
   ParsedCoefficients parsed_;
   std::vector<Place> places_;
-  std::set<std::string> keys_;  // seen at the top
+  std::set<std::string> keys_;  // keys seen at the top level
   std::string key_;
   bool has_format_ = false;
   std::vector<double> center_;
   int degree_ = -1;
   Rows c_;
   Rows s_;
-  Rows* rows_ = nullptr;  // being read
+  Rows* rows_ = nullptr;  // the rows being read
   std::size_t row_start_ = 0;
 };
 
@@ -263,7 +263,7 @@ ParsedCoefficients Handler::finish() {
   return std::move(parsed_);
 }
 
-// Shortest digits; "-0" would be read as the integer 0.
+// Appends the shortest digits, with "-0.0" for -0, because "-0" reads back as the integer 0.
 void append_number(std::string& text, double value) {
   char buffer[kMaxNumberLength];
   const std::string_view digits(buffer, format_number(buffer, value) - buffer);

@@ -1,4 +1,4 @@
-// Numbers that files say of an expansion by their names, the same in every format. Layer: io,
+// Named numbers that files store with an expansion, with the same names in every format. Layer: io,
 // private.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace rholm {
 
-// What a file does not say is empty.
+// The numbers of a file; a number is empty if the file does not have it.
 struct KnownNumbers {
   std::optional<double> norm_squared = {}, tail_strength = {};
   std::optional<double> gravity_constant = {}, reference_radius = {};
@@ -29,8 +29,8 @@ inline constexpr KnownNumber kKnownNumbers[] = {
 };
 
 KnownNumbers known_numbers(const Expansion& expansion);
-// The inverse. Throws InvalidInput for a gravity constant without a reference radius, or the other
-// way round; `name` is that of the file.
+// Does the inverse. Throws InvalidInput if only one of gravity constant and reference radius is
+// given. `name` is the name of the file.
 void set_known_numbers(const KnownNumbers& numbers, const std::string& name, Expansion& expansion);
 
 }  // namespace rholm

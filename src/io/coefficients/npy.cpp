@@ -1,5 +1,5 @@
 // NumPy's array file: magic, version, length of the header, the header (a Python dictionary
-// literal), the numbers. Source: numpy.lib.format, versions 1.0 to 3.0.
+// literal) and the numbers. Source: numpy.lib.format, versions 1.0 to 3.0.
 #include <fmt/format.h>
 
 #include <bit>
@@ -16,7 +16,7 @@ namespace rholm {
 namespace {
 
 constexpr std::string_view kMagic = "\x93NUMPY";
-constexpr std::size_t kAlignment = 64;  // NumPy aligns the numbers so, for memory maps
+constexpr std::size_t kAlignment = 64;  // NumPy's alignment of the numbers, for memory maps
 
 [[noreturn]] void refuse(const std::string& name, const std::string& what,
                          ErrorCode code = ErrorCode::kInvalidInput) {
@@ -29,8 +29,8 @@ struct Header {
   std::vector<std::size_t> shape;
 };
 
-// The dictionary as NumPy writes it: string keys; a string, True or False, or a tuple of whole
-// numbers as values. Nothing else of Python is understood.
+// Parses the dictionary as NumPy writes it. Keys are strings; values are strings, True or False, or
+// tuples of whole numbers. Other Python syntax is rejected.
 class HeaderParser {
  public:
   HeaderParser(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -94,7 +94,7 @@ class HeaderParser {
     while (!accept(')')) {
       skip_spaces(text_);
       std::size_t extent = 0;
-      if (header_.shape.size() == 32 || !take_integer(text_, extent)) fail();  // NumPy's most
+      if (header_.shape.size() == 32 || !take_integer(text_, extent)) fail();  // NumPy's limit
       header_.shape.push_back(extent);
       if (!accept(',')) {
         expect(')');
@@ -136,7 +136,7 @@ Unsigned load(const char* bytes, bool big_endian) {
   return static_cast<Unsigned>(value);
 }
 
-// The header's text; takes it and what stands before it off `bytes`.
+// Returns the text of the header and removes it, with the bytes before it, from `bytes`.
 std::string_view take_header(std::string_view& bytes, const std::string& name) {
   const auto need = [&](std::size_t size) {
     if (bytes.size() < size) refuse(name, "the file ends within the NumPy header");
@@ -159,7 +159,7 @@ std::string_view take_header(std::string_view& bytes, const std::string& name) {
   return header;
 }
 
-// What `descr` says of one number.
+// Size and byte order of a number, from `descr`.
 struct NumberLayout {
   std::size_t size = 8;
   bool big_endian = false;
@@ -176,7 +176,7 @@ NumberLayout parse_descr(const std::string& descr, const std::string& name) {
       if (descr == fmt::format("{}f{}", big_endian ? '>' : '<', size)) return {size, big_endian};
     }
   }
-  // The header's bytes may be anything: only its printable ASCII goes into the message.
+  // The header may hold any bytes: the message shows only printable ASCII.
   std::string shown = descr.substr(0, 16);
   for (char& c : shown) c = c < 0x20 || c > 0x7e ? '?' : c;
   refuse(name,
@@ -186,7 +186,7 @@ NumberLayout parse_descr(const std::string& descr, const std::string& name) {
          ErrorCode::kUnsupported);
 }
 
-// L of the shape (2, L+1, L+1).
+// Returns L for the shape (2, L+1, L+1).
 int degree_of(const std::vector<std::size_t>& shape, const std::string& name) {
   const bool fits = shape.size() == 3 && shape[0] == 2 && shape[1] == shape[2] && shape[1] >= 1;
   if (!fits || shape[1] > kMaxDegree + std::size_t{1}) {

@@ -1,6 +1,6 @@
-// SHTOOLS text: a line `l m C S` per pair, fields between blanks or commas. Lines that begin with
-// '#' are comments (pyshtools passes over them; the Fortran routine needs them counted in `skip`);
-// those of the form `# key: value` with a key known here say what the numbers mean.
+// SHTOOLS text: a line `l m C S` per pair, with fields between blanks or commas. Lines that begin
+// with '#' are comments (pyshtools skips them; the Fortran routine needs their number in `skip`).
+// Comments `# key: value` with a known key state what the numbers mean.
 #include <fmt/format.h>
 
 #include <optional>

@@ -12,10 +12,10 @@
 namespace rholm {
 namespace {
 
-// A file may leave out zeros, but one short line must not cost gigabytes: up to this degree
-// anything goes (16 MiB of coefficients), above it at least one pair in kSparsity has a line.
-// Chosen so that memory stays below 64 times the file's size (a line has at least 8 bytes, a
-// pair takes 32 in the square array).
+// A file may leave out zeros, but one short line must not cost gigabytes. Up to this degree any
+// pairs may be missing (16 MiB of coefficients). Above it, at least one pair in kSparsity must have
+// a line. Chosen so that memory stays below 64 times the file's size: a line has at least 8 bytes,
+// a pair takes 32 bytes in the square array.
 constexpr int kFreeDegree = 1023;
 constexpr std::size_t kSparsity = 16;
 
@@ -40,7 +40,7 @@ void set_text_once(std::string& slot, std::string_view value, std::string_view k
   slot = value;
 }
 
-// False if the key is of no known number.
+// Returns false if the key does not name a known number.
 bool take_known_number(std::string_view key, std::string_view value, const TextLine& line,
                        ParsedCoefficients& parsed) {
   for (const KnownNumber& number : kKnownNumbers) {

@@ -24,9 +24,9 @@
 namespace rholm {
 namespace {
 
-// Names of the temporary files that exist now. A signal handler may only touch lock-free atomics:
-// whoever exchanges a slot for nullptr owns the string. 64 is more than a process writes at once;
-// a file that finds no slot is written all the same, only a signal leaves it behind.
+// Names of the temporary files that exist now. A signal handler may only use lock-free atomics: the
+// code that exchanges a slot for nullptr owns the string. A process writes fewer than 64 at once.
+// Without a slot a file is still written, but remains if a signal ends the process.
 constexpr std::size_t kSlots = 64;
 std::array<std::atomic<char*>, kSlots> g_unfinished;
 static_assert(std::atomic<char*>::is_always_lock_free);
@@ -51,7 +51,7 @@ void leave(std::atomic<char*>* slot) {
   throw Error(ErrorCode::kIo, "cannot write " + name + ": " + std::strerror(error));
 }
 
-// The descriptor of this process that the path names.
+// Returns the descriptor of this process that the path names.
 std::optional<int> descriptor_named_by(const std::filesystem::path& path) {
   const std::string word = path.filename().string();
   int number = -1;
@@ -64,9 +64,9 @@ std::optional<int> descriptor_named_by(const std::filesystem::path& path) {
   return is_ours ? std::optional(number) : std::nullopt;
 }
 
-// The file a chain of symbolic links ends at, which need not exist, or a descriptor's name.
+// Returns the end of a chain of symbolic links, which may not exist, or a descriptor's name.
 std::filesystem::path follow_links(std::filesystem::path path) {
-  constexpr int kMaxLinks = 40;  // as Linux
+  constexpr int kMaxLinks = 40;  // the limit of Linux
   for (int i = 0; i < kMaxLinks; ++i) {
     std::error_code error;
     if (!std::filesystem::is_symlink(path, error) || descriptor_named_by(path)) break;
@@ -77,8 +77,8 @@ std::filesystem::path follow_links(std::filesystem::path path) {
   return path;
 }
 
-// A name for a temporary file, in the folder of `target`: short, so that it fits where a name near
-// the limit of the file system (255 bytes) does.
+// Returns a name for a temporary file in the folder of `target`. It is short, so that it fits where
+// a name near the limit of the file system (255 bytes) fits.
 std::filesystem::path next_name(const std::filesystem::path& target) {
   static std::atomic<unsigned> counter = 0;
   std::string name(kTemporaryBegin);
@@ -107,7 +107,7 @@ int open_without_name(const std::filesystem::path& folder) {
 struct FirstName {
   std::filesystem::path path;
   std::atomic<char*>* slot = nullptr;
-  int error = 0;  // of the system, where it got none
+  int error = 0;  // error of the system, if the file got no name
 };
 
 FirstName name_file(int descriptor, const std::filesystem::path& target) {
@@ -124,9 +124,9 @@ FirstName name_file(int descriptor, const std::filesystem::path& target) {
   }
 }
 
-// Whether files of the folder that have no name can get one: without /proc, by FUSE and by
-// policies (AppArmor) it can be forbidden where such files can be made. That must be known before
-// the work. An empty file tries it, once for each folder in the life of a process.
+// Returns true if unnamed files of the folder can get a name. Without /proc, and where FUSE or
+// policies (AppArmor) forbid it, they cannot, which must be known before the work. An empty file
+// tests this once per folder and process.
 bool can_name_files(const std::filesystem::path& target) {
   static std::mutex mutex;
   static std::map<std::filesystem::path, bool> known;
@@ -160,23 +160,23 @@ AtomicFile::AtomicFile(const std::filesystem::path& path, const Context& context
   }
   struct stat status = {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
-  // A name that is too long, a circle of links: noticed now, not when all is written.
+  // A name that is too long, or a circle of links, is reported now and not after the work.
   if (!exists && errno != ENOENT) fail(name_, errno);
   if (exists && S_ISDIR(status.st_mode)) fail(name_, EISDIR);
   if (exists && !S_ISREG(status.st_mode)) {
     open_directly(target);
     return;
   }
-  // A file that may not be written is not replaced either, though the folder would allow it.
+  // A file without write permission is not replaced, although the folder permits it.
   if (exists && ::access(target.c_str(), W_OK) != 0) fail(name_, errno);
   target_ = target;
-  // A process may have been killed between the two names of a file, or where files need names.
+  // A process may have been killed between the two names of a file, or while it wrote a named file.
   remove_left_files(folder_of(target));
   if (writers == Writers::kSeveral || !open_nameless()) open_named();
   if (exists) (void)::fchmod(descriptor_, status.st_mode & 07777);
 }
 
-// A pipe is opened when somebody reads it: until then it can be interrupted.
+// Opens a pipe once it has a reader; until then, a signal can cancel.
 void AtomicFile::open_directly(const std::filesystem::path& path) {
   while ((descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC)) < 0) {
     if (errno != EINTR) fail(name_, errno);
@@ -184,7 +184,7 @@ void AtomicFile::open_directly(const std::filesystem::path& path) {
   }
 }
 
-// False where the system or the file system has no files without a name, or gives them none later.
+// Returns false if the system or file system has no unnamed files or cannot name them later.
 bool AtomicFile::open_nameless() {
   if (!can_name_files(target_)) return false;
   descriptor_ = open_without_name(folder_of(target_));
@@ -198,11 +198,11 @@ bool AtomicFile::open_nameless() {
 void AtomicFile::open_named() {
   for (;;) {
     temporary_ = next_name(target_);
-    // Entered first: a signal between the two lines must find the file.
+    // The name is entered first: a signal between the two lines must find the file.
     slot_ = enter(temporary_.string());
     descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     const int error = errno;
-    // Another process that looks for leftovers may have come between the two calls.
+    // Another process that looks for leftovers may have removed the file between the two calls.
     if (descriptor_ >= 0 && try_lock(descriptor_) != Lock::kRefused && !is_unlinked(descriptor_)) {
       return;
     }
@@ -218,7 +218,7 @@ void AtomicFile::open_named() {
   }
 }
 
-// Gives the whole file a name, so that it can replace an older one at once.
+// Gives the complete file a name, so that it can replace an older file at once.
 void AtomicFile::give_a_name() {
   const FirstName name = name_file(descriptor_, target_);
   if (name.error != 0) fail(name_, name.error);
@@ -246,7 +246,7 @@ void AtomicFile::write(std::span<const char> bytes) {
   }
 }
 
-// Some file systems report a full disk only here.
+// Closes a file; some file systems report a full disk only here.
 void AtomicFile::close(int descriptor) {
   if (::close(descriptor) != 0 && errno != EINTR) fail(name_, errno);
 }
@@ -254,7 +254,7 @@ void AtomicFile::close(int descriptor) {
 void AtomicFile::commit() {
   if (!target_.empty()) {
     if (is_nameless_) give_a_name();
-    // One more descriptor keeps the lock until the file has its place.
+    // Closing a copy reports a full disk now; the descriptor keeps the lock until the rename.
     if (const int copy = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0); copy >= 0) close(copy);
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(name_, errno);
     target_.clear();

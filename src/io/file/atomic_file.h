@@ -1,4 +1,4 @@
-// Files that appear whole or not at all. Layer: io.
+// Files that are written completely or not at all. Layer: io.
 #pragma once
 
 #include <atomic>
@@ -10,32 +10,32 @@
 
 namespace rholm {
 
-// A file being written. The bytes go to a temporary file on the same file system; commit() makes it
-// `path`, and a destructor without commit() removes it, so that `path` always holds the old or
-// the new content whole. A symbolic link is followed, an existing file keeps its permissions.
-// "-" (standard output) and what is not a regular file (a pipe, /dev/null) are written directly,
-// and so is what the path of a descriptor of this process names (/dev/stdout, /dev/fd/3).
+// A file being written. The bytes go to a temporary file on the same file system. commit() renames
+// it to `path`; without commit(), the destructor removes it. `path` thus always holds the complete
+// old or new content. Symbolic links are followed, and an existing file keeps its permissions.
+// Written directly are "-" (standard output), files that are not regular (a pipe, /dev/null), and
+// paths of descriptors of this process (/dev/stdout, /dev/fd/3).
 //
-// The temporary file has no name where the file system has such files and lets them have one later:
-// nothing of it is left when the process is killed. Elsewhere it is a hidden file in the folder of
-// `path`. Those that killed processes have left there are removed first.
+// The temporary file has no name if the file system supports this and can name it later. Nothing
+// then remains of it if the process is killed. Otherwise it is a hidden file in the folder of
+// `path`. Hidden files of killed processes are removed there first.
 //
-// There is no fsync: the promise is against interrupted programs, not against power failures.
+// There is no fsync: files are safe from interrupted programs, not from power failures.
 class AtomicFile {
  public:
   enum class Writers {
     kThisProcess,
-    kSeveral  // other processes open temporary_path() too: it is a name that all of them see
+    kSeveral  // other processes open temporary_path() too: its name is visible to them
   };
-  // `context` is asked whether to cancel when a signal interrupts a write. Throws Io, Cancelled.
+  // If a signal interrupts a write, `context` is asked whether to cancel. Throws Io, Cancelled.
   explicit AtomicFile(const std::filesystem::path& path, const Context& context = {},
                       Writers writers = Writers::kThisProcess);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  // The file that becomes `path`, for libraries that open files by name (they may truncate it);
-  // empty if the output is written directly.
+  // Returns the file that becomes `path`, for libraries that open files by name (they may truncate
+  // it). Empty if the output is written directly.
   const std::filesystem::path& temporary_path() const { return temporary_; }
 
   void write(std::span<const char> bytes);  // throws Io, Cancelled

@@ -10,8 +10,8 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{32} << 20;     // bytes between two looks at the callback
-constexpr std::size_t kFirstRoom = std::size_t{1} << 16;  // what a pipe holds by default
+constexpr std::size_t kChunk = std::size_t{32} << 20;     // bytes between two progress reports
+constexpr std::size_t kFirstRoom = std::size_t{1} << 16;  // default capacity of a pipe
 
 class GrowingBuffer {
  public:

@@ -14,7 +14,7 @@ namespace rholm {
 class Bytes {
  public:
   Bytes() = default;
-  Bytes(char* data, std::size_t size) : data_(data), size_(size) {}  // owns what malloc gave
+  Bytes(char* data, std::size_t size) : data_(data), size_(size) {}  // owns memory from malloc
   std::span<const char> view() const { return {data_.get(), size_}; }
 
  private:
@@ -25,10 +25,10 @@ class Bytes {
   std::size_t size_ = 0;
 };
 
-// Reads a file whole, "-" is standard input. Large reads rather than a memory map: a mapped file
-// that another program truncates kills the reader (SIGBUS), and the copy costs little beside
-// parsing. Reports stage "read" from 0 to `to`; a signal that interrupts a read asks the
-// callback whether to cancel. Throws Io with the name and the reason, Cancelled.
+// Reads a whole file; "-" is standard input. Uses large reads, not a memory map: if another program
+// truncates a mapped file, the reader is killed (SIGBUS). Copying costs little beside parsing.
+// Reports stage "read" from 0 to `to`; a signal that interrupts a read asks the callback whether to
+// cancel. Throws Io with the name and the reason, Cancelled.
 Bytes read_bytes(const std::filesystem::path& path, const Context& context = {}, double to = 1);
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// What the tables of formats have in common. Layer: io.
+// Declarations that the tables of formats share. Layer: io.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace rholm {
 
-// By what the content of a file tells its format. Formats are asked in this order, and those of one
-// kind in the order of their table.
+// The property of a file's content that identifies its format. Formats are tested in this order,
+// and formats with the same property in the order of their table.
 enum class ToldBy {
-  kSignature,  // bytes at known places, which nothing else has there
+  kSignature,  // bytes at fixed positions, which no other format has there
   kFirstWord,  // the first word or letter of a text
   kLines,      // words that begin lines
-  kNothing     // the name of the file, or that no other format has claimed it
+  kNothing     // the name of the file, or that no other format matches
 };
 
-// The words of which that is true.
+// Returns the words whose value is true.
 std::vector<std::string> words_of(const std::vector<std::pair<const char*, bool>>& words);
 
 }  // namespace rholm

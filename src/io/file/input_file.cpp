@@ -13,7 +13,7 @@ namespace rholm {
 
 namespace {
 
-// Chosen: as often as a person who waits for the end of a program notices.
+// Chosen: people who wait for the end of a program hardly notice this delay.
 constexpr int kMillisecondsBetweenQuestions = 100;
 
 }  // namespace
@@ -21,8 +21,8 @@ constexpr int kMillisecondsBetweenQuestions = 100;
 InputFile::InputFile(const std::filesystem::path& path)
     : name_(path == "-" ? "standard input" : path.string()) {
   while (path != "-") {
-    // O_NONBLOCK: a named pipe without a writer is waited for in read(), which returns to its
-    // caller.
+    // O_NONBLOCK: read() waits for the writer of a named pipe, and returns to its caller
+    // meanwhile.
     descriptor_.value = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor_.value >= 0) break;
     if (errno != EINTR) fail(errno);

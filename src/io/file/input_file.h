@@ -12,14 +12,14 @@ namespace rholm {
 
 class InputFile {
  public:
-  // "-" is standard input. Throws Io.
+  // Opens a file; "-" is standard input. Throws Io.
   explicit InputFile(const std::filesystem::path& path);
 
   const std::string& name() const { return name_; }
-  // That the file has now; 0 for pipes and devices, whose size is not known.
+  // Returns the size of the file at opening; 0 for pipes and devices, whose size is unknown.
   std::size_t size() const { return size_; }
-  // Reads at most that much; nothing if a signal came first, or if no byte came within a tenth of
-  // a second: the caller asks whether to go on, on whatever thread it waits. Throws Io.
+  // Reads at most room.size() bytes. Reads nothing if a signal interrupts, or if no byte comes
+  // within a tenth of a second. The caller can then ask whether to go on. Throws Io.
   struct Piece {
     std::size_t size = 0;
     bool ended = false;

@@ -22,9 +22,9 @@ bool is_first_look(const std::filesystem::path& folder, std::string_view begin) 
   return seen.insert((std::filesystem::absolute(folder) / begin).string()).second;
 }
 
-// Calls remove() where nobody else holds the file of the lock.
+// Calls remove() if no other process holds the lock on the file `lock`.
 void if_left(const std::filesystem::path& lock, const std::function<void()>& remove) {
-  // Without following links: in a folder that all may write into, a link may point anywhere.
+  // Links are not followed: in a folder that all may write into, a link may point anywhere.
   const int descriptor = ::open(lock.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return;
   struct stat status = {};
@@ -34,7 +34,7 @@ void if_left(const std::filesystem::path& lock, const std::function<void()>& rem
   ::close(descriptor);
 }
 
-// The entries of the folder whose names begin and end like that; none after the first call.
+// Returns the folder's entries with this start and end of the name; none after the first call.
 std::vector<std::filesystem::path> look_once(const std::filesystem::path& folder,
                                              std::string_view begin, std::string_view end) {
   std::vector<std::filesystem::path> found;
@@ -68,7 +68,7 @@ void remove_left_files(const std::filesystem::path& folder) noexcept {
       if_left(path, [&] { ::unlink(path.c_str()); });
     }
   } catch (const std::exception&) {
-    return;  // a folder that cannot be read: what is in it stays
+    return;  // the content of a folder that cannot be read stays
   }
 }
 
@@ -93,7 +93,7 @@ void remove_temporary_folder(const std::filesystem::path& path) noexcept {
         std::filesystem::remove_all(entry.path(), ignored);
       }
     }
-    // A program that is killed before this leaves a folder that the next one removes.
+    // A program that is killed before this line leaves a folder that a later program removes.
     ::unlink((path / kFolderLock).c_str());
     ::rmdir(path.c_str());
   } catch (const std::exception&) {

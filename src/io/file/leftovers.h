@@ -1,8 +1,8 @@
-// What programs that were killed have left behind. Layer: io, private.
+// Files and folders that killed programs have left behind. Layer: io, private.
 //
-// Whoever makes a temporary file that has a name holds a lock on it, and whoever makes a temporary
-// folder holds one on a file in it. The system drops the lock when the process ends, however it
-// ends: what can be locked belongs to nobody any more.
+// A program that makes a named temporary file holds a lock on it. For a temporary folder it holds a
+// lock on a file in it. The system drops the lock however the process ends: a file that can be
+// locked belongs to no running process.
 #pragma once
 
 #include <filesystem>
@@ -18,22 +18,22 @@ enum class Lock {
 // Locks an open file without waiting.
 Lock try_lock(int descriptor);
 
-// Whether an open file has no name any more.
+// Returns true if an open file has no name any more.
 bool is_unlinked(int descriptor);
 
-// Names of temporary files: ".rholm.PID-N.part".
+// Names of temporary files are ".rholm.PID-N.part".
 inline constexpr std::string_view kTemporaryBegin = ".rholm.";
 inline constexpr std::string_view kTemporaryEnd = ".part";
-// The file in a temporary folder that carries the lock; a folder without it is not ours.
+// The locked file in a temporary folder; a folder without it is not ours.
 inline constexpr const char* kFolderLock = ".rholm-lock";
 
-// Remove the temporary files in `folder`, or the temporary folders there whose names begin with
-// `kind`, that are of this user and that nobody holds. Once in the life of a process for each
-// `folder`, since it can be large. Errors are ignored.
+// Remove the temporary files in `folder`, or its temporary folders whose names begin with `kind`.
+// They remove only what belongs to this user and is not locked, once per process for each `folder`,
+// since it can be large. Errors are ignored.
 void remove_left_files(const std::filesystem::path& folder) noexcept;
 void remove_left_folders(const std::filesystem::path& folder, std::string_view kind) noexcept;
 
-// Removes a temporary folder, its lock last.
+// Removes a temporary folder, with its lock file last.
 void remove_temporary_folder(const std::filesystem::path& path) noexcept;
 
 }  // namespace rholm

@@ -30,11 +30,11 @@ void fail_at_line(const std::string& name, const TextCursor& text, const std::st
 
 namespace {
 
-// std::from_chars gives no value for 1e-400 or 1e400; its text [first, last) tells which it is.
+// std::from_chars gives no value for 1e-400 or 1e400: returns true if [first, last) is tiny.
 bool is_tiny(const char* first, const char* last) {
   const char* exponent = std::find_if(first, last, [](char c) { return c == 'e' || c == 'E'; });
   if (exponent != last) return exponent[1] == '-';
-  // Without an exponent: 0.000...1 is tiny, a digit other than 0 before the point is huge.
+  // Without an exponent, 0.000...1 is tiny; a nonzero digit before the point makes it huge.
   const char* significant = std::find_if(first, last, [](char c) { return c >= '1' && c <= '9'; });
   return significant > std::find(first, last, '.');
 }

@@ -11,7 +11,7 @@
 
 namespace rholm {
 
-// A place in a text. Readers move `at` and never keep count of lines: an error counts them once.
+// A position in a text. Readers move `at` and do not count lines: an error counts them once.
 struct TextCursor {
   const char* begin = nullptr;
   const char* at = nullptr;
@@ -22,13 +22,13 @@ struct TextCursor {
   bool at_end() const { return at == end; }
 };
 
-// The number of the line, from 1, that `at` stands in. Lines end in \n, \r\n or \r.
+// Returns the line number of `at`, from 1. Lines end in \n, \r\n or \r.
 std::size_t line_number(const TextCursor& text);
 
-// The word that begins here, quoted; "the end" if there is none.
+// Returns the word that begins here, quoted, or "the end" if there is none.
 std::string quoted_word(const TextCursor& text);
 
-// Throws InvalidInput "name: line 7: what". `lines_before`: of the file, before the text.
+// Throws InvalidInput "name: line 7: what". `lines_before` lines of the file precede the text.
 [[noreturn]] void fail_at_line(const std::string& name, const TextCursor& text,
                                const std::string& what, std::size_t lines_before = 0);
 
@@ -42,24 +42,24 @@ inline void skip_blanks(TextCursor& text) {
 inline void skip_spaces(TextCursor& text) {
   while (text.at != text.end && is_space(*text.at)) ++text.at;
 }
-// To the \n or \r that ends the line (or the end of the text), which is not passed.
+// Moves to the \n or \r that ends the line (or to the end of the text), but not past it.
 inline void skip_to_line_end(TextCursor& text) {
   while (text.at != text.end && !is_line_end(*text.at)) ++text.at;
 }
 
 inline bool at_word_end(const TextCursor& text) { return text.at_end() || is_space(*text.at); }
 
-// The characters up to the next space or the end, which are passed.
+// Returns the characters up to the next space or the end, and moves past them.
 inline std::string_view take_word(TextCursor& text) {
   const char* first = text.at;
   while (text.at != text.end && !is_space(*text.at)) ++text.at;
   return {first, static_cast<std::size_t>(text.at - first)};
 }
 
-// Reads the number that begins exactly here (no spaces before it; a leading + is allowed) and
-// moves behind it. False, without moving, if there is none or it does not fit the type. What
-// follows the number is for the caller to check. "nan" and "inf" are numbers; a number too small
-// for a double is zero, one too large is not a number. The result is rounded correctly.
+// Reads the number that begins exactly here (no spaces before it; a leading + is allowed) and moves
+// past it. Returns false, without moving, if there is none or it does not fit the type. The caller
+// checks what follows. Also reads "nan" and "inf". A number too small for a double is zero; a
+// number too large is an error. Results are rounded correctly.
 bool take_any_number(TextCursor& text, double& value);
 inline bool take_number(TextCursor& text, double& value);
 template <class Integer>
@@ -74,9 +74,9 @@ char* format_number(char* first, Number value) {
   return std::to_chars(first, first + kMaxNumberLength, value).ptr;
 }
 
-// The usual number, by hand: at most 19 digits, as an integer m and a power of ten. If m <= 2^53
-// and the power is at most 10^22, both are exact doubles, so that one division or product rounds
-// once (Clinger 1990). It is about three times as fast as std::from_chars, which does the rest.
+// Reads the usual number: at most 19 digits, as an integer m and a power of ten. If m <= 2^53 and
+// the power is at most 10^22, both are exact doubles, so that one division or product rounds once
+// (Clinger 1990). Three times as fast as std::from_chars, which reads other numbers.
 inline bool take_number(TextCursor& text, double& value) {
   constexpr double kPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                 1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
@@ -103,7 +103,7 @@ inline bool take_number(TextCursor& text, double& value) {
   }
   if (digits == 0 || digits > 19 || m > kMostExact) return take_any_number(text, value);
   if (at != end && (*at == 'e' || *at == 'E')) {
-    // Two digits of exponent and their sign; anything else is rare.
+    // Reads a sign and at most two digits of the exponent; other exponents are rare.
     ++at;
     const bool down = at != end && *at == '-';
     if (at != end && (*at == '-' || *at == '+')) ++at;

@@ -7,8 +7,8 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 20;  // bytes given to the system at once
-constexpr std::size_t kFirst = std::size_t{1} << 12;  // in memory, where room is made as needed
+constexpr std::size_t kPiece = std::size_t{1} << 20;  // bytes passed to the system at once
+constexpr std::size_t kFirst = std::size_t{1} << 12;  // initial number of bytes in memory
 
 }  // namespace
 

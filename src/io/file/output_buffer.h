@@ -1,4 +1,4 @@
-// Output in large pieces, to a file or to memory. Layer: io.
+// Output in large blocks, to a file or to memory. Layer: io.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@ namespace rholm {
 
 class OutputBuffer {
  public:
-  // Without a file everything stays in memory, for take(). `rows` is the number of rows() to come:
-  // each flush reports stage "write", or throws Cancelled.
+  // Without a file, all output stays in memory for take(). `rows` is the total of the later calls
+  // of rows(): each flush reports stage "write", or throws Cancelled.
   explicit OutputBuffer(AtomicFile* file, std::size_t rows = 0, const Context& context = {});
 
-  // Where at least n bytes may be written, followed by advance(end).
+  // Returns room for at least n bytes; the caller then calls advance(end).
   char* room(std::size_t n) {
     if (bytes_.size() - used_ < n) make_room(n);
     return bytes_.data() + used_;
@@ -32,7 +32,7 @@ class OutputBuffer {
   void number(Number value) {
     advance(format_number(room(kMaxNumberLength), value));
   }
-  // A number and the character behind it.
+  // Writes a number and the character after it.
   template <class Number>
   void number(Number value, char separator) {
     char* end = format_number(room(kMaxNumberLength + 1), value);

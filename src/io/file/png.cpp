@@ -1,4 +1,4 @@
-// PNG, into memory first: a file appears whole or not at all.
+// PNG files, encoded in memory first, so that a file is written completely or not at all.
 #include <vector>
 
 #include "io/file/png_encoder.h"

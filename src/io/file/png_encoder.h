@@ -8,7 +8,7 @@
 
 namespace rholm {
 
-// The file has RGB of 8 bits a colour. The image has 3 * width * height bytes, at least one pixel.
+// Returns a file with 8-bit RGB. `image` has 3 * width * height bytes, at least one pixel.
 std::vector<char> png_of(const Image& image);
 
 }  // namespace rholm

@@ -14,9 +14,9 @@ std::vector<char> png_of(const Image& image) {
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = PNG_FORMAT_RGB;
-  // Filters and levels of zlib that take six times as long save 2 %.
+  // Filters and zlib levels that take six times as long save 2 %.
   png.flags = PNG_IMAGE_FLAG_FAST;
-  // The simplified interface reports errors as values; the bound on the size spares a second pass.
+  // The simplified interface returns errors as values; the bound on the size saves a second pass.
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::vector<char> bytes(size);
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0) {

@@ -18,7 +18,7 @@ void append_big_endian(std::vector<char>& bytes, std::uint32_t value) {
   for (const int shift : {24, 16, 8, 0}) bytes.push_back(static_cast<char>(value >> shift & 0xff));
 }
 
-// Length, name, data, checksum of name and data.
+// Appends length, name, data, and a checksum of name and data.
 void append_chunk(std::vector<char>& png, std::string_view name, std::string_view data) {
   append_big_endian(png, static_cast<std::uint32_t>(data.size()));
   png.insert(png.end(), name.begin(), name.end());
@@ -28,7 +28,7 @@ void append_chunk(std::vector<char>& png, std::string_view name, std::string_vie
 
 // --- Filters -------------------------------------------------------------------------------
 
-// The numbers of PNG; Average and Paeth are left out.
+// PNG's numbers of the filters; Average and Paeth are not used.
 enum class Filter : std::uint8_t { kNone, kSub, kUp };
 
 std::uint8_t filtered(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
@@ -40,7 +40,7 @@ std::uint8_t filtered(std::span<const std::uint8_t> row, std::span<const std::ui
   return static_cast<std::uint8_t>(row[i] - before);
 }
 
-// As libpng chooses: by the sum of the differences, as signed numbers.
+// Returns the sum of the absolute signed differences. libpng chooses the filter in the same way.
 std::size_t cost(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
                  Filter filter) {
   std::size_t sum = 0;
@@ -51,7 +51,7 @@ std::size_t cost(std::span<const std::uint8_t> row, std::span<const std::uint8_t
   return sum;
 }
 
-// The number of its filter before each row.
+// Returns the filtered rows, each after the number of its filter.
 std::vector<std::uint8_t> filtered_rows(const Image& image) {
   const std::size_t length = 3 * static_cast<std::size_t>(image.width);
   const auto rows = static_cast<std::size_t>(image.height);
@@ -78,14 +78,14 @@ std::vector<std::uint8_t> filtered_rows(const Image& image) {
 class BitWriter {
  public:
   explicit BitWriter(std::vector<char>& bytes) : bytes_(bytes) {}
-  // The lowest bit first.
+  // Writes n bits, the lowest bit first.
   void put(std::uint32_t value, unsigned n) {
     bits_ |= static_cast<std::uint64_t>(value) << n_bits_;
     for (n_bits_ += n; n_bits_ >= 8; n_bits_ -= 8, bits_ >>= 8) {
       bytes_.push_back(static_cast<char>(bits_ & 0xff));
     }
   }
-  // Codes of Huffman: the highest bit first.
+  // Writes a Huffman code, the highest bit first.
   void put_code(std::uint32_t code, unsigned n) {
     std::uint32_t reversed = 0;
     for (unsigned i = 0; i < n; ++i) reversed |= (code >> i & 1) << (n - 1 - i);
@@ -101,7 +101,7 @@ class BitWriter {
   unsigned n_bits_ = 0;
 };
 
-// Section 3.2.6: bytes, the end of a block (256), lengths.
+// Section 3.2.6: writes a byte, the end of a block (256) or a length symbol.
 void put_symbol(BitWriter& out, std::uint32_t symbol) {
   if (symbol < 144) return out.put_code(0x30 + symbol, 8);
   if (symbol < 256) return out.put_code(0x190 + symbol - 144, 9);
@@ -114,8 +114,8 @@ struct Range {
   unsigned extra_bits = 0;
 };
 
-// Section 3.2.5: symbols 257 to 285 and codes 0 to 29, each of a range of values. Ranges
-// of lengths double every four, ranges of distances every two.
+// Section 3.2.5: symbols 257 to 285 and codes 0 to 29 each stand for a range of values. Lengths
+// double the size of a range every four codes, distances every two.
 constexpr std::array<Range, 29> length_ranges() {
   std::array<Range, 29> ranges = {};
   std::uint32_t base = 3;
@@ -154,7 +154,7 @@ void put_repetition(BitWriter& out, std::uint32_t length, std::uint32_t distance
   out.put(distance - kDistances[d].base, kDistances[d].extra_bits);
 }
 
-// How many bytes from `at` on are those from `earlier` on.
+// Returns the number of bytes from `at` on that equal the bytes from `earlier` on.
 std::uint32_t common_length(std::span<const std::uint8_t> data, std::size_t earlier,
                             std::size_t at) {
   constexpr std::size_t kLongest = 258;
@@ -164,10 +164,10 @@ std::uint32_t common_length(std::span<const std::uint8_t> data, std::size_t earl
   return static_cast<std::uint32_t>(n);
 }
 
-// One block. Looks for each four bytes where their hash stood last.
+// Writes one block. A table has the last position of each hash of four bytes.
 void deflate(std::span<const std::uint8_t> data, std::vector<char>& compressed) {
   constexpr std::size_t kLeast = 4, kFarthest = 32768;
-  constexpr unsigned kHashBits = 15;  // chosen: as many places as a distance reaches
+  constexpr unsigned kHashBits = 15;  // chosen: as many entries as a distance reaches
   std::vector<std::size_t> last(std::size_t{1} << kHashBits, data.size());
   BitWriter out(compressed);
   out.put(1, 1);  // the last block
@@ -198,7 +198,7 @@ void deflate(std::span<const std::uint8_t> data, std::vector<char>& compressed) 
 }
 
 std::uint32_t adler32(std::span<const std::uint8_t> data) {
-  constexpr std::size_t kBetween = 5552;  // so many bytes leave sums below 2^32 (RFC 1950)
+  constexpr std::size_t kBetween = 5552;  // 5552 bytes keep the sums below 2^32 (RFC 1950)
   constexpr std::uint32_t kModulus = 65521;
   std::uint32_t a = 1, b = 0;
   while (!data.empty()) {
@@ -226,7 +226,7 @@ std::vector<char> png_of(const Image& image) {
   std::vector<char> header;
   append_big_endian(header, static_cast<std::uint32_t>(image.width));
   append_big_endian(header, static_cast<std::uint32_t>(image.height));
-  // 8 bits a colour, RGB, the one compression and the one set of filters, not interlaced.
+  // 8 bits a colour, RGB, the only compression method, the only filter method, not interlaced.
   header.insert(header.end(), {8, 2, 0, 0, 0});
   append_chunk(png, "IHDR", {header.data(), header.size()});
   const std::vector<char> stream = zlib_stream(filtered_rows(image));

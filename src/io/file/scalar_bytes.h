@@ -10,7 +10,7 @@
 
 namespace rholm {
 
-// From here on a double rounds to an infinite float: halfway between the largest float and 2^128.
+// Smallest double that rounds to an infinite float: halfway between the largest float and 2^128.
 inline constexpr double kInfiniteAsFloat = 0x1.ffffffp127;
 
 template <std::size_t kSize>
@@ -35,7 +35,7 @@ T load(const char* from) {
   return std::bit_cast<T>(bits);
 }
 
-// The bytes of `value`, little endian.
+// Stores the bytes of `value`, little endian.
 template <class T>
 void store_little_endian(char* to, T value) {
   auto bits = std::bit_cast<UnsignedOf<sizeof(T)>>(value);
@@ -43,7 +43,7 @@ void store_little_endian(char* to, T value) {
   std::memcpy(to, &bits, sizeof(T));
 }
 
-// Calls function(std::type_identity<T>()) with the C++ type.
+// Calls function(std::type_identity<T>()) with the C++ type T of `type`.
 template <class Function>
 decltype(auto) with_scalar_type(ScalarType type, Function&& function) {
   switch (type) {

@@ -27,7 +27,7 @@ TemporaryFolder::TemporaryFolder(const std::filesystem::path& parent, const std:
       throw Error(ErrorCode::kIo, fmt::format("no folder can be made in {}: {}", parent.string(),
                                               std::strerror(error)));
     }
-    // Another process that looks for leftovers may come between the two calls, and remove it.
+    // Another process that looks for leftovers may remove the folder between the two calls.
     if (try_lock(descriptor_) != Lock::kRefused && !is_unlinked(descriptor_)) return;
     ::close(descriptor_);
     descriptor_ = -1;

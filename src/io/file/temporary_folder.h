@@ -1,4 +1,4 @@
-// A folder that goes with the object. Layer: io, private.
+// A folder that is deleted with its object. Layer: io, private.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,9 @@
 
 namespace rholm {
 
-// A folder of its own in `parent`, for its owner only, deleted with all that is in it. Its name is
-// `kind` and six letters. Folders of the same kind that killed programs have left in `parent` are
-// deleted as well.
+// A new folder in `parent`, accessible to its owner only, which is deleted with its content. Its
+// name is `kind` and six letters. Folders of the same kind that killed programs have left in
+// `parent` are deleted, too.
 class TemporaryFolder {
  public:
   // Throws Io.
@@ -21,7 +21,7 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
-  int descriptor_ = -1;  // has the lock
+  int descriptor_ = -1;  // holds the lock
 };
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// Writing by the HDF5 library, behind handles that close themselves.
+// Writing by the HDF5 library, with handles that close themselves.
 #include <fmt/format.h>
 #include <hdf5.h>
 
@@ -25,7 +25,7 @@ class Handle {
   ~Handle() {
     if (id_ >= 0) close_(id_);
   }
-  // Closes now and tells whether that succeeded (what is buffered may fail to be written).
+  // Closes now and returns true on success (writing buffered data may fail).
   bool close() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
   // NOLINTNEXTLINE(misc-explicit-constructor): it stands wherever the library takes an identifier
   operator hid_t() const { return id_; }
@@ -39,13 +39,13 @@ class Handle {
   herr_t (*close_)(hid_t) = nullptr;
 };
 
-// While it lives, HDF5 is this thread's alone, and does not print its errors: some builds of the
-// library are not made for several threads, and keep state of their own between calls.
+// While an object of this class exists, this thread alone uses HDF5, which prints no errors. Some
+// builds of the library are not thread-safe and keep state between calls.
 class QuietErrors {
  public:
   QuietErrors() : alone_(mutex) {
-    // At the end of the process HDF5 would close again what could not be closed (a full disk), and
-    // crash. Nothing is left to it: handles close themselves.
+    // At the end of the process HDF5 would close again a file that it could not close (a full
+    // disk), and crash. It has nothing to close, because handles close themselves.
     H5dont_atexit();
     H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -64,7 +64,7 @@ class QuietErrors {
   void* data_ = nullptr;
 };
 
-// A type of numbers as it is in memory, which is little endian.
+// Returns the type of numbers as they are in memory, which is little endian.
 hid_t number_type(const Type& type) {
   if (type.kind == Kind::kFloat) return type.size == 4 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
   switch (type.size) {
@@ -84,14 +84,14 @@ herr_t leave_open(hid_t) { return 0; }
 }  // namespace
 
 struct Writer::Impl {
-  // Groups are open; a dataset has its group and its name, to be opened again.
+  // A group is open; a dataset has its group and its name, to be opened again.
   struct Node {
     Handle group;
     Object parent = 0;
     std::string name = {};
   };
 
-  QuietErrors quiet;  // first: it lives longest
+  QuietErrors quiet;  // first, so that it is destroyed last
   std::string name;
   Handle file = {-1, nullptr};
   std::vector<Node> nodes = {};
@@ -106,14 +106,14 @@ struct Writer::Impl {
   }
 
   void create_file(const std::string& path, std::size_t members) {
-    // The format of HDF5 1.8: every block of metadata has a checksum.
+    // In the format of HDF5 1.8, every block of metadata has a checksum.
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     checked(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), "choose its version");
-    // The file is temporary and ours alone; some network file systems have no locks.
+    // No other process uses this temporary file; some network file systems have no locks.
     checked(H5Pset_file_locking(access, false, true), "switch off locks");
-    // It may have no name: the driver of all other files wants the path of "/proc/self/fd/3".
+    // The file may have no name: the other drivers need the target path of "/proc/self/fd/3".
     checked(H5Pset_fapl_stdio(access), "choose how to write");
-    const Handle creation = quiet_creation(H5P_FILE_CREATE);  // of the root group, too
+    const Handle creation = quiet_creation(H5P_FILE_CREATE);  // for the root group, too
     if (members > 0) keep_members(creation, members);
     file =
         Handle(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access), "create the file"),
@@ -121,19 +121,19 @@ struct Writer::Impl {
     nodes.push_back({Handle(checked(H5Gopen2(file, "/", H5P_DEFAULT), "open the root"), H5Gclose)});
   }
 
-  // Links stay in the header of their group, however many, as attributes do.
+  // Keeps all links in the header of their group, as attributes are in the header of their object.
   void keep_members(hid_t creation, std::size_t members) const {
     check_members(name, members);
     checked(H5Pset_link_phase_change(creation, static_cast<unsigned>(members), 0),
             "keep the members of a group");
-    // Room for all at once: three thousand links take 0.3 s, and 20 s where the header has to grow.
-    constexpr unsigned kNameLength = 32;  // a guess that costs nothing if it is wrong
+    // Reserves room for all links: three thousand take 0.3 s, but 20 s if the header has to grow.
+    constexpr unsigned kNameLength = 32;  // a guess; a wrong one costs nothing
     checked(H5Pset_est_link_info(creation, static_cast<unsigned>(members), kNameLength),
             "make room for the members of a group");
   }
 
-  // Same coefficients, same bytes: objects without times of creation. Attributes stay in the
-  // header of their object, however many: HDF5's other storage for them is far less simple.
+  // Same coefficients, same bytes: objects have no times of creation. Attributes always stay in the
+  // header of their object: HDF5's other storage for attributes is far less simple.
   Handle quiet_creation(hid_t kind) const {
     Handle creation(checked(H5Pcreate(kind), "create properties"), H5Pclose);
     checked(H5Pset_obj_track_times(creation, false), "leave out times");

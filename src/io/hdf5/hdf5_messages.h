@@ -1,4 +1,4 @@
-// Messages of HDF5's object headers that are used. Layer: io, private.
+// The messages of HDF5's object headers that are used. Layer: io, private.
 #pragma once
 
 namespace rholm::hdf5 {

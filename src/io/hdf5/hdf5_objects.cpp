@@ -29,7 +29,7 @@ void check_extent(const File& file, std::uint64_t base, std::uint64_t end) {
   }
 }
 
-// Superblock version 0 or 1, behind signature and version.
+// Reads superblock version 0 or 1, after signature and version; returns the root's address.
 std::uint64_t read_old_superblock(const File& file, ByteReader& block, unsigned version) {
   block.skip(4);
   const unsigned offsets = block.u8();
@@ -42,7 +42,7 @@ std::uint64_t read_old_superblock(const File& file, ByteReader& block, unsigned 
   return block.u64();
 }
 
-// Version 2 or 3.
+// Reads superblock version 2 or 3.
 std::uint64_t read_superblock(const File& file, ByteReader& block) {
   const unsigned offsets = block.u8();
   check_sizes(file, offsets, block.u8());
@@ -97,7 +97,7 @@ class HeaderReader {
     const unsigned flags = header.u8();
     has_creation_order_ = (flags & 4) != 0;
     if ((flags & 0x20) != 0) header.skip(16);  // times
-    if ((flags & 0x10) != 0) header.skip(4);   // when attributes become dense
+    if ((flags & 0x10) != 0) header.skip(4);   // limits of dense storage
     const std::uint64_t size = header.number(std::size_t{1} << (flags & 3));
     const std::string_view messages = header.take(size);
     const std::string_view covered = header.passed();
@@ -130,7 +130,7 @@ class HeaderReader {
   void read_messages(std::string_view block) {
     ByteReader reader(file_, block);
     const std::size_t prefix = has_creation_order_ ? 6 : 4;
-    while (reader.left() >= prefix) {  // a shorter rest is a gap
+    while (reader.left() >= prefix) {  // a shorter remainder is a gap
       const unsigned type = reader.u8();
       const unsigned size = reader.u16();
       const unsigned flags = reader.u8();
@@ -144,12 +144,12 @@ class HeaderReader {
       ByteReader message(file_, data);
       const std::uint64_t address = message.u64();
       const std::string_view block = bytes_at(file_, address, message.u64());
-      // Blocks do not overlap in a sound file: this ends every loop of continuations.
+      // Blocks do not overlap in an undamaged file: the limit ends every loop of continuations.
       continued_bytes_ += block.size() + 1;
       if (continued_bytes_ > file_.bytes.size()) damaged(file_, "an object header has no end");
       continuations_.push_back(block);
     } else {
-      // Bit 1: the message is stored elsewhere, for several objects.
+      // Bit 1 means that the message is stored elsewhere, for several objects.
       if ((flags & 2) != 0 && is_used(type)) unsupported(file_, "an HDF5 file with shared types");
       object_.messages.push_back({type, data});
     }
@@ -169,7 +169,7 @@ struct Link {
   std::uint64_t address = 0;
 };
 
-// A group of the old format: a B-tree over the names, which stand in a heap.
+// A group of the old format: a B-tree over names, which are in a heap.
 class SymbolTable {
  public:
   SymbolTable(const File& file, std::string_view message) : file_(file) {
@@ -186,12 +186,12 @@ class SymbolTable {
   std::optional<Link> find(std::string_view name) { return find_in_node(tree_, name, kMaxLevel); }
 
  private:
-  // Levels fall towards the leaves; a group with more entries than a tree of 8 levels holds
-  // would not fit into any file. The walk looks at all names: models have a few.
+  // Levels decrease towards the leaves. A group with more entries than a tree of 8 levels holds
+  // would not fit into any file. The search reads all names: models have few.
   static constexpr unsigned kMaxLevel = 8;
 
-  // Nodes of a sound tree are in the file once, an entry takes 8 bytes and more: this ends every
-  // walk that goes in circles or meets the same nodes again and again.
+  // In an undamaged file, each node occurs once and an entry takes at least 8 bytes. The limit ends
+  // every search that repeats nodes.
   void count_visit(unsigned entries) {
     visited_ += 1 + entries;
     if (visited_ > file_.bytes.size() / 8) damaged(file_, "a group has no end");
@@ -227,7 +227,7 @@ class SymbolTable {
       const std::uint32_t cache = leaf.u32();
       leaf.skip(20);
       if (name_at > names_.size()) damaged(file_, "a name lies outside its heap");
-      // Compared with its closing zero, not measured: a heap without zeros costs nothing.
+      // Compares the closing zero, too, without searching: a heap without zeros costs nothing.
       const std::string_view stored = names_.substr(name_at, name.size() + 1);
       if (stored.size() == name.size() + 1 && stored.starts_with(name) && stored.back() == '\0') {
         constexpr std::uint32_t kSoftLink = 2;

@@ -1,16 +1,16 @@
-// The part of HDF5 that a model file uses, read from memory: superblock, object headers and groups,
-// where things are; values are in hdf5_values.h. Layer: io, private.
+// Reads from memory the parts of HDF5 that locate the objects of a model file: superblock, object
+// headers and groups. hdf5_values.h reads values. Layer: io, private.
 //
-// Models may be written by the HDF5 library but are not read by it: on files that are damaged or
-// made to harm it reads outside its buffers and loops (seen with 1.10.8, most in the global heap
-// that holds strings and in the older metadata, which have no checksums). Here every access is
-// checked against the file, and nothing is allocated that the file does not hold.
+// The HDF5 library may write models but does not read them. On damaged or malicious files it reads
+// outside its buffers and loops. This was seen with 1.10.8, mostly in the global heap of strings
+// and in older metadata without checksums. Here every access is checked against the file, and
+// memory is limited by the size of the file.
 //
-// Source: HDF5 File Format Specification, version 3.0. Read are: superblocks 0 to 3; object headers
-// 1 and 2; groups as symbol tables or compact links; compact attributes; contiguous and compact
-// datasets; integers, IEEE numbers and strings. That is what the library and h5py write by default
-// for plain arrays. Everything else throws Unsupported: compression, chunks, links
-// to other places, "dense" storage of many attributes or links.
+// Source: HDF5 File Format Specification, version 3.0. Supported are superblocks 0 to 3; object
+// headers 1 and 2; groups as symbol tables or compact links; compact attributes; contiguous and
+// compact datasets; integers, IEEE numbers and strings. The library and h5py write these by default
+// for plain arrays. Everything else throws Unsupported: compression, chunks, links to other places,
+// "dense" storage of many attributes or links.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@
 
 namespace rholm::hdf5 {
 
-// Checks the superblock and that the file is as long as it says. Throws InvalidInput, Unsupported.
+// Checks the superblock and the file's length against it. Throws InvalidInput, Unsupported.
 File open(std::string_view bytes, const std::string& name);
 bool has_signature(std::string_view bytes);
 
@@ -37,8 +37,8 @@ struct Object {
 };
 Object root_group(const File& file);
 bool has_member(const File& file, const Object& group, std::string_view name);
-// Throws InvalidInput if the group has no such member, Unsupported if it is a soft or external
-// link.
+// Throws InvalidInput if the group has no such member, Unsupported if the member is a soft or
+// external link.
 Object open_member(const File& file, const Object& group, std::string_view name);
 
 }  // namespace rholm::hdf5

@@ -1,8 +1,8 @@
-// Writing without the HDF5 library: what the library writes of the same calls, in the format of
-// HDF5 1.8, with less unused space. Source: HDF5 File Format Specification, version 3.0; the
-// numbers of its sections stand at the functions. Values are written at once; the heap of strings,
-// the headers of the objects and the superblock, which holds the address of the root, when the file
-// is closed.
+// Writes HDF5 without the HDF5 library: the same structures as the library, in the format of
+// HDF5 1.8, with less unused space. Source: HDF5 File Format Specification, version 3.0;
+// comments at functions give its sections. Values are written at once. The heap of strings, the
+// object headers and the superblock, which has the root's address, are written when the file is
+// closed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,13 +44,13 @@ std::string datatype(const Type& type) {
       break;
     case Kind::kFloat: {
       const bool is_double = type.size == 8;
-      // The leading bit is implied; where the sign is.
+      // The leading bit is implied; bit 8 * size - 1 is the sign.
       head(1, 0x20U | static_cast<std::uint32_t>(8 * type.size - 1) << 8);
       append(bytes, 0, 2);
       append(bytes, 8 * type.size, 2);
-      append(bytes, is_double ? 52 : 23, 1);  // exponent: place, bits
+      append(bytes, is_double ? 52 : 23, 1);  // exponent: position, bits
       append(bytes, is_double ? 11 : 8, 1);
-      append(bytes, 0, 1);  // mantissa: place, bits
+      append(bytes, 0, 1);  // mantissa: position, bits
       append(bytes, is_double ? 52 : 23, 1);
       append(bytes, is_double ? 1023 : 127, 4);
       break;
@@ -81,8 +81,8 @@ struct Attribute {
   std::string name;
   Type type;
   std::vector<std::uint64_t> extents;
-  std::string values;         // of a variable string: its length
-  std::uint32_t in_heap = 0;  // and its number in the heap
+  std::string values;         // a variable string has its length here
+  std::uint32_t in_heap = 0;  // number of a variable string in the heap
 };
 
 struct Node {
@@ -90,7 +90,7 @@ struct Node {
   std::size_t members_expected = 0;
   std::vector<std::pair<std::string, Writer::Object>> members = {};
   std::vector<Attribute> attributes = {};
-  // Of a dataset.
+  // Members of a dataset.
   Type type = {};
   std::vector<std::uint64_t> extents = {};
   std::uint64_t address = kUndefined, size = 0;
@@ -99,7 +99,7 @@ struct Node {
 // III.E: strings of attributes, in one collection.
 class Heap {
  public:
-  // The number of the string. An empty one has one, too: it would be no string otherwise.
+  // Adds a string and returns its number. An empty string needs a number, too, to be a string.
   std::uint32_t add(std::string_view text) {
     append(objects_, ++count_, 2);
     append(objects_, 0, 6);
@@ -116,7 +116,7 @@ class Heap {
     append(bytes, 1, 4);
     append(bytes, size, 8);
     bytes += objects_;
-    append(bytes, 0, 8);  // number 0: the rest is free
+    append(bytes, 0, 8);  // number 0: the remaining space is free
     append(bytes, size - used, 8);
     bytes.resize(size);
     return bytes;
@@ -124,7 +124,7 @@ class Heap {
 
  private:
   std::string objects_;
-  std::uint32_t count_ = 0;  // at most kMaxAttributes for each of a few objects: below 2^16
+  std::uint32_t count_ = 0;  // at most kMaxAttributes for each object: below 2^16
 };
 
 }  // namespace
@@ -146,7 +146,7 @@ struct Writer::Impl {
                 fmt::format("cannot write {}: cannot {}: is the disk full?", name, what));
   }
 
-  // At the end of the file; says where.
+  // Writes at the end of the file; returns the address.
   std::uint64_t write(std::string_view bytes) {
     static constexpr std::string_view kZeros("\0\0\0\0\0\0\0", 7);
     const std::string_view gap = kZeros.substr(0, padding(end));
@@ -212,7 +212,7 @@ struct Writer::Impl {
 
   void append_attributes(std::string& messages, const Node& node) const {
     if (node.attributes.empty()) return;
-    std::string info;  // IV.A.2.v: none in dense storage
+    std::string info;  // IV.A.2.v: no attributes in dense storage
     append(info, 0, 2);
     append(info, kUndefined, 8);
     append(info, kUndefined, 8);
@@ -222,7 +222,7 @@ struct Writer::Impl {
     }
   }
 
-  // IV.A.2.c, IV.A.2.k, IV.A.2.g: no links in dense storage, how many may stay in the header,
+  // IV.A.2.c, IV.A.2.k, IV.A.2.g: no links in dense storage, limit of links in the header,
   // links.
   void append_links(std::string& messages, const Node& node,
                     const std::vector<std::uint64_t>& addresses) const {
@@ -234,12 +234,12 @@ struct Writer::Impl {
     std::string group;
     append(group, 0, 1);
     append(group, node.members_expected > 0 ? 1 : 0, 1);
-    if (node.members_expected > 0) append(group, node.members_expected, 4);  // least for dense: 0
+    if (node.members_expected > 0) append(group, node.members_expected, 4);  // dense limit is 0
     append_message(messages, kGroupInfoMessage, group, kConstant);
     for (const auto& [member, number] : node.members) {
       std::string link;
       append(link, 1, 1);
-      append(link, 1, 1);  // names have a length of two bytes
+      append(link, 1, 1);  // the length of names has two bytes
       append(link, member.size(), 2);
       link += member;
       append(link, addresses[number], 8);
@@ -247,7 +247,7 @@ struct Writer::Impl {
     }
   }
 
-  // IV.A.2.b, IV.A.2.d, IV.A.2.f, IV.A.2.i: contiguous, late allocation, the default fill value.
+  // IV.A.2.b, IV.A.2.d, IV.A.2.f, IV.A.2.i: contiguous, late allocation, default fill value.
   void append_array(std::string& messages, const Node& node) const {
     append_message(messages, kDataspaceMessage, dataspace(node.extents));
     append_message(messages, kDatatypeMessage, datatype(node.type), kConstant);
@@ -263,14 +263,14 @@ struct Writer::Impl {
     std::string bytes = "OHDR";
     append(bytes, 2, 1);
     append(bytes, kSizeOf4Bytes | kAttributeLimits, 1);
-    append(bytes, kMaxAttributes, 4);  // at most so many in the header; least for dense: 0
+    append(bytes, kMaxAttributes, 4);  // limit of compact storage, then 0 for dense storage
     append(bytes, messages.size(), 4);
     bytes += messages;
     append_checksum(bytes);
     return bytes;
   }
 
-  // Members before the groups that hold them; the address of the root, which is first.
+  // Writes members before their groups; returns the address of the root, which is nodes[0].
   std::uint64_t write_headers() {
     std::vector<std::uint64_t> addresses(nodes.size());
     for (Object object = nodes.size(); object-- > 0;) {
@@ -291,7 +291,7 @@ struct Writer::Impl {
   std::string superblock(std::uint64_t root) const {
     std::string bytes = "\x89HDF\r\n\x1a\n";
     append(bytes, 2, 1);
-    append(bytes, 8, 1);  // bytes of addresses, of lengths
+    append(bytes, 8, 1);  // bytes of an address, then of a length
     append(bytes, 8, 1);
     append(bytes, 0, 1);
     append(bytes, 0, 8);  // base
@@ -323,7 +323,7 @@ Writer::Object Writer::create_group(Object parent, const char* name) {
 }
 
 void Writer::put_text(Object object, const char* name, const std::string& value) {
-  const std::string text = value.substr(0, value.find('\0'));  // as the library has strings of C
+  const std::string text = value.substr(0, value.find('\0'));  // the library takes C strings
   std::string length;
   append(length, text.size(), 4);
   impl_->add_attribute(object,

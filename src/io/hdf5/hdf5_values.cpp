@@ -10,7 +10,7 @@
 namespace rholm::hdf5 {
 namespace {
 
-// Bits of the class-dependent field, and the properties of IEEE numbers that follow it.
+// Parses the bits of the class-dependent field and the properties of IEEE numbers that follow.
 Type parse_float(const File& file, ByteReader& reader, std::uint32_t bits, std::uint32_t size) {
   struct Layout {
     std::uint32_t size, precision, exponent_at, exponent_bits, mantissa_bits, bias;
@@ -62,13 +62,13 @@ std::vector<std::uint64_t> parse_extents(const File& file, std::string_view data
   constexpr unsigned kNull = 2;
   if (version == 2 && reader.u8() == kNull) unsupported(file, "an HDF5 array without values");
   if (version == 1) reader.skip(5);
-  if (rank > 32) damaged(file, "an array of rank " + std::to_string(rank));  // HDF5's most
+  if (rank > 32) damaged(file, "an array of rank " + std::to_string(rank));  // HDF5's limit
   std::vector<std::uint64_t> extents(rank);
   for (std::uint64_t& extent : extents) extent = reader.u64();
   return extents;
 }
 
-// Bytes of the array; InvalidInput if the file cannot hold them.
+// Returns the bytes of the array; throws InvalidInput if the file cannot hold them.
 std::uint64_t size_of(const File& file, const Array& array) {
   std::uint64_t size = array.type.size;
   for (const std::uint64_t extent : array.extents) {
@@ -123,14 +123,14 @@ std::string_view data_of(const File& file, const Array& array, std::string_view 
   }
   const std::uint64_t address = reader.u64();
   const std::uint64_t size = reader.u64();
-  if (needed == 0 && address == kUndefined) return {};  // nothing is stored of nothing
+  if (needed == 0 && address == kUndefined) return {};  // an empty array is not stored
   if (address == kUndefined || size != needed) {
     damaged(file, "the values of '" + array.path + "' are not all stored");
   }
   return bytes_at(file, address, size);
 }
 
-// Object `index` of the global heap's collection at `address`.
+// Returns object `index` of the global heap's collection at `address`.
 std::string_view heap_object(const File& file, std::uint64_t address, std::uint32_t index) {
   ByteReader head(file, bytes_from(file, address));
   head.expect("GCOL");

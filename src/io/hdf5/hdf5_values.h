@@ -15,11 +15,11 @@ namespace rholm::hdf5 {
 enum class Kind { kInteger, kFloat, kFixedString, kVariableString };
 struct Type {
   Kind kind = Kind::kInteger;
-  std::size_t size = 0;  // of a value, bytes
+  std::size_t size = 0;  // bytes of one value
   bool big_endian = false;
   bool is_signed = false;
 };
-// The array of an attribute or dataset, as it stands in the file.
+// The array of an attribute or dataset, as stored in the file.
 struct Array {
   std::string path;  // for messages
   Type type = {};
@@ -29,12 +29,12 @@ struct Array {
 std::optional<Array> find_attribute(const File& file, const Object& object, std::string_view name);
 Array read_dataset(const File& file, const Object& dataset);
 
-// The values, as many as the array has. Throw InvalidInput for an array of another kind.
-std::string to_text(const File& file, const Array& array);  // of exactly one string
-// Of strings of one length, without the zeros at their ends.
+// Return all values of the array. Throw InvalidInput for an array of another kind.
+std::string to_text(const File& file, const Array& array);  // for exactly one string
+// Returns strings of one length, without the zeros at their ends.
 std::vector<std::string> to_texts(const File& file, const Array& array);
 std::vector<double> to_doubles(const File& file, const Array& array);
 std::vector<std::int64_t> to_integers(const File& file, const Array& array);
-std::int64_t to_integer(const File& file, const Array& array);  // of exactly one integer
+std::int64_t to_integer(const File& file, const Array& array);  // for exactly one integer
 
 }  // namespace rholm::hdf5

@@ -1,4 +1,4 @@
-// Values of C++ as values of HDF5, for both ways of writing.
+// Converts C++ values to HDF5 values, for both ways of writing.
 #include "io/hdf5/hdf5_writer.h"
 
 #include <fmt/format.h>

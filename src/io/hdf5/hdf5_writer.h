@@ -1,5 +1,5 @@
-// Groups, attributes and datasets of a new HDF5 file, by the HDF5 library (hdf5_library.cpp), or by
-// a writer of our own (hdf5_plain.cpp) where rholm is built without it. Layer: io, private.
+// Writes groups, attributes and datasets of a new HDF5 file: by the HDF5 library
+// (hdf5_library.cpp), or without it (hdf5_plain.cpp). Layer: io, private.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace rholm::hdf5 {
 
-// The most attributes of one object. All are in its header (chosen: ample).
+// Largest number of attributes of one object. All are in its header (chosen: ample).
 inline constexpr unsigned kMaxAttributes = 64;
 
 class Writer {
@@ -21,8 +21,8 @@ class Writer {
   using Object = std::size_t;  // a group or a dataset
   static constexpr Object kRoot = 0;
 
-  // A file at `path` that is ours alone; `name` is for messages. `members` is how many the root
-  // will have, if that is more than a handful. Throws Io, and Unsupported for more than 65535.
+  // Creates a file at `path` that no other process uses; `name` is for messages. `members` is the
+  // number of members of the root if it is large. Throws Io, and Unsupported for more than 65535.
   Writer(std::string name, const std::string& path, std::size_t members = 0);
   ~Writer();
   Writer(const Writer&) = delete;
@@ -30,9 +30,9 @@ class Writer {
 
   Object create_group(Object parent, const char* name);
 
-  // A string in the file's heap, which takes 4 KiB, whatever its length.
+  // Writes a string into the file's heap, which takes 4 KiB for any length.
   void write_attribute(Object object, const char* name, const std::string& value);
-  // A string of its own length.
+  // Writes a string with its own length.
   void write_fixed_text(Object object, const char* name, const std::string& value);
   void write_attribute(Object object, const char* name, int value);
   void write_attribute(Object object, const char* name, std::uint32_t value);
@@ -40,7 +40,7 @@ class Writer {
   void write_attribute(Object object, const char* name, const Vec3& value);
   void write_attribute(Object object, const char* name, std::span<const double> numbers);
 
-  // Numbers, contiguous; as many as the product of the extents.
+  // Writes contiguous numbers; their count is the product of the extents.
   template <typename T>
   Object write_dataset(Object group, const char* name, std::span<const std::uint64_t> extents,
                        const T* values) {
@@ -49,14 +49,14 @@ class Writer {
                        false, std::is_signed_v<T>};
     return put_dataset(group, name, type, extents, values);
   }
-  // Texts of one length, the longest one's, the others filled with zeros.
+  // Writes texts of one length, the length of the longest; shorter texts are filled with zeros.
   void write_texts(Object group, const char* name, std::span<const std::string> texts);
 
-  // Writes what is left. Without it the file is not whole.
+  // Writes the remaining data. Without this call the file is incomplete.
   void close();
 
  private:
-  // Values as they are in memory. No extents: one value.
+  // Writes values as they are in memory. Empty `extents` mean one value.
   void put_attribute(Object object, const char* name, const Type& type,
                      std::span<const std::uint64_t> extents, const void* values);
   void put_text(Object object, const char* name, const std::string& value);
@@ -67,7 +67,7 @@ class Writer {
   std::unique_ptr<Impl> impl_;
 };
 
-// Throws Unsupported where a group cannot have so many members.
+// Throws Unsupported if a group cannot have this number of members.
 void check_members(const std::string& name, std::size_t members);
 
 }  // namespace rholm::hdf5

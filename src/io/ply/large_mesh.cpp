@@ -35,7 +35,7 @@ std::vector<std::string> write_mapped(const MappedMesh& mesh, const TriangleRang
                         .attributes = {mesh.scalars().begin(), mesh.scalars().end()},
                         .is_mesh = true};
   shape.points.visit([&](std::size_t, const Vec3& p) {
-    if (!is_finite(p)) validate(mesh.view());  // throws, and says which
+    if (!is_finite(p)) validate(mesh.view());  // throws, and names the vertex
   });
   return write_view(shape, path, options, context);
 }
@@ -98,7 +98,7 @@ std::vector<std::string> write_shape(const MappedMesh& mesh, const std::filesyst
   const MeshView& view = mesh.view();
   const TriangleRange triangles(view,
                                 [&](std::size_t first, std::size_t n) { mesh.release(first, n); });
-  triangles.visit([&](std::size_t, const Triangle& t) {  // as validate(), a piece at a time
+  triangles.visit([&](std::size_t, const Triangle& t) {  // as validate(), in blocks
     if (std::max({t[0], t[1], t[2]}) >= view.n_vertices) validate(view);
   });
   return write_mapped(mesh, triangles, path, options, context);
@@ -135,7 +135,7 @@ MeshSurvey survey_mesh(const MappedMesh& mesh, const Context& context) {
     const Triangle corners = view.triangle(t);
     largest = std::max({largest, corners[0], corners[1], corners[2]});
   }
-  if (!range.finite || largest >= view.n_vertices) validate(view);  // throws, and says which
+  if (!range.finite || largest >= view.n_vertices) validate(view);  // throws and says where
   MeshSurvey survey;
   survey.bounds = {.min = {range.min[0], range.min[1], range.min[2]},
                    .max = {range.max[0], range.max[1], range.max[2]}};

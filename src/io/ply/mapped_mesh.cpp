@@ -20,9 +20,9 @@
 namespace rholm {
 namespace {
 
-// The content of a regular file that is not empty, else nothing.
+// Maps a regular file; returns an empty span if it is empty or no regular file.
 std::span<std::byte> map_file(const std::filesystem::path& path) {
-  // Not even opened if it is a pipe: its writer would be told that a reader came, and went.
+  // A pipe is not even opened: its writer would see a reader come and go.
   struct stat status = {};
   if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
@@ -38,9 +38,9 @@ std::span<std::byte> map_file(const std::filesystem::path& path) {
 }
 
 struct VertexRow {
-  std::size_t x = 0;  // the number of that property
+  std::size_t x = 0;  // the index of the property x
   ScalarType coordinate = ScalarType::kFloat64;
-  std::size_t offset = 0;  // of x
+  std::size_t offset = 0;  // bytes before x
   std::size_t stride = 0;
 };
 
@@ -62,7 +62,7 @@ std::optional<VertexRow> row_of(const PlyElement& vertex) {
   return row;
 }
 
-// What the rows at `first` have beside the coordinates.
+// Returns the properties beside the coordinates, for rows that begin at `first`.
 std::vector<MappedScalar> scalars_of(const PlyElement& vertex, const VertexRow& row,
                                      const std::byte* first) {
   std::vector<MappedScalar> scalars;
@@ -91,7 +91,7 @@ struct Rows {
   std::size_t face_bytes = 0;
 };
 
-// What the bytes hold, if it can be used where it lies.
+// Describes the content of the bytes if it can be used in place.
 std::optional<Rows> rows_in(const ShapeSource& source) {
   if (!looks_like_ply(source.bytes)) return {};
   const PlyHeader header = parse_ply_header(source);
@@ -104,7 +104,7 @@ std::optional<Rows> rows_in(const ShapeSource& source) {
   if (!row || vertex.count == 0 || vertex.count > std::numeric_limits<std::uint32_t>::max()) {
     return {};
   }
-  // The size must be right to the byte; counts are as claimed and may be anything.
+  // Counts in the header may be wrong: the size must match to the byte.
   const std::uint64_t left = source.bytes.size() - header.body;
   if (vertex.count > left / row->stride) return {};
   if (face.count == 0) return {};
@@ -121,8 +121,8 @@ std::optional<Rows> rows_in(const ShapeSource& source) {
               .face_bytes = left - vertex.count * row->stride};
 }
 
-// In 16 faces the lengths come back to the same places of 16-byte vectors: whole vectors of bytes
-// are compared, of which only lengths count.
+// After 16 faces, lengths are at the same positions of 16-byte vectors again. Whole vectors of
+// bytes are compared, and the mask selects the lengths.
 constexpr std::size_t kRound = 16;
 constexpr auto kLengths = [] {
   std::array<std::uint8_t, kRound * kFaceBytes> mask{};
@@ -161,19 +161,19 @@ bool MappedMesh::counts_are_three(std::size_t first, std::size_t n) const {
 void MappedMesh::release(std::size_t first, std::size_t n) const {
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
   const auto faces = static_cast<std::size_t>(view_.triangles - static_cast<std::byte*>(map_)) - 1;
-  // Whole pages: the first from its start on, for what is before has been worked through, but not
-  // the last, unless it is the file's.
+  // Releases whole pages. The first page is included, because all data before `first` are done. The
+  // last page is included only if it ends the file.
   const std::size_t begin = (faces + first * kFaceBytes) / page * page;
   const std::size_t end = faces + (first + n) * kFaceBytes;
   const std::size_t last = end == size_ ? end : end / page * page;
-  // A wish that may be refused without harm.
+  // The system may ignore this advice without harm.
   if (last > begin) ::madvise(static_cast<std::byte*>(map_) + begin, last - begin, MADV_DONTNEED);
 }
 
 void release_vertices(const MappedMesh& mesh, std::size_t first, std::size_t n) {
   const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   const MeshView& view = mesh.view();
-  // Whole pages, as above; what lies behind the vertices is the file's too.
+  // Releases whole pages, as above; the bytes after the vertices belong to the file, too.
   const auto page_of = [&](std::size_t vertex) {
     const std::byte* const at = view.vertices + vertex * view.vertex_stride;
     return const_cast<std::byte*>(at - reinterpret_cast<std::uintptr_t>(at) % page);

@@ -30,7 +30,7 @@ void take(const std::byte* face, Corners& corners) {
   std::memcpy(corners.index.data(), face + 1, 4 * corners.n);
 }
 
-// As FaceList: corners of polygons that are equal to the one before go.
+// Removes corners of polygons that are equal to the corner before, as FaceList does.
 void clean(Corners& corners) {
   if (corners.n <= 3) return;
   const auto begin = corners.index.begin();
@@ -39,7 +39,7 @@ void clean(Corners& corners) {
   corners.n = static_cast<std::size_t>(end - begin);
 }
 
-// Cuts polygons into triangles, with their corners alone.
+// Triangulates polygons one at a time, with the positions of their own corners only.
 class Cutter {
  public:
   explicit Cutter(const MeshView& mesh) : mesh_(mesh) {}
@@ -65,7 +65,7 @@ class Cutter {
   std::vector<Triangle> triangles_;
 };
 
-// Tells what has been passed over in blocks.
+// Releases faces in blocks after they have been visited.
 class FaceRelease {
  public:
   explicit FaceRelease(const MappedMesh& mesh) : mesh_(mesh) {}
@@ -83,7 +83,7 @@ class FaceRelease {
 
 }  // namespace
 
-// Whether the faces fill the bytes, with indices in range.
+// Returns true if the faces fill the bytes and their indices are in range.
 bool MappedPolygons::survey(std::size_t bytes) {
   const MeshView& view = vertices_.view();
   const std::byte* const faces = view.triangles - 1;

@@ -1,4 +1,4 @@
-// A mesh in a binary PLY whose faces have any number of corners, where it lies. Layer: io, private.
+// A mesh in a mapped binary PLY whose faces have any number of corners. Layer: io, private.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +16,12 @@ namespace rholm {
 
 class MappedPolygons {
  public:
-  // Vertices, and no triangles.
+  // Returns the vertices, without triangles.
   const MappedMesh& vertices() const { return vertices_; }
   std::size_t n_triangles() const { return n_triangles_; }
   std::size_t skipped() const { return skipped_; }  // faces with fewer than three corners
 
-  // The triangles of all faces, as FaceList has them; what was visited is released.
+  // Calls visit for the triangles of all faces, as FaceList makes them; releases visited faces.
   void visit(const std::function<void(const Triangle&)>& visit) const;
 
  private:
@@ -35,8 +35,8 @@ class MappedPolygons {
   std::size_t n_triangles_ = 0, skipped_ = 0;
 };
 
-// As map_mesh(), of faces with any number of corners; all of them are looked at, and a file with
-// anything wrong in its faces is none.
+// Maps a file as map_mesh() does, but with any number of corners per face. Checks all faces, and
+// returns nothing if a face is invalid.
 std::optional<MappedPolygons> map_polygons(const std::filesystem::path& path,
                                            const Context& context);
 

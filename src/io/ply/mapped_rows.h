@@ -1,4 +1,4 @@
-// The rows of a binary PLY of a mesh where they lie. Layer: io, private.
+// The rows of a mapped binary PLY of a mesh. Layer: io, private.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 
 namespace rholm {
 
-inline constexpr std::size_t kFaceBytes = 1 + 3 * 4;  // of a triangle: the length, three indices
+inline constexpr std::size_t kFaceBytes = 1 + 3 * 4;  // a triangle: its length and three indices
 
-// What map_mesh() maps, before it is known how many corners faces have: the view shows no triangle,
-// but where the first one would be.
+// The result of mapping before the numbers of corners are known: the view has no triangles, but
+// points to where the first triangle would be.
 struct MappedRows {
   MappedMesh mesh;
   std::uint64_t n_faces = 0;
-  std::size_t face_bytes = 0;  // of all faces, to the end of the file
+  std::size_t face_bytes = 0;  // all faces, to the end of the file
 };
 std::optional<MappedRows> map_rows(const std::filesystem::path& path, const Context& context);
 

@@ -9,7 +9,7 @@
 namespace rholm {
 namespace {
 
-// Decodes n values that lie `stride` bytes apart into `out`, `out_stride` doubles apart.
+// Decodes n values at intervals of `stride` bytes into `out`, at intervals of `out_stride` doubles.
 using Decoder = void (*)(const char* first, std::size_t stride, std::size_t n, double* out,
                          std::size_t out_stride);
 
@@ -28,7 +28,7 @@ Decoder decoder_of(ScalarType type, bool swap) {
   });
 }
 
-// An integer of a list: its length, or an index. (The largest, uint32, fits.)
+// Loads an integer of a list: its length, or an index. (The largest type, uint32, fits.)
 template <bool kSwap>
 std::int64_t load_integer(const char* from, ScalarType type) {
   return with_scalar_type(type, [from](auto tag) {
@@ -45,7 +45,7 @@ bool has_list(const PlyElement& element, std::size_t first, std::size_t last) {
                      [](const PlyProperty& p) { return p.is_list; });
 }
 
-// Bytes of the properties [first, last) of a row, none of them a list.
+// Returns the bytes of the properties [first, last) of a row, none of which is a list.
 std::size_t fixed_size(const PlyElement& element, std::size_t first, std::size_t last) {
   std::size_t size = 0;
   for (std::size_t i = first; i < last; ++i) size += size_of(element.properties[i].type);
@@ -53,7 +53,7 @@ std::size_t fixed_size(const PlyElement& element, std::size_t first, std::size_t
 }
 
 struct Column {
-  std::size_t offset = 0;  // of the value in its row
+  std::size_t offset = 0;  // bytes before the value in its row
   Decoder decoder = nullptr;
   PlyVertices::Slot slot;
 };
@@ -89,7 +89,7 @@ void PlyBinaryBody::fail_truncated(const PlyElement& element) const {
                " rows of element " + in_quotes(element.name) + " do");
 }
 
-// That n things of `size` bytes are left.
+// Throws unless n items of `size` bytes are left.
 void PlyBinaryBody::require(const PlyElement& element, std::uint64_t n, std::size_t size) const {
   if (size > 0 && n > left() / size) fail_truncated(element);
 }
@@ -151,7 +151,7 @@ void PlyBinaryBody::read_vertices(const PlyElement& element, PlyVertices& vertic
   }
 }
 
-// Rows with lists have no fixed size: value by value.
+// Rows with lists have no fixed size: reads value by value.
 void PlyBinaryBody::read_varying_vertices(const PlyElement& element, PlyVertices& vertices) {
   std::size_t in_block = 0;
   for (std::uint64_t row = 0; row < element.count; ++row) {
@@ -177,7 +177,7 @@ void PlyBinaryBody::read_varying_vertices(const PlyElement& element, PlyVertices
 
 void PlyBinaryBody::read_faces(const PlyElement& element, std::size_t list, PlyFaces& faces) {
   const PlyProperty& property = element.properties[list];
-  // A face has at least its count; most have three corners.
+  // A face has at least its count, and most faces have three corners.
   require(element, element.count, size_of(property.count_type));
   const std::size_t triangle = size_of(property.count_type) + 3 * size_of(property.type);
   faces.list.reserve(std::min<std::uint64_t>(element.count, left() / triangle));
@@ -219,8 +219,8 @@ void PlyBinaryBody::read_face_rows(const PlyElement& element, std::size_t list, 
   }
 }
 
-// The usual layout: a byte 3 and three 4-byte indices. Returns the number of rows read, up to the
-// first that is not a triangle.
+// Reads the usual layout: a byte 3 and three 4-byte indices. Returns the number of rows read, which
+// end before the first face that is not a triangle.
 template <bool kSwap>
 std::uint64_t PlyBinaryBody::read_plain_triangles(const PlyElement& element, PlyFaces& faces) {
   constexpr std::size_t kStride = 1 + 3 * 4;
@@ -237,7 +237,7 @@ std::uint64_t PlyBinaryBody::read_plain_triangles(const PlyElement& element, Ply
                   load<std::uint32_t, kSwap>(corners + 8)};
       largest = std::max({largest, block[i][0], block[i][1], block[i][2]});
     }
-    // An index that is out of range is left to the loop over rows, which names its face.
+    // The loop over rows handles an index out of range, because it names the face.
     if (largest >= faces.n_vertices()) break;
     faces.list.add_triangles(std::span(block).first(i));
     at_ += i * kStride;

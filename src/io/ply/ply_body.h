@@ -10,15 +10,15 @@
 
 namespace rholm {
 
-// Where faces go, from lists or strips, with the check of their indices.
+// Collects faces from lists or strips and checks their indices.
 class PlyFaces {
  public:
   PlyFaces(const ShapeSource& source, std::uint64_t n_vertices)
       : source_(source), n_vertices_(n_vertices) {}
 
   std::uint64_t n_vertices() const { return n_vertices_; }
-  // One more corner of a strip: -1 ends it, the next index begins another. Every second triangle
-  // of a strip is turned; those with equal corners only join strips and are left out.
+  // Adds a corner of a strip; -1 ends the strip, and the next index begins another. Reverses every
+  // second triangle, and skips triangles with equal corners, which only join strips.
   void add_to_strip(std::int64_t index);
   void end_strip() { strip_length_ = 0; }
   [[noreturn]] void fail_index(std::uint64_t face, std::int64_t index) const;
@@ -32,9 +32,9 @@ class PlyFaces {
   std::uint32_t strip_[2] = {};  // the last two corners
 };
 
-// Reads elements one after the other. `element` is always the next one of the header. All throw
-// InvalidInput if the data are truncated or malformed; a count that the rest of the file cannot
-// hold is refused before anything is allocated for it.
+// Reads elements in order: `element` is always the next one of the header. All members throw
+// InvalidInput if the data are truncated or malformed. A count that the rest of the file cannot
+// hold is refused before memory is allocated for it.
 class PlyBinaryBody {
  public:
   PlyBinaryBody(const ShapeSource& source, const PlyHeader& header);
@@ -69,7 +69,7 @@ class PlyTextBody {
   void read_faces(const PlyElement& element, std::size_t list, PlyFaces& faces);
   void read_strips(const PlyElement& element, std::size_t list, PlyFaces& faces);
   void skip(const PlyElement& element);
-  std::size_t left();  // bytes behind the last element, without spaces
+  std::size_t left();  // bytes after the last element, without spaces
 
  private:
   void require_rows(const PlyElement& element) const;

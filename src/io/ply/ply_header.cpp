@@ -32,7 +32,7 @@ const TypeName& entry(ScalarType type) {
                        [type](const TypeName& t) { return t.type == type; });
 }
 
-// Reads the header line by line; a line's words are taken one after the other.
+// Reads the header line by line and each line word by word.
 class HeaderReader {
  public:
   explicit HeaderReader(const ShapeSource& source) : source_(source), text_(source.bytes) {}
@@ -124,7 +124,7 @@ class HeaderReader {
          "float64)");
   }
 
-  // The next word of this line, or nothing at its end.
+  // Returns the next word of this line, or nothing at its end.
   std::string_view word() {
     skip_blanks(text_);
     if (text_.at_end() || is_line_end(*text_.at)) return {};
@@ -142,7 +142,7 @@ class HeaderReader {
     if (pair) ++text_.at;
   }
 
-  // The data begin right behind the line's end; where lines end with \r alone, a \n is data.
+  // The data begin right after the line end. If lines end with \r alone, a \n belongs to the data.
   void end_of_header() {
     skip_blanks(text_);
     if (!text_.at_end() && *text_.at == '\r') {
@@ -165,7 +165,7 @@ class HeaderReader {
   bool only_return_ = false;
   std::size_t lines_read_ = 0;
   std::unordered_set<std::string> element_names_;
-  std::unordered_set<std::string> property_names_;  // of the last element
+  std::unordered_set<std::string> property_names_;  // names in the last element
 };
 
 }  // namespace

@@ -14,9 +14,9 @@ namespace rholm {
 
 struct PlyProperty {
   std::string name;
-  ScalarType type = ScalarType::kFloat32;  // of the value, or of a list's items
+  ScalarType type = ScalarType::kFloat32;  // type of the value, or of a list's items
   bool is_list = false;
-  ScalarType count_type = ScalarType::kUint8;  // of a list's length
+  ScalarType count_type = ScalarType::kUint8;  // type of a list's length
 };
 
 struct PlyElement {
@@ -30,18 +30,18 @@ enum class PlyEncoding { kAscii, kLittleEndian, kBigEndian };
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::kAscii;
   std::vector<PlyElement> elements;
-  std::size_t body = 0;  // where the data begin
+  std::size_t body = 0;  // byte at which the data begin
 };
 
 // Throws InvalidInput with the line.
 PlyHeader parse_ply_header(const ShapeSource& source);
 
-// The element of that name or nullptr; the place of a property or kNoProperty.
+// Return the element of this name or nullptr, and the index of a property or kNoProperty.
 const PlyElement* find_element(const PlyHeader& header, const char* name);
 inline constexpr std::size_t kNoProperty = SIZE_MAX;
 std::size_t find_property(const PlyElement& element, const std::string& name);
 
-// Of an element that is not read: "element 'edge' with 3 rows passed over".
+// Returns a warning about an element that is not read: "element 'edge' with 3 rows passed over".
 std::string passed_over_warning(const PlyElement& element);
 
 std::size_t size_of(ScalarType type);        // in bytes

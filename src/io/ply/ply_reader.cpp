@@ -1,4 +1,4 @@
-// PLY: an element of vertices, one of faces (or triangle strips), others passed over.
+// PLY: reads one element of vertices and one of faces (or triangle strips); ignores others.
 #include <algorithm>
 #include <limits>
 
@@ -34,7 +34,7 @@ void PlyFaces::add_to_strip(std::int64_t index) {
 
 namespace {
 
-// The list of corners of an element of faces; throws if it has none.
+// Returns the index of the list of corners in an element of faces; throws if there is none.
 std::size_t find_corner_list(const ShapeSource& source, const PlyElement& element) {
   for (const char* name : {"vertex_indices", "vertex_index"}) {
     const std::size_t place = find_property(element, name);

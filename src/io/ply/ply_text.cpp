@@ -10,7 +10,7 @@ PlyTextBody::PlyTextBody(const ShapeSource& source, const PlyHeader& header)
   text_.at += header.body;
 }
 
-// What stands here is not `wanted`, or the text ends.
+// Reports a word that is not `wanted`, or the end of the text.
 void PlyTextBody::fail_value(const PlyElement& element, const char* wanted) const {
   if (text_.at_end()) {
     source_.fail("truncated: the file ends before the " + std::to_string(element.count) +
@@ -21,7 +21,7 @@ void PlyTextBody::fail_value(const PlyElement& element, const char* wanted) cons
                source_.lines_before);
 }
 
-// A value takes at least a digit and a space, the last one only the digit.
+// A value takes at least a digit and a space, the last value only the digit.
 void PlyTextBody::require_rows(const PlyElement& element) const {
   const std::size_t values = static_cast<std::size_t>(text_.end - text_.at) / 2 + 1;
   if (element.properties.empty() || element.count <= values / element.properties.size()) return;
@@ -60,8 +60,8 @@ std::uint64_t PlyTextBody::take_count(const PlyElement& element) {
   return static_cast<std::uint64_t>(count);
 }
 
-// Values are stepped over as words: what they mean does not matter. The end of the text is found
-// by the first word that is missing, whatever the length of a list claims.
+// Skips values as words, because their meaning does not matter. The first missing word shows the
+// end of the text, however long a list claims to be.
 void PlyTextBody::skip_properties(const PlyElement& element, std::size_t first, std::size_t last) {
   for (std::size_t i = first; i < last; ++i) {
     const std::uint64_t n = element.properties[i].is_list ? take_count(element) : 1;

@@ -6,8 +6,8 @@
 namespace rholm {
 namespace {
 
-// 1024 positions are 24 kB, which stay in the first-level cache beside their bytes; with many
-// properties the blocks shrink, so that all together never exceed 512 kB.
+// 1024 positions have 24 kB and stay in the first-level cache together with their bytes. With many
+// properties the blocks are smaller, so that they never exceed 512 kB in total.
 std::size_t rows_per_block(std::size_t n_properties) {
   constexpr std::size_t kMostRows = 1024;
   constexpr std::size_t kMostValues = 65536;
@@ -45,7 +45,7 @@ PlyVertices::PlyVertices(const ShapeSource& source, const PlyElement& element, b
   }
 }
 
-// The three scalar properties of these names, if all are there, as a vector per row.
+// Claims the three scalar properties of these names, if all exist, as a vector per row.
 bool PlyVertices::claim_vector(const PlyElement& element, const char* const (&names)[3],
                                std::vector<Vec3>& block) {
   std::size_t places[3];
@@ -70,7 +70,7 @@ void PlyVertices::append_block(std::size_t rows) {
   const std::size_t before = source_.rows_before + positions.size();
   append(positions, position_block_, rows);
   if (!normal_block_.empty()) append(normals, normal_block_, rows);
-  // Points that are not finite are dropped once all are there.
+  // Points that are not finite are dropped after all have been read.
   if (!points_) {
     check_finite(source_, std::span(position_block_).first(rows), before, "vertex", "coordinate");
   }

@@ -1,4 +1,4 @@
-// Where the values of a PLY vertex go. Layer: io.
+// The destination of the values of PLY vertices. Layer: io.
 #pragma once
 
 #include <cstddef>
@@ -10,18 +10,18 @@
 
 namespace rholm {
 
-// Collects vertices by blocks of rows: a reader writes the values of a block into the slots of its
-// properties, then the block is checked and appended. (Appending blocks that are in the cache
-// saves clearing the large arrays first.)
+// Collects vertices in blocks of rows. A reader writes the values of a block into the slots of its
+// properties; then the block is checked and appended. (Appending blocks from the cache avoids
+// clearing the large arrays first.)
 class PlyVertices {
  public:
-  // One place to write a property's values: row i goes to first[i * stride]; nullptr: not wanted.
+  // A destination for a property: row i goes to first[i * stride]; nullptr means not wanted.
   struct Slot {
     double* first = nullptr;
     std::size_t stride = 1;
   };
 
-  // `points`: normals are those of points, not attributes. Throws InvalidInput without x, y, z.
+  // `points`: normals belong to points, not to attributes. Throws InvalidInput without x, y, z.
   PlyVertices(const ShapeSource& source, const PlyElement& element, bool points);
 
   std::size_t block_rows() const { return block_rows_; }

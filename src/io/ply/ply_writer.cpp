@@ -18,13 +18,13 @@
 namespace rholm {
 namespace {
 
-// A column of a vertex: `count` values `stride` doubles apart.
+// A column of the vertex rows: values at intervals of `stride` doubles.
 struct OutputColumn {
   std::string name;
   ScalarType type = ScalarType::kFloat64;
   const double* values = nullptr;
   std::size_t stride = 1;
-  // Of what may not lie in memory as doubles: of a point, or a scalar.
+  // Set if the values may not be in memory as doubles: an axis of the points, or scalars.
   std::optional<std::size_t> axis = {};
   const ScalarRange* scalars = nullptr;
 };
@@ -36,7 +36,7 @@ struct RowBlock {
   std::array<Vec3, kBlock> points;
 };
 
-// The values of a block's rows, `stride` doubles apart; `room` for those that must be brought.
+// Returns a block's values at intervals of `stride` doubles; values not in memory go into `room`.
 const double* values_of(const OutputColumn& column, const RowBlock& block,
                         std::array<double, kBlock>& room) {
   if (column.axis) return &block.points[0].x + *column.axis;
@@ -45,8 +45,8 @@ const double* values_of(const OutputColumn& column, const RowBlock& block,
   return room.data();
 }
 
-// The attribute's own type if it holds all values exactly, else double: nothing is lost. What lies
-// in a file has its type already.
+// Returns the attribute's own type if it holds all values exactly, otherwise double, so that no
+// digits are lost. Values in a file always fit their type.
 ScalarType stored_type(const ScalarRange& attribute, std::size_t n) {
   const double* const values = attribute.in_memory();
   const auto fits = [&](double value) { return is_value_of(attribute.type, value); };
@@ -54,7 +54,7 @@ ScalarType stored_type(const ScalarRange& attribute, std::size_t n) {
                                                                     : ScalarType::kFloat64;
 }
 
-// A name PLY can hold (printable, without blanks) that is not taken yet.
+// Returns an unused name that PLY can hold (printable, without blanks).
 std::string free_name(const std::string& wanted, std::set<std::string>& taken) {
   std::string name;
   for (const char c : wanted) name += c > 0x20 && c != 0x7f ? c : '_';
@@ -120,7 +120,7 @@ void put_header(const Counts& counts, const std::vector<OutputColumn>& columns, 
   out.text("end_header\n");
 }
 
-// Writes one value of each row of a block, `row_size` bytes apart.
+// Writes one value of each row of a block, at intervals of `row_size` bytes.
 template <class T>
 void encode(const double* values, std::size_t stride, std::size_t n, char* to,
             std::size_t row_size) {
@@ -147,7 +147,7 @@ void visit_rows(const PointRange& points, const Visit& visit) {
 
 constexpr std::size_t kBinaryTriangle = 13;  // bytes: a count and three indices
 
-// Where `to` is, rows of all columns; returns the end.
+// Writes rows of all columns to `to`; returns the end.
 char* put_binary_rows(const std::vector<OutputColumn>& columns, const RowBlock& block,
                       std::size_t row_size, char* to) {
   char* const end = to + block.n * row_size;
@@ -177,7 +177,7 @@ void put_binary_rows(const std::vector<OutputColumn>& columns, const PointRange&
   });
 }
 
-// Returns the end.
+// Writes a triangle; returns the end.
 template <class Index>
 char* store_triangle(const std::array<Index, 3>& t, char* to) {
   *to = 3;
@@ -194,7 +194,7 @@ void put_binary_triangles(const TriangleRange& triangles, OutputBuffer& out) {
   });
 }
 
-// Floats with the digits that read back as the same float, others as the same double.
+// Writes floats with digits that read back as the same float, other values as the same double.
 void put_text_rows(const std::vector<OutputColumn>& columns, const PointRange& points,
                    OutputBuffer& out) {
   std::vector<std::array<double, kBlock>> rooms(columns.size());
@@ -259,7 +259,7 @@ void PlyPoints::put(const PointCloud& piece) {
 
 namespace {
 
-// Indices of a PLY have 32 bits.
+// PLY indices have 32 bits.
 constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 32;
 
 std::vector<OutputColumn> columns_of_part(const Mesh& part) {

@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, 6> kNormalWords = {"normal", "normals", "
 constexpr std::array<std::string_view, 8> kColorWords = {"color", "colors", "colour",  "colours",
                                                          "rgb",   "rgba",   "diffuse", "col"};
 
-// A name without its unit, and the unit.
+// The words of a name without its unit, and the unit.
 struct PlainName {
   std::vector<std::string> words;
   std::string unit;
@@ -66,7 +66,7 @@ PlainName plain_name(const std::string& name) {
 
 enum class Kind { kPoint, kNormal, kColor };
 
-// The place of an axis or a channel, 0 ... 3.
+// Return the index of an axis or a channel, 0 ... 3.
 std::optional<int> axis_of(std::string_view word) {
   for (int k = 0; k < 3; ++k) {
     if (word == std::string(1, static_cast<char>('x' + k)) || word == std::to_string(k)) return k;
@@ -96,7 +96,7 @@ std::optional<Kind> kind_of(std::string_view word) {
   return std::nullopt;
 }
 
-// One word for kind and place: "nx", "normalx", "xcoord", "posy".
+// Returns the role of one word for kind and axis or channel: "nx", "normalx", "xcoord", "posy".
 std::optional<Role> role_of_compact(std::string_view word) {
   for (const bool behind : {true, false}) {
     if (word.size() < 2) break;
@@ -110,7 +110,7 @@ std::optional<Role> role_of_compact(std::string_view word) {
   return std::nullopt;
 }
 
-// The role that the words of one name have alone.
+// Returns the role that the words of one name have, independently of other names.
 std::optional<Role> role_of_words(const std::vector<std::string>& words) {
   if (words.empty() || words.size() > 3) return std::nullopt;
   if (words.size() == 1) {
@@ -182,7 +182,7 @@ class NameReader {
  private:
   bool is_free(std::size_t k) const { return result_.roles[k] == Role::kScalar; }
 
-  // The column of a role: one whose name is just that, else the first that means it.
+  // Finds the column of a role: a name equal to the role, otherwise the first with this meaning.
   std::optional<std::size_t> find(Role role) const {
     std::optional<std::size_t> found;
     for (std::size_t k = 0; k < names_.size(); ++k) {
@@ -193,7 +193,7 @@ class NameReader {
     return found;
   }
 
-  // All of the roles, or none.
+  // Takes columns for all of the roles, or for none.
   bool take_group(const std::vector<Role>& roles) {
     std::vector<std::size_t> places;
     for (const Role role : roles) {

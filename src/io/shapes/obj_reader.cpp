@@ -1,6 +1,6 @@
-// OBJ: vertices, normals, texture coordinates, faces; the rest is passed over.
+// OBJ: reads vertices, normals, texture coordinates and faces; ignores other statements.
 // Source: Wavefront Advanced Visualizer manual, appendix B1, and the colours (v x y z r g b) and
-// weights that later writers add.
+// weights of later writers.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -20,18 +20,18 @@
 namespace rholm {
 namespace {
 
-// Normals and texture coordinates of OBJ corners, brought to the vertices.
+// Converts normals and texture coordinates of OBJ corners to values of vertices.
 
-// What the corners of faces say of their vertices: an index of a normal, or of a texture
-// coordinate, for each. Kept as long as no vertex has two different ones.
+// The index of a normal, or of a texture coordinate, that the corners of faces give to each vertex.
+// Used as long as no vertex has two different values.
 class CornerData {
  public:
-  // `values` are those defined so far, numbered like `index`.
+  // `values` are the values defined so far, with the numbering of `index`.
   template <class Value>
   void assign(std::uint32_t vertex, std::uint32_t index, std::size_t n_vertices,
               const std::vector<Value>& values) {
     if (vertex >= n_vertices) {
-      ahead_.push_back({vertex, index});  // a face before its vertices
+      ahead_.push_back({vertex, index});  // the face precedes its vertices
       return;
     }
     if (index_.size() <= vertex) index_.resize(n_vertices, kNone);
@@ -43,7 +43,7 @@ class CornerData {
     }
   }
 
-  // One value per vertex, if every vertex of a triangle has exactly one (others get zeros).
+  // Returns one value per vertex if every vertex of a triangle has one; other vertices get zeros.
   template <class Value>
   std::vector<Value> values_of(const Mesh& mesh, const std::vector<Value>& values) {
     const std::size_t n = mesh.vertices.size();
@@ -85,7 +85,7 @@ bool contains(const std::array<std::string_view, kSize>& words, std::string_view
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// Blanks, and line ends behind a backslash.
+// Skips blanks, and line ends after a backslash.
 void skip_gap(TextCursor& text) {
   for (;;) {
     skip_blanks(text);
@@ -102,7 +102,7 @@ bool at_statement_end(const TextCursor& text) {
   return text.at_end() || is_line_end(*text.at) || *text.at == '#';
 }
 
-// The largest index of a kind that faces name and where: to be compared when all are known.
+// The largest index of a kind in the faces and its position, to be checked when all are known.
 struct Reach {
   std::uint32_t largest = 0;
   const char* where = nullptr;
@@ -129,7 +129,7 @@ class ObjReader {
  private:
   using Texture = std::array<double, 2>;
 
-  // Counts the lines of each kind, so that no array is there twice while it grows.
+  // Counts the lines of each kind, so that no array is copied while it grows.
   void reserve() {
     std::size_t vertices = 0, normals = 0, textures = 0;
     CancelPoll poll;
@@ -142,7 +142,7 @@ class ObjReader {
       line = end == nullptr ? text_.end : static_cast<const char*>(end) + 1;
       poll();
     }
-    // "v 0 0 0" with its line end has 8 bytes, and so has "f 1 1 1"; "vt 0" has 5.
+    // "v 0 0 0" and "f 1 1 1" have 8 bytes with their line end; "vt 0" has 5.
     const std::size_t most = source_.bytes.size() / 8 + 1;
     vertices_.reserve(std::min(vertices, most));
     normals_.reserve(std::min(normals, most));
@@ -174,7 +174,7 @@ class ObjReader {
     skip_to_line_end(text_);
   }
 
-  // Reads numbers to the end of the statement; more than fit are an error.
+  // Reads numbers to the end of the statement; more than kMost are an error.
   template <std::size_t kMost>
   std::size_t take_numbers(std::array<double, kMost>& numbers) {
     for (std::size_t n = 0;; ++n) {
@@ -222,13 +222,13 @@ class ObjReader {
       if (at_statement_end(text_)) break;
       read_corner();
     }
-    // Polygons are kept elsewhere.
+    // Polygons are stored elsewhere.
     if (n_faces_ == 0 && corners_.size() == 3) faces_.reserve(face_lines_);
     faces_.add(corners_);
     ++n_faces_;
   }
 
-  // a, a/b, a//c, a/b/c
+  // Reads a corner: a, a/b, a//c or a/b/c.
   void read_corner() {
     const std::uint32_t vertex = take_index(vertices_.size(), vertex_reach_);
     corners_.push_back(vertex);
@@ -252,7 +252,7 @@ class ObjReader {
     fail_here("does not belong to a corner of a face (a, a/b, a//c or a/b/c)");
   }
 
-  // An index counts from 1, or from the last one backwards: -1.
+  // Returns an index: it counts from 1, or backwards from the last one, -1.
   std::uint32_t take_index(std::size_t n_so_far, Reach& reach) {
     std::int64_t index = 0;
     if (!take_integer(text_, index)) fail_here("is not an index");
@@ -374,15 +374,15 @@ class ObjReader {
 
   const ShapeSource& source_;
   TextCursor text_;
-  std::optional<TextCursor> not_finite_;  // the first vertex that is not
+  std::optional<TextCursor> not_finite_;  // the first vertex that is not finite
   std::vector<Vec3> vertices_;
   std::vector<Vec3> colors_;
   std::vector<Vec3> normals_;
   std::vector<Texture> textures_;
   FaceList faces_;
   std::size_t n_faces_ = 0;
-  std::size_t face_lines_ = 0;          // at most, about
-  std::vector<std::uint32_t> corners_;  // of the face being read
+  std::size_t face_lines_ = 0;          // approximate upper limit
+  std::vector<std::uint32_t> corners_;  // corners of the face being read
   CornerData normal_of_;
   CornerData texture_of_;
   Reach vertex_reach_, normal_reach_, texture_reach_;
@@ -395,7 +395,7 @@ class ObjReader {
 
 ShapeFile read_obj(const ShapeSource& source) { return ObjReader(source).read(); }
 
-// Only statements that OBJ knows, down to the first vertex.
+// Returns true if only OBJ statements precede the first vertex.
 bool looks_like_obj(std::span<const char> bytes) {
   TextCursor text(bytes);
   for (;;) {

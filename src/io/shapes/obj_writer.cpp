@@ -4,7 +4,7 @@
 namespace rholm {
 namespace {
 
-// Colours of OBJ files run from 0 to 1.
+// Returns a colour in the range of OBJ files, 0 to 1.
 double color_value(const ScalarRange& color, std::size_t i) {
   return color.type == ScalarType::kUint8 ? color[i] / 255 : color[i];
 }
@@ -22,7 +22,7 @@ void put_positions(const ShapeView& shape, OutputBuffer& out) {
   });
 }
 
-// a, a/a, a//a or a/a/a
+// Writes a, a/a, a//a or a/a/a.
 void put_corner(std::uint32_t vertex, bool texture, bool normal, OutputBuffer& out) {
   const std::uint64_t index = std::uint64_t{vertex} + 1;
   out.text(" ");

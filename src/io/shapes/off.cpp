@@ -1,7 +1,7 @@
 // OFF: a header word [ST][C][N]OFF, counts, vertices, faces; # begins a comment.
-// Source: Geomview manual, "OFF Files". Per vertex: x y z, then (N) a normal, (C) a colour, (ST)
-// texture coordinates. Differs from it where later writers do: the counts may lack the edges, a
-// vertex colour may have three or four components, integers 0 ... 255 or fractions.
+// Source: Geomview manual, "OFF Files". A vertex has x y z, then (N) a normal, (C) a colour, (ST)
+// texture coordinates. As in later writers, the counts may lack the edges, and a vertex colour may
+// have three or four components, integers 0 ... 255 or fractions.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -24,7 +24,7 @@ struct OffKind {
   bool n_dimensional = false;
 };
 
-// The variant a header word names; false if it is none.
+// Parses the variant that a header word names; returns false if it is no header word.
 bool parse_header_word(std::string_view word, OffKind& kind) {
   const auto take = [&word](std::string_view prefix) {
     if (!word.starts_with(prefix)) return false;
@@ -39,7 +39,7 @@ bool parse_header_word(std::string_view word, OffKind& kind) {
   return word == "OFF";
 }
 
-// To the next word, over comments and line ends.
+// Moves to the next word, over comments and line ends.
 void skip_to_word(TextCursor& text) {
   for (;;) {
     skip_spaces(text);
@@ -76,7 +76,7 @@ class OffReader {
     TextCursor after = text_;
     const std::string_view word = take_word(after);
     if (!parse_header_word(word, kind_)) {
-      kind_ = {};  // the header word may be missing: then the counts come first
+      kind_ = {};  // without a header word, the counts come first
       return;
     }
     text_ = after;
@@ -94,7 +94,7 @@ class OffReader {
     n_faces_ = take_count_of_line("the number of faces");
     if (!at_line_data_end(text_)) take_count("the number of edges");
     if (n_vertices_ == 0) source_.fail("has no vertices");
-    // At least "0 0 0\n" and "1 0\n"; the last line end may be missing.
+    // A vertex takes at least "0 0 0\n", a face "1 0\n"; the last line end may be missing.
     const auto left = static_cast<std::size_t>(text_.end - text_.at) + 1;
     if (n_vertices_ > left / 6 || n_faces_ > (left - 6 * n_vertices_) / 4) {
       source_.fail("truncated: the " + std::to_string(source_.bytes.size()) +
@@ -110,7 +110,7 @@ class OffReader {
     vertices_.reserve(n_vertices_);
     for (std::uint64_t i = 0; i < n_vertices_; ++i) {
       const Vec3 position = take_vector();
-      // Points that are not finite are dropped once all are there.
+      // Points that are not finite are dropped after all have been read.
       if (n_faces_ > 0 && !is_finite(position)) fail_line("a coordinate is not a finite number");
       vertices_.push_back(position);
       if (kind_.normals) normals_.push_back(take_vector());
@@ -121,8 +121,8 @@ class OffReader {
     }
   }
 
-  // How many components colours have is seen from what is left of the first vertex's line. A file
-  // without the C may have colours all the same.
+  // The rest of the first vertex's line gives the number of colour components. A file without the C
+  // may still have colours.
   void plan_colors() {
     TextCursor rest = text_;
     std::size_t n = 0;
@@ -277,7 +277,7 @@ class OffReader {
   bool colors_are_bytes_ = true;
   double largest_color_ = 0;
   FaceList faces_;
-  std::vector<std::uint32_t> corners_;  // of the face being read
+  std::vector<std::uint32_t> corners_;  // corners of the face being read
   std::vector<std::string> warnings_;
 };
 

@@ -11,9 +11,9 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kMostValues = 5;  // of a row; more are no row of a plate model
+constexpr std::size_t kMostValues = 5;  // per row; longer rows are not part of a plate model
 
-// The values of a row; n is above kMostValues for a row that is longer or has what is no number.
+// The values of a row; n is above kMostValues if the row is longer or has a cell without a number.
 struct Row {
   std::array<double, kMostValues> values = {};
   std::size_t n = 0;
@@ -47,7 +47,7 @@ class Rows {
     return true;
   }
   TextCursor text;
-  TextCursor begin = text;  // of the last row
+  TextCursor begin = text;  // start of the last row
 
  private:
   TableSyntax blanks_;
@@ -56,7 +56,7 @@ class Rows {
 
 bool is_count(double value) { return value >= 3 && value < 4294967295.0; }
 
-// The counts of a plate model whose first row this is: of plates 0 where they come later.
+// Reads the counts from the first row of a plate model; `plates` is 0 if its count comes later.
 bool take_counts(const Row& row, double& vertices, double& plates) {
   if ((row.n != 1 && row.n != 2) || !row.whole() || !is_count(row.values[0])) return false;
   if (row.n == 2 && !(row.values[1] >= 1 && row.values[1] < 4294967295.0)) return false;
@@ -147,7 +147,7 @@ class PlateReader {
     }
   }
 
-  // Vertices are numbered as they are, else from 0 if a plate names that, and from 1 if not.
+  // Vertices keep their own numbers, or count from 0 if a plate uses 0, and otherwise from 1.
   std::vector<Triangle> triangles() const {
     double base = first_;
     if (!numbered_) {
@@ -191,8 +191,8 @@ class PlateReader {
 
 }  // namespace
 
-// A count, as many rows of three or four numbers, and then a count alone; or two counts. (One count
-// before all other rows is PWN's or PTS's.)
+// Returns true for a count, as many rows of three or four numbers, and then a single count, or for
+// two counts. (One count before all rows belongs to PWN or PTS.)
 bool looks_like_plate_table(std::span<const char> bytes) {
   Rows rows(bytes);
   Row row;

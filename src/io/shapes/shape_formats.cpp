@@ -94,7 +94,7 @@ std::vector<ShapeFormatLine> shape_format_lines() {
 const std::vector<ShapeFormatLine>& shape_format_table() {
   static const std::vector<ShapeFormatLine> table = [] {
     std::vector<ShapeFormatLine> lines = shape_format_lines();
-#ifdef RHOLM_EXTRA_SHAPE_FORMATS  // a line of tests/cli/made_up_formats.cpp
+#ifdef RHOLM_EXTRA_SHAPE_FORMATS  // tests/cli/made_up_formats.cpp adds a line here
     lines.push_back(
 #include RHOLM_EXTRA_SHAPE_FORMATS
     );

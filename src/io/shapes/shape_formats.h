@@ -1,6 +1,6 @@
-// The table of formats of shapes. A new format is a source file with its reader and writer,
-// declared in shape_source.h and shape_writers.h, and a line of the table in shape_formats.cpp.
-// Layer: io.
+// The table of formats of shapes. A new format is a source file with its reader and writer, and a
+// line of the table in shape_formats.cpp. Reader and writer are declared in shape_source.h and
+// shape_writers.h. Layer: io.
 #pragma once
 
 #include <span>
@@ -17,16 +17,16 @@ namespace rholm {
 // A line of the table.
 struct ShapeFormatLine {
   ShapeFormatInfo info = {};
-  std::string mark = {};  // with which all its files begin, or most of them; may be empty
+  std::string mark = {};  // first bytes of all or most of its files; may be empty
   ToldBy told_by = ToldBy::kNothing;
-  bool (*looks_like)(std::span<const char> bytes) = nullptr;  // for all but kNothing
-  // Asked where neither the content of any format nor the name of the file told.
+  bool (*looks_like)(std::span<const char> bytes) = nullptr;  // required unless told_by is kNothing
+  // Asked if neither content nor name of the file identifies a format.
   bool (*may_be)(std::span<const char> bytes) = nullptr;
   ShapeFile (*read)(const ShapeSource& source) = nullptr;  // null: cannot be read
   ShapeFormatter* write = nullptr;                         // null: cannot be written
 };
 
-// The lines in the order in which people see them; info.file.read and .written are set.
+// Returns the lines in the order in which people see them, with info.file.read and .written set.
 const std::vector<ShapeFormatLine>& shape_format_table();
 const ShapeFormatLine& line_of(ShapeFormat format);
 

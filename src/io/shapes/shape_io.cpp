@@ -15,7 +15,7 @@
 namespace rholm {
 namespace {
 
-// Names of formats that are often met and not read, by their first bytes.
+// Returns the name of a common format that is not read, recognised by its first bytes, or null.
 const char* foreign_format(std::span<const char> bytes) {
   struct Magic {
     std::string_view bytes;
@@ -35,7 +35,7 @@ const char* foreign_format(std::span<const char> bytes) {
   return nullptr;
 }
 
-// The first format of the table that the content is told by in that way.
+// Returns the first format of the table that the property `by` of the content identifies, or null.
 const ShapeFormatLine* told(const ShapeSource& source, ToldBy by) {
   for (const ShapeFormatLine& line : shape_format_table()) {
     if (line.told_by == by && line.looks_like != nullptr && line.looks_like(source.bytes)) {
@@ -45,7 +45,7 @@ const ShapeFormatLine* told(const ShapeSource& source, ToldBy by) {
   return nullptr;
 }
 
-// "PLY, OBJ and points as XYZ or PWN can be read".
+// Returns the formats for messages: "of shapes PLY and OBJ, and points as .xyz, can be read; ...".
 std::string what_can_be_read() {
   std::vector<std::string> meshes, points, coefficients;
   for (const ShapeFormatInfo& format : shape_formats()) {
@@ -65,7 +65,7 @@ std::string what_can_be_read() {
          ", can be read; of coefficients " + listed(coefficients, "and");
 }
 
-// "PLY, OBJ or OFF": the formats of which that is true.
+// Returns the written formats for which this is true: "PLY, OBJ or OFF".
 std::string titles_of(bool ShapeFormatInfo::*holds) {
   std::vector<std::string> titles;
   for (const ShapeFormatInfo& format : shape_formats()) {
@@ -74,7 +74,7 @@ std::string titles_of(bool ShapeFormatInfo::*holds) {
   return listed(titles, "or");
 }
 
-// What cannot be mistaken comes first, then the name, then rows of numbers, which may be much else.
+// Unmistakable content decides first, then the name, then rows of numbers, which many formats have.
 const ShapeFormatLine& detect(const ShapeSource& source) {
   for (const ToldBy by : {ToldBy::kSignature, ToldBy::kFirstWord}) {
     if (const ShapeFormatLine* line = told(source, by)) return *line;
@@ -211,7 +211,7 @@ std::optional<bool> is_shape_file(std::span<const char> beginning, const std::st
 
 ShapeFile read_shape(const std::filesystem::path& path, const ShapeReadOptions& options,
                      const Context& context) {
-  constexpr double kReadingPart = 0.3;  // of the time, for text; less for binary files: chosen
+  constexpr double kReadingPart = 0.3;  // part of the time, for text; less for binary files: chosen
   const Bytes bytes = read_bytes(path, context, kReadingPart);
   const std::string name = path == "-" ? "standard input" : path.string();
   return parse(bytes.view(), name, options, context, kReadingPart);

@@ -31,8 +31,8 @@ bool is_float(double value) {
          static_cast<double>(static_cast<float>(value)) == value;
 }
 
-// The nearest float, or the value itself where that is infinite. Through a volatile, because GCC 12
-// drops double -> float -> double from pairs of such statements when it makes vectors of them
+// Returns the nearest float, or the value itself if that float is infinite. The volatile is needed:
+// GCC 12 removes double -> float -> double from pairs of these statements when it vectorises them
 // (-ftree-slp-vectorize).
 double nearest_float(double value) {
   if (!(std::abs(value) < kInfiniteAsFloat)) return value;
@@ -57,7 +57,7 @@ void ShapeSource::report(const char* at) const {
   const std::ptrdiff_t done = at - bytes.data();
   const double part = static_cast<double>(done) / static_cast<double>(bytes.size());
   report_progress(context_, "read", progress_from_ + part * (1 - progress_from_));
-  // A percent, but not below 64 kB: a callback may cost a microsecond, as much as parsing 1 kB.
+  // A percent, but at least 64 kB: a callback may cost a microsecond, as much as parsing 1 kB.
   const std::size_t step = std::max<std::size_t>(bytes.size() / 100, std::size_t{1} << 16);
   const std::size_t left = bytes.size() - static_cast<std::size_t>(done);
   next_report_ = at + std::min(step, left);
@@ -69,7 +69,7 @@ void ShapeSource::fail(const std::string& what) const {
 
 void check_finite(const ShapeSource& source, std::span<const Vec3> vectors,
                   std::size_t first_number, const char* owner, const char* what) {
-  // First without branches, so that the loop runs in vectors.
+  // The first loop has no branches, so that it is vectorised.
   constexpr double kMax = std::numeric_limits<double>::max();
   int bad = 0;
   for (const Vec3& v : vectors) {

@@ -13,7 +13,7 @@ void add_group(const AttributeGroup<kSize, Attribute>& group, std::vector<const 
   if (group) to.insert(to.end(), group->begin(), group->end());
 }
 
-// Those that a format writes which has no room for all.
+// Returns the attributes that a format writes if it has no room for all.
 std::vector<const Attribute*> written(std::span<const Attribute> attributes,
                                       const ShapeFormatInfo& format) {
   std::vector<const Attribute*> kept;

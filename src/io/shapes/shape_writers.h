@@ -20,10 +20,10 @@
 
 namespace rholm {
 
-// Called with what has been written, of a mesh that lies in a file.
+// Called after n rows of a mapped mesh, from `first` on, have been written.
 using ReleaseRows = std::function<void(std::size_t first, std::size_t n)>;
 
-// Points or vertices, or triangles, of a mesh, in memory or where they lie in a file.
+// Points or vertices, or triangles, of a mesh in memory or in a mapped file.
 template <typename T>
 class RowRange {
  public:
@@ -33,11 +33,11 @@ class RowRange {
       : mesh_(&mesh),
         release_(std::move(release)),
         size_(kPoints ? mesh.n_vertices : mesh.n_triangles) {}
-  // n rows that are told one after the other each time they are asked for.
+  // n rows that `walk` passes in order to its callback, each time they are visited.
   using Walk = std::function<void(const std::function<void(const T&)>& visit)>;
   RowRange(std::size_t n, Walk walk) : walk_(std::move(walk)), size_(n) {}
   std::size_t size() const { return size_; }
-  // Not of rows that are told.
+  // Returns row i; not available with a Walk.
   T operator[](std::size_t i) const {
     if (mesh_ == nullptr) return rows_[i];
     if constexpr (kPoints) {
@@ -46,7 +46,7 @@ class RowRange {
       return mesh_->triangle(i);
     }
   }
-  // Calls visit(i) for all numbers in order; rows that have been visited are released.
+  // Calls visit(i) for all numbers in order, and releases visited rows.
   template <typename Visit>
   void visit_numbers(const Visit& visit) const {
     for (std::size_t first = 0; first < size_; first += kVisited) {
@@ -55,7 +55,7 @@ class RowRange {
       release(first, n);
     }
   }
-  // The same with the rows: visit(i, row).
+  // Calls visit(i, row) for all rows in order, and releases visited rows.
   template <typename Visit>
   void visit(const Visit& visit) const {
     if (!walk_) return visit_numbers([&](std::size_t i) { visit(i, (*this)[i]); });
@@ -65,7 +65,7 @@ class RowRange {
   void release(std::size_t first, std::size_t n) const {
     if (release_) release_(first, n);
   }
-  static constexpr std::size_t kVisited = std::size_t{1} << 16;  // some 1 MB
+  static constexpr std::size_t kVisited = std::size_t{1} << 16;  // about 1 MB
 
  private:
   static constexpr bool kPoints = std::is_same_v<T, Vec3>;
@@ -78,7 +78,7 @@ class RowRange {
 using PointRange = RowRange<Vec3>;
 using TriangleRange = RowRange<Triangle>;
 
-// An attribute of all points or vertices, in memory or in their rows in a file.
+// An attribute of all points or vertices, in memory or in the rows of a mapped file.
 class ScalarRange {
  public:
   explicit ScalarRange(const Attribute& attribute)
@@ -92,9 +92,9 @@ class ScalarRange {
     load(i, 1, &value);
     return value;
   }
-  // All of them, if they are in memory as doubles.
+  // Returns all values if they are in memory as doubles, otherwise null.
   const double* in_memory() const { return first_ == nullptr ? values_.data() : nullptr; }
-  // n values from `begin` on.
+  // Loads n values from `begin` on.
   void load(std::size_t begin, std::size_t n, double* to) const;
 
   std::string name;
@@ -106,10 +106,10 @@ class ScalarRange {
   std::size_t stride_ = 0;
 };
 
-// A mesh or points, as writers see them.
+// A mesh or points in the form for writers.
 struct ShapeView {
   PointRange points;
-  std::span<const Vec3> normals;  // of points; those of a mesh are attributes
+  std::span<const Vec3> normals;  // for points; a mesh has normals as attributes
   TriangleRange triangles;
   std::vector<ScalarRange> attributes;
   bool is_mesh = false;
@@ -117,32 +117,32 @@ struct ShapeView {
 ShapeView shape_view_of(const Mesh& mesh);
 ShapeView shape_view_of(const PointCloud& cloud);
 
-// How a writer of shapes is asked.
+// Options of a writer of shapes.
 struct ShapeWriting {
-  bool ascii = false;     // text where the format has both
-  std::string name = {};  // of the file, for messages
+  bool ascii = false;     // text if the format has both
+  std::string name = {};  // name of the file, for messages
 };
-// Writes a valid shape that the format can hold, and returns warnings as write_shape().
+// Writes a valid shape that the format can hold; returns warnings as write_shape() does.
 using ShapeFormatter = std::vector<std::string>(const ShapeView& shape, const ShapeWriting& how,
                                                 OutputBuffer& out);
 
-// Writes a valid shape, and returns warnings as write_shape(). Throws Unsupported if the format
-// cannot hold it, InvalidInput if a coordinate does not fit; `name` serves messages.
+// Writes a valid shape and returns warnings as write_shape() does. Throws Unsupported if the format
+// cannot hold it, InvalidInput if a coordinate does not fit; `name` is for messages.
 std::vector<std::string> format_shape(const ShapeView& shape, ShapeFormat format,
                                       const ShapeWriting& how, OutputBuffer& out);
 
-// What the options or the extension say. Throws InvalidInput for "-" without a format, Unsupported
-// for an extension that names none.
+// Returns the format from the options or the extension. Throws InvalidInput for "-" without a
+// format, Unsupported for an unknown extension.
 ShapeFormat written_format(const std::filesystem::path& path, const ShapeWriteOptions& options);
 
-// write_shape() of a valid shape.
+// Does the work of write_shape() for a valid shape.
 std::vector<std::string> write_view(const ShapeView& shape, const std::filesystem::path& path,
                                     const ShapeWriteOptions& options, const Context& context);
 
 ShapeFormatter format_ply, format_obj, format_off, format_stl, format_xyz;
 
-// Points that come a piece at a time, all with normals or none, and with the same attributes, whose
-// types hold their values. What is written is what format_ply() writes of all of them.
+// Writes points in blocks, all with normals or none, and with the same attributes, whose types hold
+// their values. The output is what format_ply() writes for all points at once.
 class PlyPoints {
  public:
   PlyPoints(std::uint64_t n, bool ascii, OutputBuffer& out) : n_(n), ascii_(ascii), out_(out) {}
@@ -154,11 +154,11 @@ class PlyPoints {
   bool begun_ = false;
   OutputBuffer& out_;
 };
-// Parts of format_xyz(): what comes before the rows, and rows.
+// Write parts of format_xyz(): the text before the rows, and rows.
 void put_xyz_header(bool names, OutputBuffer& out);
 void put_xyz_rows(const ShapeView& shape, OutputBuffer& out);
 
-// Several attributes that belong together, if all are there.
+// Several attributes that belong together, if all exist.
 template <std::size_t kSize, class One = ScalarRange>
 using AttributeGroup = std::optional<std::array<const One*, kSize>>;
 template <std::size_t kSize, class One>
@@ -174,7 +174,7 @@ AttributeGroup<kSize, One> find_group(std::span<const One> attributes,
   return group;
 }
 
-// The names that texture coordinates go by.
+// Finds texture coordinates under their usual names.
 template <class One>
 AttributeGroup<2, One> find_texture(std::span<const One> attributes) {
   for (const std::array<const char*, 2>& names :
@@ -184,10 +184,10 @@ AttributeGroup<2, One> find_texture(std::span<const One> attributes) {
   return std::nullopt;
 }
 
-// One normal per point or vertex, where they are.
+// One normal per point or vertex, if the shape has normals.
 class NormalRange {
  public:
-  // Good as long as the shape.
+  // Valid as long as the shape.
   explicit NormalRange(const ShapeView& shape);
   bool empty() const { return vectors_.empty() && !scalars_; }
   Vec3 operator[](std::size_t i) const {
@@ -201,7 +201,7 @@ class NormalRange {
   AttributeGroup<3> scalars_;
 };
 
-// The numbers of a position or normal and a blank between each.
+// Writes the numbers of a vector with blanks between them, and the character `last`.
 inline void put_vector(const Vec3& v, char last, OutputBuffer& out) {
   out.number(v.x, ' ');
   out.number(v.y, ' ');

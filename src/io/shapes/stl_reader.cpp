@@ -1,4 +1,4 @@
-// STL: facets, each with its own three vertices; they are not joined here.
+// STL: facets, each with its own three vertices, which are not joined here.
 // Source: 3D Systems, StereoLithography Interface Specification (1989).
 #include <algorithm>
 #include <array>
@@ -13,25 +13,25 @@ namespace {
 
 constexpr std::size_t kHeader = 80;          // free text
 constexpr std::size_t kCount = kHeader + 4;  // ... and the number of facets
-constexpr std::size_t kFacet = 12 * 4 + 2;   // normal, three vertices, two bytes for anything
+constexpr std::size_t kFacet = 12 * 4 + 2;   // normal, three vertices, two unspecified bytes
 constexpr bool kSwap = std::endian::native == std::endian::big;
 
 std::uint64_t claimed_facets(std::span<const char> bytes) {
   return load<std::uint32_t, kSwap>(bytes.data() + kHeader);
 }
 
-// The facets that a binary file of this size has room for.
+// Returns the number of facets that fit into a binary file of this size.
 std::uint64_t facets_with_room(std::span<const char> bytes) {
   return (bytes.size() - kCount) / kFacet;
 }
 
-// Some programs write the facets as they come, and never go back to count them.
+// Some programs write facets as they come and never store their count.
 bool is_uncounted(std::span<const char> bytes) {
   const std::uint64_t n = claimed_facets(bytes);
   return n == 0 || n == std::numeric_limits<std::uint32_t>::max();
 }
 
-// Some programs write binary files that begin with "solid": the size decides.
+// Some programs write binary files that begin with "solid", so the size decides.
 bool is_binary_by_size(std::span<const char> bytes) {
   return bytes.size() >= kCount && bytes.size() == kCount + kFacet * claimed_facets(bytes);
 }
@@ -49,7 +49,7 @@ bool begins_with_solid(std::span<const char> bytes) {
   return equal_ignoring_case(take_word(text), "solid");
 }
 
-// Text has a keyword behind the line with the name, which no count of facets looks like.
+// Text has a keyword after the line with the name; a binary count never looks like one.
 bool is_text(std::span<const char> bytes) {
   if (!begins_with_solid(bytes)) return false;
   TextCursor text(bytes);
@@ -60,13 +60,13 @@ bool is_text(std::span<const char> bytes) {
   return equal_ignoring_case(word, "facet") || equal_ignoring_case(word, "endsolid");
 }
 
-// A binary file with whole facets and something behind them.
+// Returns true for a binary file with complete facets and data after them.
 bool may_be_binary(std::span<const char> bytes) {
   if (bytes.size() < kCount + kFacet) return false;
   return is_uncounted(bytes) || claimed_facets(bytes) <= facets_with_room(bytes);
 }
 
-// Every facet has three vertices of its own: 0 1 2, 3 4 5, ...
+// Makes a mesh whose facets each have three vertices of their own: 0 1 2, 3 4 5, ...
 Mesh soup(std::vector<Vec3> vertices) {
   Mesh mesh;
   mesh.triangles.reserve(vertices.size() / 3);
@@ -79,7 +79,7 @@ Mesh soup(std::vector<Vec3> vertices) {
 
 constexpr std::uint64_t kMaxFacets = std::numeric_limits<std::uint32_t>::max() / 3;
 
-// How many facets are read; says where that is not what the file says.
+// Returns the number of facets to read, and warns if the file states another number.
 std::uint64_t facets_of(const ShapeSource& source, std::vector<std::string>& warnings) {
   const std::uint64_t n = claimed_facets(source.bytes), room = facets_with_room(source.bytes);
   if (is_uncounted(source.bytes) && room > 0) {
@@ -145,7 +145,7 @@ class StlTextReader {
   explicit StlTextReader(const ShapeSource& source) : source_(source), text_(source.bytes) {}
 
   Mesh read(std::vector<std::string>& warnings) {
-    // "facet outer loop vertex 0 0 0 ..." is at least 80 bytes.
+    // "facet outer loop vertex 0 0 0 ..." has at least 80 bytes.
     vertices_.reserve(3 * (source_.bytes.size() / 256));
     std::size_t solids = 0;
     for (skip_spaces(text_); !text_.at_end(); skip_spaces(text_)) {
@@ -166,7 +166,7 @@ class StlTextReader {
   }
 
  private:
-  // Whether what follows is neither a solid nor has facets.
+  // Returns true if the remaining text has neither a solid nor facets.
   bool is_rest() const {
     for (TextCursor rest = text_; !rest.at_end(); skip_spaces(rest)) {
       const std::string_view word = take_word(rest);
@@ -190,7 +190,7 @@ class StlTextReader {
     }
   }
 
-  // The normal is not needed, it follows from the vertices; it may be missing, or nan.
+  // The normal is not needed because it follows from the vertices; it may be missing or nan.
   void read_facet() {
     if (vertices_.size() / 3 == kMaxFacets) fail_line("too many facets");
     expect("normal");

@@ -1,4 +1,4 @@
-// STL: the corners of every triangle, with its normal: as floats, or as text with all digits.
+// STL: the corners of every triangle with its normal, as floats or as text with all digits.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,17 +17,17 @@
 namespace rholm {
 namespace {
 
-// What coordinates lose where a format keeps them in single precision.
+// Measures what coordinates lose if a format stores them in single precision.
 
 // Takes the faces that are written, with their corners in double precision.
 class SinglePrecisionLoss {
  public:
   void add(const Vec3& a, const Vec3& b, const Vec3& c);
 
-  // Between neighbouring numbers at the largest coordinate.
+  // Returns the spacing of floats at the largest coordinate.
   double step() const;
-  // What to say of a file in that format: none where faces stay and steps are below 1e-5 of the
-  // diagonal. `instead` names what would hold the digits.
+  // Returns a warning for a file in this format, or none if faces keep their shape and steps are
+  // below 1e-5 of the diagonal. `instead` names formats that hold the digits.
   std::optional<std::string> warning(const std::string& format, const std::string& instead) const;
 
  private:
@@ -40,12 +40,12 @@ double rounded(double value) { return static_cast<double>(static_cast<float>(val
 
 Vec3 rounded(const Vec3& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
 
-// A face may turn by so much: a shape in the middle of its coordinates turns none of its faces by
-// more unless they are as narrow as the rounding. Chosen: cosine of 10 degrees.
+// Smallest cosine of the angle that a face may turn. A shape centred at the origin has larger turns
+// only in faces that are as narrow as the rounding. Chosen: cosine of 10 degrees.
 constexpr double kLeastCosine = 0.984808;
 
-// A shape in the middle of its coordinates has steps of 6e-8 of its diagonal; chosen: a hundred
-// times that is worth a word.
+// A shape centred at the origin has steps of 6e-8 of its diagonal. Chosen: about a hundred times
+// this deserves a warning.
 constexpr double kMostStep = 1e-5;
 
 void SinglePrecisionLoss::add(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -56,7 +56,7 @@ void SinglePrecisionLoss::add(const Vec3& a, const Vec3& b, const Vec3& c) {
   }
   const Vec3 u = normalized(b - a), v = normalized(c - a);
   const Vec3 before = normalized(cross(u, v));
-  if (before == Vec3{}) return;  // nothing to lose
+  if (before == Vec3{}) return;  // the face has no area to lose
   const Vec3 ra = rounded(a);
   const Vec3 after = normalized(cross(normalized(rounded(b) - ra), normalized(rounded(c) - ra)));
   lost_ += !(dot(before, after) >= kLeastCosine);
@@ -87,8 +87,8 @@ std::optional<std::string> SinglePrecisionLoss::warning(const std::string& forma
   return text + fmt::format("; {}", instead) + (coarse ? ", or move the shape to the origin" : "");
 }
 
-// Floats have their full precision within 1.2e-38 ... 3.4e38; small coordinates beside larger ones
-// may round to 0, those of a whole shape may not.
+// Floats have full precision within 1.2e-38 ... 3.4e38. Small coordinates beside larger ones may
+// round to 0, but not all coordinates of a shape.
 void check_range(const ShapeView& shape, const std::string& name) {
   double largest = 0;
   shape.points.visit([&](std::size_t, const Vec3& p) {
@@ -104,7 +104,7 @@ void check_range(const ShapeView& shape, const std::string& name) {
                   "shape, or write STL as text, PLY, OBJ or OFF");
 }
 
-// Of the triangle before its corners are rounded; zero if it has no area.
+// Returns the normal before the corners are rounded; zero if the triangle has no area.
 Vec3 facet_normal(const ShapeView& shape, const Triangle& t) {
   const Vec3 a = shape.points[t[0]];
   return normalized(cross(shape.points[t[1]] - a, shape.points[t[2]] - a));
@@ -118,7 +118,7 @@ void put_floats(const Vec3& v, char* to) {
 
 std::vector<std::string> put_binary(const ShapeView& shape, OutputBuffer& out) {
   SinglePrecisionLoss loss;
-  // 80 bytes that do not begin with "solid", as some readers take that for text.
+  // 80 bytes that do not begin with "solid", which some readers take for text.
   std::string header = "binary STL";
   header.resize(80, ' ');
   out.text(header);

@@ -42,7 +42,7 @@ std::string_view without_quotes(std::string_view text) {
 
 bool is_quoted(std::string_view text) { return !text.empty() && text.front() == '"'; }
 
-// What programs write where a number is missing.
+// Returns true for the words that programs write in place of a missing number.
 bool is_missing(std::string_view cell) {
   const std::string word = lower_case(without_quotes(cell));
   for (const char* missing : {"", "na", "n/a", "null", "none", "nil", "-", "--", "?", "-nan",
@@ -67,7 +67,7 @@ TableCell cell_of(std::string_view text, bool decimal_comma) {
 bool number_of_cell(std::string_view cell, bool decimal_comma, double& value) {
   cell = without_quotes(cell);
   constexpr std::size_t kLongest =
-      400;  // characters; a double has 767 digits at most, few write them
+      400;  // characters; a double has at most 767 digits, which few programs write
   std::array<char, kLongest> room;
   if (cell.empty() || cell.size() > room.size()) return false;
   bool has_mark = false;
@@ -79,7 +79,7 @@ bool number_of_cell(std::string_view cell, bool decimal_comma, double& value) {
       has_mark = true;
       c = '.';
     }
-    // Exponents of Fortran: 1.0D-05.
+    // Fortran writes exponents as 1.0D-05.
     const bool behind_digit =
         i > 0 && (room[i - 1] == '.' || (room[i - 1] >= '0' && room[i - 1] <= '9'));
     if ((c == 'd' || c == 'D') && behind_digit) c = 'e';
@@ -112,7 +112,7 @@ void TableRows::end_row() {
   row_open_ = false;
 }
 
-// Behind a cell: to the next one, if there is any.
+// Moves from the end of a cell to the next cell, if there is one.
 void TableRows::pass_separator() {
   if (syntax_.separator == ' ') {
     while (!text_.at_end() && is_separator(*text_.at)) ++text_.at;
@@ -156,7 +156,7 @@ bool TableRows::take_any_cell(TableCell& cell) {
     ++text_.at;
   }
   const char* const first = text_.at;
-  if (!text_.at_end() && *text_.at == '"') {  // two quotes stand for one
+  if (!text_.at_end() && *text_.at == '"') {  // two quotes mean one
     do {
       ++text_.at;
       while (!text_.at_end() && !is_line_end(*text_.at) && *text_.at != '"') ++text_.at;
@@ -192,7 +192,7 @@ std::span<const char> whole_lines(std::span<const char> begin, bool is_all) {
   return begin.first(n);
 }
 
-// How a row looks before anything is known of its separators.
+// Contents of a row as they appear before its separators are known.
 struct LineLook {
   std::size_t numbers = 0, missing = 0, texts = 0;
   bool is_row() const { return texts == 0 ? numbers + missing > 1 : numbers >= 3; }
@@ -216,7 +216,7 @@ LineLook look_at_line(std::string_view line) {
   return look;
 }
 
-// Names between separators; `separator` ' ' is blanks alone.
+// Splits names at separators; `separator` ' ' stands for blanks only.
 std::vector<std::string> split_names(std::string_view line, char separator) {
   std::vector<std::string> names;
   std::string name;
@@ -226,7 +226,7 @@ std::vector<std::string> split_names(std::string_view line, char separator) {
     const bool is_unit = separator == ' ' && !names.empty() && !shown.empty() &&
                          (shown.front() == '(' || shown.front() == '[');
     if (is_unit) {
-      names.back() += std::string(" ").append(shown);  // of the name before
+      names.back() += std::string(" ").append(shown);  // belongs to the name before
     } else if (separator != ' ' || any) {
       names.emplace_back(shown);
     }
@@ -271,11 +271,11 @@ std::string_view without_marks(std::string_view line) {
   return line;
 }
 
-// Moves to the first row, and takes what stands before it.
+// Moves to the first row, and returns the lines before it.
 std::vector<NameLine> take_lines_before(TextCursor& text, TableHeader& header) {
   std::vector<NameLine> lines;
   std::size_t without_numbers = 0;
-  const char* last = nullptr;  // line without numbers
+  const char* last = nullptr;  // last line without numbers
   while (!text.at_end()) {
     const TextCursor begin = text;
     skip_to_line_end(text);
@@ -308,7 +308,7 @@ std::vector<NameLine> take_lines_before(TextCursor& text, TableHeader& header) {
     }
     while (!text.at_end() && is_line_end(*text.at)) ++text.at;
   }
-  if (last != nullptr && !header.has_count) text.at = last;  // which no row follows
+  if (last != nullptr && !header.has_count) text.at = last;  // no row follows this line
   return lines;
 }
 
@@ -368,7 +368,7 @@ std::vector<Candidate> candidates_of(std::string_view rows_text) {
   if (in_first('\t')) add({.separator = '\t', .decimal_comma = true});
   if (rows_text.find(',') != std::string_view::npos) {
     add({.separator = ' ', .decimal_comma = true});
-    // Three words with commas in them and no point: 0,5 0,25 1. Else the commas separate.
+    // Commas are decimal in rows of three words without points (0,5 0,25 1), else separators.
     const Fit& fit = all.back().fit;
     if (!fit.commas || fit.points || fit.columns < 3) all.pop_back();
   }
@@ -387,7 +387,7 @@ Candidate choose_syntax(std::string_view rows_text) {
       }
     }
   }
-  for (const Candidate& c : all) {  // some row is wrong, which whoever reads it says
+  for (const Candidate& c : all) {  // a row is wrong, which the reader will report
     if (c.fit.columns >= 3 && c.fit.texts == 0) return c;
   }
   return all.back();
@@ -404,8 +404,8 @@ bool counts_up(const TellingRows& telling, std::size_t column) {
   return !values.empty();
 }
 
-// The names in a line if they are those of n columns. A table that R writes does not name the
-// numbers of its rows.
+// Returns the names in a line if they fit n columns. A table that R writes has no name for its
+// column of row numbers.
 std::optional<std::vector<std::string>> names_that_fit(std::string_view line, char separator,
                                                        const TellingRows& telling) {
   const std::size_t n = telling.columns.size();
@@ -422,7 +422,7 @@ std::optional<std::vector<std::string>> names_that_fit(std::string_view line, ch
 
 void take_names(const std::vector<NameLine>& lines, const TellingRows& telling,
                 TableHeader& header) {
-  std::optional<std::vector<std::string>> others;  // without a position
+  std::optional<std::vector<std::string>> others;  // names without a position
   const NameLine* unfit = nullptr;
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
     std::vector<char> separators(kSeparators.begin(), kSeparators.end());
@@ -462,8 +462,8 @@ void take_names(const std::vector<NameLine>& lines, const TellingRows& telling,
   }
 }
 
-// Whether the first row only numbers the columns, 0 1 2 ..., as pandas does where they have no
-// names: beside an empty cell, or above rows with digits behind the point.
+// Returns true if the first row only numbers the columns, 0 1 2 ..., as pandas does for columns
+// without names: beside an empty cell, or above rows with decimals.
 bool numbers_columns(std::string_view rows_text, const TableSyntax& syntax) {
   if (syntax.separator == ' ') return false;  // a point may be 0 1 2
   TextCursor text(rows_text);

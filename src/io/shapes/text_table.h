@@ -1,8 +1,8 @@
-// A table of numbers as text: its header, and how its rows are cut into cells. Layer: io.
+// A table of numbers as text: its header, and how its rows are split into cells. Layer: io.
 //
-// Cells stand between blanks (where commas and semicolons count as blanks), or between commas,
-// semicolons or tabs, of which each ends a cell. The first rows tell which, and whether the decimal
-// mark is a comma. #, // and % begin comments.
+// Cells are separated by blanks (where commas and semicolons count as blanks), or each ended by a
+// comma, semicolon or tab. The first rows determine the separator, and whether the decimal mark is
+// a comma. #, // and % begin comments.
 #pragma once
 
 #include <cstddef>
@@ -15,50 +15,50 @@
 
 namespace rholm {
 
-// How rows are cut.
+// How rows are split into cells.
 struct TableSyntax {
   char separator = ' ';        // ' ' is any run of blanks, commas and semicolons
   bool decimal_comma = false;  // a comma within a cell is the decimal mark
-  bool open_end = false;       // every row ends with a separator, behind which is no cell
+  bool open_end = false;       // every row ends with a separator, after which there is no cell
   std::size_t columns = 0;     // cells of the first row; 0: there is none
 };
 
-// What stands before the first row of values.
+// The text before the first row of values.
 struct TableHeader {
-  std::vector<std::string> names = {};  // of the columns; none, or as many as there are columns
+  std::vector<std::string> names = {};  // none, or one name for each column
   bool has_count = false;
-  double count = 0;  // of points, as claimed
+  double count = 0;  // claimed number of points
   TableSyntax syntax = {};
-  std::size_t rows_at = 0;                // where the first row begins: bytes from the begin
-  std::vector<std::string> remarks = {};  // for people: what a table usually has not
-  // What names of columns should be and does not fit them, as it stands in the text; or empty.
+  std::size_t rows_at = 0;                // byte offset of the first row
+  std::vector<std::string> remarks = {};  // unusual properties of the table, for people
+  // The text that should be names of columns but does not fit them; or empty.
   std::string unfit_names = {};
-  std::size_t unfit = 0;  // how many
+  std::size_t unfit = 0;  // number of unfit names
 };
 
-// What a cell holds.
+// The content of a cell.
 enum class CellKind { kNumber, kMissing, kText };
 struct TableCell {
   CellKind kind = CellKind::kMissing;
   double value = 0;            // NaN if it is missing
-  std::string_view text = {};  // as it stands in the file, with quotes
+  std::string_view text = {};  // unchanged text of the file, with quotes
 };
 
-// The number that a cell holds, which may stand in quotes. False if it is none.
+// Returns in `value` the number of a cell, which may be in quotes. False if it has no number.
 bool number_of_cell(std::string_view cell, bool decimal_comma, double& value);
 
-// Cuts rows at `text`; what is behind a comment mark belongs to no cell.
+// Splits rows at `text` into cells; text after a comment mark belongs to no cell.
 class TableRows {
  public:
   TableRows(TextCursor& text, const TableSyntax& syntax) : text_(text), syntax_(syntax) {}
-  // To the first cell of the next row, over empty lines and comments; false at the end.
+  // Moves to the first cell of the next row, over empty lines and comments; false at the end.
   bool next_row();
-  // The next cell of the row; false if there is none.
+  // Takes the next cell of the row; false if there is none.
   bool take_cell(TableCell& cell);
-  // The same of a number that is written in the usual way, much faster; false, without moving, for
+  // Does the same, much faster, for a number in the usual form. Returns false, without moving, for
   // any other cell.
   bool take_plain_number(double& value);
-  // Passes to the end of the line.
+  // Moves to the end of the line.
   void end_row();
 
  private:
@@ -67,23 +67,23 @@ class TableRows {
 
   TextCursor& text_;
   const TableSyntax& syntax_;
-  bool row_open_ = false;  // a cell follows, though it may be empty
+  bool row_open_ = false;  // a cell follows, which may be empty
 };
 
-// The values of the first rows, as they tell what columns are. Cells without a number are NaN.
+// Values of the first rows, which determine the roles of columns. Cells without a number are NaN.
 struct TellingRows {
   std::vector<std::vector<double>> columns;
   std::vector<std::size_t> texts;  // cells of each column that are neither numbers nor missing
   std::size_t rows = 0;
 };
 
-// Bytes at the begin of a text that tell what it is: 20 000 rows of usual length. Chosen: a stream
-// holds them while it is opened.
+// Number of bytes at the start of a text that determine its format: 20 000 rows of usual length.
+// Chosen: a stream holds them while it is opened.
 inline constexpr std::size_t kTellingBytes = std::size_t{1} << 20;
 
-// The header of a text. `begin` is the first kTellingBytes of it, or all (`is_all`).
+// Returns the header of a text. `begin` is its first kTellingBytes, or all of it (`is_all`).
 TableHeader look_at_table(std::span<const char> begin, bool is_all);
-// Whole rows of `begin` behind its header; those of another length are left out.
+// Returns the whole rows of `begin` after its header, without rows of another length.
 TellingRows telling_rows(std::span<const char> begin, bool is_all, const TableHeader& header);
 
 }  // namespace rholm

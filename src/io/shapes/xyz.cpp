@@ -1,8 +1,8 @@
-// Points as lines of numbers (XYZ, PWN, PTS, TXT, CSV), with any columns behind the position.
+// Points as lines of numbers (XYZ, PWN, PTS, TXT, CSV), with any columns after the position.
 //
-// text_table.h tells how rows are cut into cells, xyz_columns.h what the columns are. The first
-// line may be the number of points (PWN, PTS). In a PWN file normals follow the position in each
-// row, or as lines of their own after all positions.
+// text_table.h splits rows into cells, xyz_columns.h finds the meaning of the columns. The first
+// line may be the number of points (PWN, PTS). In a PWN file, normals follow the position in each
+// row, or are lines of their own after all positions.
 #include "io/shapes/xyz.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ class XyzReader {
   }
 
  private:
-  // A cell that is no plain number, or none at all.
+  // Reads a cell that is no plain number, or reports a missing cell.
   double take_other(TableRows& rows, std::size_t k) {
     TableCell cell;
     const TextCursor before = text_;
@@ -86,7 +86,7 @@ void check_header(const ShapeSource& source, const TableHeader& header, const st
   }
 }
 
-// Coordinates that are behind all positions instead of in their rows.
+// Takes as normals the second half of the rows, if normals follow all positions.
 void take_normals_that_follow(PointCloud& cloud) {
   const std::size_t n = cloud.points.size() / 2;
   const auto middle = cloud.points.begin() + static_cast<std::ptrdiff_t>(n);
@@ -94,7 +94,7 @@ void take_normals_that_follow(PointCloud& cloud) {
   cloud.points.resize(n);
 }
 
-// Gaskell's implicitly connected quadrilaterals: n, and then six faces of (n + 1)^2 points.
+// Gaskell's implicitly connected quadrilaterals have n, and then six faces of (n + 1)^2 points.
 bool is_icq(double count, std::size_t rows) {
   return static_cast<double>(rows) == 6 * (count + 1) * (count + 1);
 }

@@ -1,4 +1,4 @@
-// Lines of numbers in two steps, for what reads a file in pieces. Layer: io.
+// Lines of numbers in two steps, for code that reads a file in blocks. Layer: io.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +12,17 @@
 
 namespace rholm {
 
-// What a table of points is.
+// Header and columns of a table of points.
 struct TableLook {
   TableHeader header;
   TablePlan plan;
 };
 
-// By the begin of a file (`is_all`: the whole of it). Throws InvalidInput for what no points can
+// Analyses the start of a file (`is_all`: the whole file). Throws InvalidInput if no points can
 // follow, and for ShapeReadOptions::columns that do not fit.
 TableLook look_at_points(const ShapeSource& source, bool is_all);
 
-// The points of whole rows, from byte `at` of the source on. Those that are not finite are there.
+// Returns the points of whole rows, from byte `at` of the source on, including non-finite points.
 PointCloud read_xyz_rows(const ShapeSource& source, const TableLook& look, std::size_t at,
                          std::vector<std::string>& warnings);
 

@@ -102,7 +102,7 @@ struct Range {
   double min = std::numeric_limits<double>::infinity();
   double max = -std::numeric_limits<double>::infinity();
   bool whole = true;  // all are whole numbers
-  std::size_t n = 0;  // that are there
+  std::size_t n = 0;  // number of values
 
   void add(const std::vector<double>& values) {
     for (const double v : values) {
@@ -121,8 +121,8 @@ Range range_of(const Columns& columns, std::initializer_list<std::size_t> places
   return range;
 }
 
-// Whole numbers that grow from row to row: by one from 0 or 1, or in any way over 16 rows. No
-// surface has points like that in its first coordinate.
+// Returns true for whole numbers that grow from row to row: by one from 0 or 1, or by any steps
+// over 16 rows. No surface has points with such first coordinates.
 bool numbers_rows(const std::vector<double>& values) {
   constexpr std::size_t kFewRows = 4, kManyRows = 16;  // chosen
   if (values.size() < kFewRows) return false;
@@ -135,11 +135,11 @@ bool numbers_rows(const std::vector<double>& values) {
   return by_one || values.size() >= kManyRows;
 }
 
-// Vectors of three columns, as far as they tell normals from colours.
+// Properties of vectors in three columns that distinguish normals from colours.
 struct Lengths {
   double min = std::numeric_limits<double>::infinity(), max = 0;
-  bool unit = false;      // all, to 1 %
-  bool negative = false;  // some component
+  bool unit = false;      // all have length 1, to 1 %
+  bool negative = false;  // a component is negative
 };
 
 Vec3 vector_at(const Columns& columns, std::size_t first, std::size_t row) {
@@ -161,8 +161,8 @@ Lengths lengths_of(const Columns& columns, std::size_t first) {
   return lengths;
 }
 
-// The mean absolute cosine between vectors and the way to the nearest point: 0 for normals of a
-// surface, 1/2 for vectors that have nothing to do with it.
+// Returns the mean absolute cosine between each vector and the direction to the nearest point. It
+// is 0 for normals of a surface and 1/2 for unrelated vectors.
 double cosine_to_neighbors(const Columns& columns, std::size_t position, std::size_t first) {
   constexpr std::size_t kAsked = 200, kCompared = 20000;  // chosen: some milliseconds
   const std::size_t n = columns[first].size();
@@ -190,14 +190,14 @@ double cosine_to_neighbors(const Columns& columns, std::size_t position, std::si
   return counted_ones == 0 ? 1 : sum / static_cast<double>(counted_ones);
 }
 
-// Whether columns may be latitudes and longitudes.
+// Returns true if the columns may be latitudes and longitudes.
 bool may_be_degrees(const Range& latitude, const Range& longitude) {
   return latitude.min >= -90 && latitude.max <= 90 && latitude.max - latitude.min > 90 &&
          longitude.min >= -180 && longitude.max <= 360 && longitude.max - longitude.min > 180;
 }
 
-// A grid as programs write it: one column is the same for runs of rows, in which the other one
-// takes the same values, each in steps of one size.
+// A grid in the usual order: one column is constant for runs of rows, in which the other column
+// takes the same values each time. Both change by constant steps.
 struct Raster {
   std::size_t n = 0;          // rows of a run; 0: no raster
   double fast = 0, slow = 0;  // the steps
@@ -223,13 +223,13 @@ Raster raster_of(const std::vector<double>& slow, const std::vector<double>& fas
   return raster;
 }
 
-// Whether rows lie on a grid of latitudes and longitudes, whose faster one goes all the way round,
-// or from pole to pole. A large table may have been read in part.
+// Returns true if rows are on a grid of latitudes and longitudes whose faster angle covers the full
+// circle, or runs from pole to pole. A large table may have been read in part.
 bool are_degree_grid(const std::vector<double>& latitudes, const std::vector<double>& longitudes) {
   const Range latitude = range_of({latitudes}, {0}), longitude = range_of({longitudes}, {0});
   if (latitude.min < -90 || latitude.max > 90 || longitude.min < -180 || longitude.max > 360)
     return false;
-  constexpr double kRounded = 1.01;  // of a step, as it is written; chosen
+  constexpr double kRounded = 1.01;  // in steps, which are rounded when written; chosen
   if (const Raster rows = raster_of(latitudes, longitudes); rows.is()) {
     return longitude.max - longitude.min + kRounded * std::abs(rows.fast) >= 360 &&
            std::abs(latitudes[0]) + kRounded * std::abs(rows.slow) >= 90;
@@ -317,7 +317,7 @@ class Planner {
   }
 
  private:
-  // Cells of the telling rows that are not missing.
+  // Returns the number of cells in the first rows that are not missing.
   std::size_t used(std::size_t k) const {
     return static_cast<std::size_t>(std::count_if(columns_[k].begin(), columns_[k].end(),
                                                   [](double v) { return !std::isnan(v); })) +
@@ -326,7 +326,7 @@ class Planner {
 
   void pass_over_text(std::size_t k) {
     if (static_cast<int>(plan_.roles[k]) < static_cast<int>(Role::kScalar))
-      return;  // the reader says it
+      return;  // the reader reports it
     plan_.roles[k] = Role::kSkipped;
     const std::string name = k < header_.names.size() && !header_.names[k].empty()
                                  ? in_quotes(header_.names[k])
@@ -365,7 +365,7 @@ class Planner {
     }
   }
 
-  // How columns behind the first three are said.
+  // Returns how the message describes columns after the first three.
   std::string others() const {
     return columns_.size() > 3 ? ", with a name, or -, for each other column" : "";
   }
@@ -402,7 +402,7 @@ class Planner {
     }
   }
 
-  // A number before colours: PTS files have an intensity there, which may be a byte, too.
+  // Tells a number before colours: PTS files have an intensity there, which may be a byte, too.
   bool before_colors(const std::vector<std::size_t>& rest, std::size_t i) {
     if (i != 0 || rest.size() != 4 || rest[3] != rest[0] + 3) return false;
     const Range all = range_of(columns_, {rest[0], rest[1], rest[2], rest[3]});
@@ -414,16 +414,16 @@ class Planner {
   }
 
   bool are_normals(std::size_t k, std::size_t position, bool side_by_side, bool first) {
-    constexpr std::size_t kRows = 8;  // that fewer vectors have such lengths by chance; chosen
+    constexpr std::size_t kRows = 8;  // fewer vectors may have these lengths by chance; chosen
     if (first && hints_.normals_follow) return true;
     const Lengths lengths = lengths_of(columns_, k);
     const bool many = telling_.rows >= kRows;
-    constexpr double kNormals = 0.35;  // below the 1/2 of chance by 7 standard deviations of 200
+    constexpr double kNormals = 0.35;  // 7 standard deviations of 200 values below 1/2
     const auto across = [&](double most) {
       return many && side_by_side && cosine_to_neighbors(columns_, position, k) < most;
     };
     if (lengths.unit) {
-      // Colours of one channel only are unit vectors, too.
+      // Colours with one channel only are unit vectors, too.
       return lengths.negative || !many || across(kNormals);
     }
     const bool nearly = lengths.min >= 0.75 && lengths.max <= 1.25 && lengths.max > 0;
@@ -449,7 +449,7 @@ class Planner {
     return true;
   }
 
-  // Whether a column behind colours is their alpha: of one value, the largest.
+  // Returns true if the column after colours is alpha: constant, with the largest possible value.
   bool is_alpha(std::size_t place, std::size_t colors) {
     const Range alpha = range_of(columns_, {place});
     const Range rgb = range_of(columns_, {colors, colors + 1, colors + 2});
@@ -569,7 +569,7 @@ void PointColumns::add(std::span<const double> row) {
     const double unit = plan_.radians ? 1 : std::numbers::pi / 180;
     const double theta = plan_.colatitude ? p.x * unit : std::numbers::pi / 2 - p.x * unit;
     const double phi = (plan_.west ? -p.y : p.y) * unit;
-    // Right angles have cosines that are no zeros in floating point, and poles are one point.
+    // Cosines of right angles are not 0 in floating point, and each pole must be one point.
     const double sine = std::abs(std::abs(std::cos(theta)) - 1) < 1e-15 ? 0 : std::sin(theta);
     p = {p.z * sine * std::cos(phi), p.z * sine * std::sin(phi), p.z * std::cos(theta)};
   }
@@ -582,7 +582,7 @@ PointCloud PointColumns::take() {
   PointCloud cloud;
   cloud.points = std::move(points_);
   cloud.normals = std::move(normals_);
-  // Colours come first, in their order, whatever the order of the columns.
+  // Colours come first, in their order, for any order of the columns.
   std::stable_sort(kept_.begin(), kept_.end(), [&](const Kept& a, const Kept& b) {
     return plan_.roles[a.column] < plan_.roles[b.column];
   });

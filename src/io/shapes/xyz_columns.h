@@ -1,10 +1,10 @@
-// What the columns of a table of points are: decided from its header and its first rows together.
+// Determines the roles of the columns of a table of points from its header and its first rows.
 // Layer: io.
 //
-// Names win where there are any. Without names the values decide: a first column of whole numbers
-// that only grow counts the rows; then come the position, and in any order, where three columns
-// side by side look like it, normals (unit vectors to 1 %, or vectors of length 0.75 ... 1.25 of
-// both signs) and colours (bytes, or parts of 1); the rest are scalars.
+// Names decide if there are any. Without names the values decide. A first column of growing whole
+// numbers counts the rows. The position comes next, then normals and colours in any order, each in
+// three adjacent columns. Normals are unit vectors to 1 %, or have lengths 0.75 ... 1.25 and both
+// signs. Colours are bytes, or fractions of 1. Other columns are scalars.
 #pragma once
 
 #include <array>
@@ -20,29 +20,29 @@
 
 namespace rholm {
 
-// What a name of a file or its first lines say, beside names and values.
+// Hints from the name of a file or its first lines, beside column names and values.
 struct TableHints {
-  bool normals_follow = false;   // PWN: normals come behind the position
-  bool intensity_first = false;  // PTS: one number stands before the colours
+  bool normals_follow = false;   // PWN: normals follow the position
+  bool intensity_first = false;  // PTS: one number precedes the colours
 };
 
 struct TablePlan {
-  std::vector<ColumnRole> roles = {};   // of each column
-  std::vector<std::string> names = {};  // of the attributes that scalars become, else empty
-  bool colatitude = false, west = false, radians = false;  // as in NamedRoles
+  std::vector<ColumnRole> roles = {};   // role of each column
+  std::vector<std::string> names = {};  // names of scalar attributes, otherwise empty
+  bool colatitude = false, west = false, radians = false;  // see NamedRoles
   bool byte_colors = false;
   TableColumns told = {};
 };
 
-// Throws InvalidInput for `wanted` (ShapeReadOptions::columns) that has another number of columns,
-// for names without a position, and where fewer than three columns hold numbers.
+// Throws InvalidInput if `wanted` (ShapeReadOptions::columns) has another number of columns, if
+// names lack a position, or if fewer than three columns hold numbers.
 TablePlan plan_table(const TableHeader& header, const TellingRows& telling,
                      const std::string& wanted, const TableHints& hints);
 
-// Points row by row.
+// Collects points row by row.
 class PointColumns {
  public:
-  // `attributes`: whether colours and scalars are kept.
+  // `attributes` is true if colours and scalars are kept.
   PointColumns(const TablePlan& plan, bool attributes);
   void add(std::span<const double> row);  // a value for each column
   std::size_t size() const { return points_.size(); }
@@ -61,13 +61,13 @@ class PointColumns {
   std::vector<Kept> kept_;
 };
 
-// Takes points whose place is not finite out of the cloud, and returns how many there were. Normals
-// that are not finite become zero.
+// Removes points that are not finite from the cloud, and returns their number. Sets normals that
+// are not finite to zero.
 std::size_t drop_not_finite(PointCloud& cloud);
 std::string dropped_warning(std::size_t n);
 
-// Whether vectors are all of length 1 to 1 % (written with two digits or more), or zero, and some
-// not zero.
+// Tests that all vectors have length 1 to 1 % (written with two digits or more) or are zero, and
+// that some are not zero.
 class UnitVectors {
  public:
   void add(const Vec3& v);
@@ -77,7 +77,7 @@ class UnitVectors {
   bool some_ = false, other_ = false;
 };
 
-// Whether points and normals, written as six columns, need names to be taken for these again.
+// Tests whether points and normals in six columns need column names to be recognised again.
 class XyzNames {
  public:
   void add(const Vec3& point, const Vec3& normal);
@@ -85,8 +85,8 @@ class XyzNames {
 
  private:
   UnitVectors units_;
-  bool negative_ = false;  // some component of a normal
-  bool counts_ = true;     // first coordinates may be numbers of rows
+  bool negative_ = false;  // a component of a normal is negative
+  bool counts_ = true;     // first coordinates may be row numbers
   double last_ = 0;
   std::size_t n_ = 0;
 };

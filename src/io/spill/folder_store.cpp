@@ -14,7 +14,7 @@
 namespace rholm {
 namespace {
 
-// Bytes of a file; none if it is not there.
+// Returns the bytes of a file, or 0 if there is no file.
 std::uint64_t size_of_file(const std::filesystem::path& path) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
@@ -26,7 +26,7 @@ std::uint64_t size_of_file(const std::filesystem::path& path) {
               fmt::format("cannot write {}: {}", path.string(), std::strerror(error)));
 }
 
-// Those of a run that may be resumed outlive the machine's end.
+// Writes the file of a piece. Files of a run that may be resumed survive a crash of the machine.
 void write_piece(const std::filesystem::path& path, const std::vector<SectionBytes>& sections,
                  bool resumable) {
   SpillFile file(path, SpillFile::Mode::kNew);
@@ -41,7 +41,7 @@ void write_piece(const std::filesystem::path& path, const std::vector<SectionByt
   file.close();
 }
 
-// Sections in a file that is open.
+// Reads sections from an open file.
 class FileContent final : public PieceContent {
  public:
   explicit FileContent(const std::filesystem::path& path) : file_(path, SpillFile::Mode::kRead) {
@@ -72,7 +72,7 @@ class FileContent final : public PieceContent {
 
 }  // namespace
 
-// A folder of files, each open only while it is written to, that gets its name at the end.
+// A folder of files, each open only while it is written to, which gets its name at the end.
 class FolderStore::Growing final : public GrowingPieces {
  public:
   Growing(FolderStore& store, std::string group, std::size_t n)

@@ -1,7 +1,7 @@
 // A store in a folder, whose pieces are files. Layer: io, private.
 //
-// FOLDER/lock, FOLDER/manifest, and FOLDER/pieces with a file for each piece. What is not whole has
-// a name that ends in ".part"; no piece has.
+// The folder has FOLDER/lock, FOLDER/manifest, and FOLDER/pieces with a file for each piece. Only
+// names of incomplete files end in ".part".
 #pragma once
 
 #include <atomic>
@@ -18,19 +18,19 @@ namespace rholm {
 
 class FolderStore final : public PieceStore {
  public:
-  // The folder is made if it is not there. `manifest` says what the pieces are made of: the input,
-  // the options, the version. A folder that has pieces of the same manifest is taken up again: what
-  // was whole is there. Throws Io if the folder cannot be made or another process has it;
-  // InvalidInput if it has pieces of another manifest, or other files.
+  // Makes the folder if there is none. `manifest` describes the origin of the pieces: the input,
+  // the options, the version. A folder with pieces of the same manifest is resumed with its
+  // complete pieces. Throws Io if the folder cannot be made or another process has it; InvalidInput
+  // if it has pieces of another manifest, or other files.
   explicit FolderStore(const std::filesystem::path& folder, const std::string& manifest = {});
-  // In the folder of a store that another process has made, for as long as that is there. Two
-  // processes do not write the same piece at the same time. Throws Io if it is not there.
+  // Opens the folder of a store of another process, for as long as it exists. Two processes must
+  // not write the same piece at the same time. Throws Io if there is no folder.
   static std::unique_ptr<FolderStore> joined(const std::filesystem::path& folder);
-  // The destructor removes what it has made, unless it is to be kept.
+  // The destructor removes what the store has made, unless keep(true) was called.
 
   using PieceStore::write;
 
-  bool was_there() const { return folder_->was_there(); }  // from a run before
+  bool was_there() const { return folder_->was_there(); }  // true if an earlier run is resumed
   bool in_memory() const override { return false; }
   bool has(const std::string& name) const override;
   void write(const std::string& name, std::vector<SectionBytes> sections) override;
@@ -51,7 +51,7 @@ class FolderStore final : public PieceStore {
   }
 
   std::unique_ptr<SpillFolder> folder_;
-  std::atomic<unsigned> counter_ = 0;  // of unfinished files
+  std::atomic<unsigned> counter_ = 0;  // numbers the unfinished files
 };
 
 }  // namespace rholm

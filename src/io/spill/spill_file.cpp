@@ -96,7 +96,7 @@ bool SpillFile::read(std::uint64_t at, std::span<std::byte> bytes) const {
 }
 
 void SpillFile::sync() {
-  // EINVAL: not a file that can be.
+  // EINVAL: the file does not support fsync.
   if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EINTR) fail("write", name_);
 }
 

@@ -1,4 +1,4 @@
-// A file by its descriptor: written from its end on, or in place, read at any place. Layer: io,
+// A file with its descriptor: written at its end or in place, read at any position. Layer: io,
 // private.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace rholm {
 
-// All throw Io with the file's name and the reason.
+// All members throw Io with the file's name and the reason.
 class SpillFile {
  public:
   enum class Mode { kNew, kAppend, kInPlace, kRead, kLock };
@@ -24,12 +24,12 @@ class SpillFile {
   std::uint64_t size() const;
   void write(std::span<const std::byte> bytes);
   void write_at(std::uint64_t at, std::span<const std::byte> bytes);
-  // The file has that size, on the disk, where the file system can do that.
+  // Reserves this size on the disk, if the file system supports this.
   void make_room(std::uint64_t size);
-  // False if the file ends before.
+  // Returns false if the file ends before.
   bool read(std::uint64_t at, std::span<std::byte> bytes) const;
   void sync();
-  void close();  // some file systems say only here that they are full
+  void close();  // some file systems report a full disk only here
 
  private:
   std::string name_;

@@ -19,7 +19,7 @@ namespace rholm {
 namespace {
 
 constexpr const char* kPart = ".part";
-// The first line of a manifest; the second way is for folders that were there before.
+// The first line of a manifest; kGiven is for folders that existed before.
 constexpr const char* kMade = "rholm pieces 1, in a folder of their own\n";
 constexpr const char* kGiven = "rholm pieces 1, in a folder that was there\n";
 
@@ -43,7 +43,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// The first line that is another, as it is there and as it is wanted.
+// Returns the first line that differs, in both versions.
 std::string difference(const std::string& there, const std::string& wanted) {
   const std::vector<std::string> a = lines_of(there), b = lines_of(wanted);
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
@@ -66,7 +66,7 @@ SpillFolder::SpillFolder(const std::filesystem::path& path, const std::string& m
     take_up(manifest);
   } catch (...) {
     if (locked_ && !was_there_) clear();
-    if (made_) ::rmdir(path_.c_str());  // which fails where there is anything
+    if (made_) ::rmdir(path_.c_str());  // fails if the folder is not empty
     throw;
   }
 }
@@ -86,8 +86,8 @@ void SpillFolder::lock() {
   lock_ = std::make_unique<SpillFile>(path_ / "lock", SpillFile::Mode::kLock);
   const bool locked = ::flock(lock_->descriptor(), LOCK_EX | LOCK_NB) == 0;
   struct stat status = {};
-  // One that is gone was another's, which has just ended. File systems without locks do not refuse
-  // the work.
+  // A deleted lock file belonged to another process that has just ended. On file systems without
+  // locks the work goes on.
   const bool gone = ::fstat(lock_->descriptor(), &status) == 0 && status.st_nlink == 0;
   if ((!locked && errno == EWOULDBLOCK) || gone) {
     throw Error(ErrorCode::kIo, fmt::format("the folder {} is in use: another program works there",

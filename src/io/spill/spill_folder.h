@@ -12,11 +12,11 @@ namespace rholm {
 
 class SpillFolder {
  public:
-  // As FolderStore does.
+  // Opens the folder as FolderStore does.
   SpillFolder(const std::filesystem::path& path, const std::string& manifest);
-  // One that another process has opened, and will remove. Throws Io if it is not there.
+  // Joins a folder that another process has opened and will remove. Throws Io if there is none.
   explicit SpillFolder(const std::filesystem::path& path);
-  // Removes all that is its own, unless `kept`.
+  // Removes all files of the store, unless `kept`.
   ~SpillFolder();
   SpillFolder(const SpillFolder&) = delete;
   SpillFolder& operator=(const SpillFolder&) = delete;
@@ -24,7 +24,7 @@ class SpillFolder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path pieces() const { return path_ / "pieces"; }
   bool was_there() const { return was_there_; }
-  std::uint64_t bytes_there() const { return bytes_there_; }  // of pieces, when it was opened
+  std::uint64_t bytes_there() const { return bytes_there_; }  // bytes of pieces at opening
   void check_room(std::uint64_t bytes) const;
   void keep(bool kept) { kept_ = kept; }
   bool is_kept() const { return kept_; }
@@ -35,7 +35,7 @@ class SpillFolder {
   void clear() noexcept;
 
   std::filesystem::path path_;
-  bool made_ = false;  // the folder itself, now or by the run that is taken up
+  bool made_ = false;  // true if this or the resumed run made the folder
   bool was_there_ = false;
   bool kept_ = false;
   bool locked_ = false;

@@ -1,4 +1,4 @@
-// Points from file to file, a piece at a time.
+// Converts points from file to file, in blocks.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 14;  // points; chosen: 3 MB with ten attributes
 
-// What the first rows of a file depend on.
+// Properties of all points on which the first rows of the written file depend.
 struct Ahead {
   std::uint64_t points = 0;
   XyzNames names;
@@ -38,7 +38,7 @@ Ahead look_ahead(const std::filesystem::path& from, const std::string& columns,
   return ahead;
 }
 
-// The attributes of all pieces, and which values of them are not finite.
+// The attributes of all blocks, and the numbers of their values that are not finite.
 class AttributeNotes {
  public:
   void add(PointCloud& piece) {

@@ -29,18 +29,18 @@
 namespace rholm {
 namespace {
 
-// A file from its begin to its end through a window.
+// Reads a file from start to end through a window.
 
 class ByteWindow {
  public:
-  // "-" is standard input. Throws Io.
+  // Opens a file; "-" is standard input. Throws Io.
   explicit ByteWindow(const std::filesystem::path& path) : file_(path) {}
 
   const std::string& name() const { return file_.name(); }
-  // What is in the window, after reading on until that is n bytes or the end. Throws Io, Cancelled.
+  // Reads until the window has n bytes or the file ends; returns the window. Throws Io, Cancelled.
   std::span<const char> at_least(std::size_t n, const Context& context);
   std::span<const char> bytes() const { return {bytes_.data() + first_, last_ - first_}; }
-  // Moves the window's begin on.
+  // Moves the window's start forward.
   void pass(std::size_t n) {
     first_ += n;
     passed_ += n;
@@ -54,11 +54,11 @@ class ByteWindow {
   std::uint64_t passed_ = 0;
   bool ended_ = false;
   std::vector<char> bytes_;
-  std::size_t first_ = 0, last_ = 0;  // of the window in these
+  std::size_t first_ = 0, last_ = 0;  // range of the window in bytes_
 };
 
 std::span<const char> ByteWindow::at_least(std::size_t n, const Context& context) {
-  constexpr std::size_t kLeastRoom = std::size_t{1} << 16;  // what a pipe holds by default
+  constexpr std::size_t kLeastRoom = std::size_t{1} << 16;  // default capacity of a pipe
   while (last_ - first_ < n && !ended_) {
     if (first_ > 0) {
       std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(first_),
@@ -67,7 +67,7 @@ std::span<const char> ByteWindow::at_least(std::size_t n, const Context& context
       first_ = 0;
     }
     if (bytes_.size() < std::max(n, last_ + kLeastRoom)) {
-      // Grows as bytes come: what is asked for may be more than there is.
+      // Grows as bytes arrive, because n may exceed the rest of the file.
       bytes_.resize(std::min(std::max(n, last_ + kLeastRoom), 2 * last_ + kLeastRoom));
     }
     const InputFile::Piece piece = file_.read(std::span(bytes_).subspan(last_));
@@ -82,16 +82,16 @@ std::span<const char> ByteWindow::at_least(std::size_t n, const Context& context
 }
 
 constexpr std::size_t kMostHeader = std::size_t{1}
-                                    << 20;  // bytes of a PLY; chosen: any that makes sense
-constexpr std::size_t kMostPiece = std::size_t{64} << 20;  // bytes that are held; chosen
-constexpr std::size_t kValueText = 16;  // bytes of a value and what is around it; chosen
+                                    << 20;  // bytes of a PLY; chosen: above any sensible header
+constexpr std::size_t kMostPiece = std::size_t{64} << 20;  // bytes in memory; chosen
+constexpr std::size_t kValueText = 16;  // bytes of a value and its separators; chosen
 constexpr std::size_t kMostLine = std::size_t{1} << 20;  // bytes
 
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
   throw Error(ErrorCode::kUnsupported, name + ": " + what);
 }
 
-// Behind so many words, or where the text ends.
+// Returns the end of the given number of words, or the end of the text.
 const char* behind_words(std::span<const char> text, std::uint64_t words) {
   TextCursor cursor(text);
   for (std::uint64_t k = 0; k < words && !cursor.at_end(); ++k) {
@@ -155,9 +155,9 @@ class PointStream::Reader {
   TableColumns table;
 
  private:
-  static constexpr std::size_t kFirst = std::size_t{1} << 16;  // bytes that tell the format
+  static constexpr std::size_t kFirst = std::size_t{1} << 16;  // bytes that determine the format
 
-  // Of a piece; how far the file is read the window tells.
+  // Makes the source of a block; the window reports how much of the file is read.
   ShapeSource source(std::span<const char> bytes) const {
     ShapeSource made(bytes, window_.name(), options_, silent_, 0);
     made.rows_before = rows_;
@@ -230,7 +230,7 @@ class PointStream::Reader {
     warnings.insert(warnings.end(), read.warnings.begin(), read.warnings.end());
     size = left_ = vertex->count;
     const std::size_t gone = header_.body + (window_.bytes().size() - whole.bytes.size());
-    // Divided, as a header may claim any number.
+    // Uses division, because a header may claim any number.
     const std::uint64_t rest = window_.size() > gone ? window_.size() - gone : 0;
     has_more = has_more || rest % row_bytes_ != 0 || rest / row_bytes_ != vertex->count;
     header_.elements = {*vertex};
@@ -243,7 +243,7 @@ class PointStream::Reader {
     PlyElement& vertex = header_.elements[0];
     n = std::min<std::uint64_t>({n, left_, std::max<std::size_t>(1, kMostPiece / row_bytes_)});
     vertex.count = n;
-    std::size_t bytes = n * row_bytes_;  // of text: about
+    std::size_t bytes = n * row_bytes_;  // approximate for text
     if (header_.encoding == PlyEncoding::kAscii) {
       bytes = text_of(n * vertex.properties.size(), context);
     } else {
@@ -267,12 +267,12 @@ class PointStream::Reader {
     return true;
   }
 
-  // Bytes up to the end of so many words, in the window.
+  // Returns the number of bytes up to the end of `words` words in the window.
   std::size_t text_of(std::uint64_t words, const Context& context) {
     for (std::size_t asked = kValueText * words;; asked *= 2) {
       const std::span<const char> bytes = window_.at_least(asked, context);
       const char* const end = behind_words(bytes, words);
-      // The last word may go on beyond the window.
+      // The last word may continue beyond the window.
       if (end != bytes.data() + bytes.size() || window_.ended()) {
         return static_cast<std::size_t>(end - bytes.data());
       }
@@ -290,7 +290,7 @@ class PointStream::Reader {
     constexpr std::size_t kByteOrderMark = 3;
     window_.at_least(kTellingBytes + kByteOrderMark, {});
     const ShapeSource whole = source(window_.bytes());
-    // Other formats are told from this one as read_shape() does.
+    // Recognises other formats as read_shape() does.
     const bool is_other =
         std::ranges::any_of(shape_format_table(), [&](const ShapeFormatLine& line) {
           return line.looks_like != nullptr && line.looks_like(whole.bytes);
@@ -318,7 +318,7 @@ class PointStream::Reader {
     pass(header.rows_at + (window_.bytes().size() - whole.bytes.size()));
   }
 
-  // The whole lines of at most n rows.
+  // Returns the complete lines of at most n rows.
   std::span<const char> lines_of(std::size_t n, const Context& context) {
     std::size_t asked = std::min<std::size_t>(n * 8 * look_.header.syntax.columns, kMostPiece) + 1;
     for (;;) {
@@ -360,14 +360,14 @@ class PointStream::Reader {
         return false;
       }
       std::vector<std::string> changed;
-      cloud = read_xyz_rows(source(lines), look_, 0, changed);  // comments have none
+      cloud = read_xyz_rows(source(lines), look_, 0, changed);  // comments have no points
       if (done == 0) warnings.insert(warnings.end(), changed.begin(), changed.end());
       pass(lines.size());
     }
     return true;
   }
 
-  // Types of attributes are those of the first piece.
+  // The first block determines the types of attributes.
   void settle(PointCloud& cloud) {
     if (encoding == "ascii") {
       std::vector<std::string> changed;
@@ -393,12 +393,12 @@ class PointStream::Reader {
   ShapeReadOptions options_;
   Context silent_;
   PlyHeader header_;
-  std::size_t row_bytes_ = 0;                 // of text about
-  std::uint64_t left_ = 0;                    // rows of a PLY
-  TableLook look_;                            // of lines of numbers
-  std::size_t lines_ = 0;                     // before the window
-  std::size_t rows_ = 0;                      // read
-  std::size_t dropped_ = 0, dropped_at_ = 0;  // points, and their warning
+  std::size_t row_bytes_ = 0;                 // approximate for text
+  std::uint64_t left_ = 0;                    // rows of a PLY that are left
+  TableLook look_;                            // for lines of numbers
+  std::size_t lines_ = 0;                     // lines before the window
+  std::size_t rows_ = 0;                      // rows read
+  std::size_t dropped_ = 0, dropped_at_ = 0;  // points, and the index of their warning
   std::vector<ScalarType> types_;
 };
 

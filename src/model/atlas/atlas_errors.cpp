@@ -24,8 +24,8 @@ AtlasErrors measure(const std::vector<Vec3>& points, const Mesh& surface, const 
   return errors;
 }
 
-// What lies inside is as far from the whole surface in many directions, and asked for in vain: the
-// way back begins from the surface alone.
+// Searches from points inside the solid are slow and of no use, because the surface is equally far
+// in many directions. Distances back are measured from samples of the surface alone.
 AtlasErrors measure(const std::vector<Vec3>& outer, const Mesh& shape, const Mesh& surface,
                     std::size_t samples, const Context& context) {
   AtlasErrors errors = measure(outer, surface, context);

@@ -1,4 +1,4 @@
-// How far a shape is from the surface of its model. Layer: model, private.
+// Distances between a shape and the surface of its model. Layer: model, private.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@ namespace rholm {
 
 AtlasErrors measure(const Mesh& shape, const Mesh& surface, std::size_t samples,
                     const Context& context);
-// Of a shape whose parts run into each other: from points of its outer surface, and back to all.
+// For a shape with intersecting parts: from points of its outer surface, and back to all of it.
 AtlasErrors measure(const std::vector<Vec3>& outer, const Mesh& shape, const Mesh& surface,
                     std::size_t samples, const Context& context);
-// From the points to the surface only.
+// Measures only from the points to the surface.
 AtlasErrors measure(const std::vector<Vec3>& points, const Mesh& surface, const Context& context);
 
 }  // namespace rholm

@@ -20,16 +20,16 @@
 namespace rholm {
 namespace {
 
-// Of the tolerance: what is aimed at, and what is not worth another aim.
+// Fractions of the tolerance: the target of the next aim, and the error that ends the search.
 constexpr double kAim = 0.995, kGoodEnough = 0.97;
-// An aim that changes the surface's rms by less, of its own change as logarithms, is the last.
+// An aim is the last if the surface's log(rms) changes by less than this part of log(aim)'s change.
 constexpr double kStalled = 0.1;
-// Between an aim that keeps the tolerance and one that does not, and between their numbers: no more
-// than kGoodEnough gives away.
+// The search ends if the aims that keep and exceed the tolerance have a ratio below kSameAim, or
+// their numbers below kSameNumbers. kGoodEnough gives away as much.
 constexpr double kSameAim = 1.03, kSameNumbers = 1.03;
 // While handles are wrong the aim is multiplied by kTighter, at most kTightenings times: half the
-// tolerance in all. Of meshes 15, 38, 51, 61, 111, 115,
-// 138, 338 and 460 of tests/cli/random_meshes.py three became right so, none by a looser aim.
+// tolerance in all. Three of the meshes 15, 38, 51, 61, 111, 115, 138, 338 and 460 of
+// tests/cli/random_meshes.py became right in this way, none by a looser aim.
 constexpr double kTighter = 0.7;
 constexpr int kTightenings = 2;
 
@@ -48,8 +48,8 @@ void Aims::remember(const AimOutcome& outcome) { last_ = outcome, last_aim_ = ai
 
 bool Aims::advance(const AimOutcome& outcome) {
   const bool near = outcome.rms <= tolerance_;
-  // Where hardly anything was left to be dropped, samples are nearer than was aimed at: what comes
-  // next must be nearer than that.
+  // If hardly any coefficient was left to drop, the error of the samples is below the aim. The next
+  // aim must then be below this error.
   if (!outcome.met && kept_ == 0) aim_ = std::min(aim_, outcome.reached);
   if (near && !outcome.whole && kept_ == 0) {
     if (++tightened_ > kTightenings) return false;
@@ -67,7 +67,7 @@ bool Aims::advance(const AimOutcome& outcome) {
     aim_ = corrected(outcome.rms);
     return true;
   }
-  // What lies between them spares no more.
+  // No aim between the two saves more numbers.
   const double spared = static_cast<double>(kept_numbers_) / static_cast<double>(missed_numbers_);
   if (missed_ < kSameAim * kept_ || spared < kSameNumbers) return false;
   aim_ = std::sqrt(kept_ * missed_);
@@ -77,11 +77,11 @@ bool Aims::advance(const AimOutcome& outcome) {
 namespace {
 
 constexpr int kMostTries = 8;            // aims, for each overlap
-constexpr double kWorthSearching = 1.5;  // tolerances: beyond, another aim comes first
-// Where caps hardly agree, as between fingers, one band may see a handle that another does not:
-// where parts and handles are not the shape's, both are tried (scripts/constants). A third band and
-// a finer step made none of forty shapes right that is not right with these.
-constexpr double kBands[] = {1, 2};  // times the atlas's own
+constexpr double kWorthSearching = 1.5;  // tolerances: above, another aim comes first
+// Where caps hardly agree, as between fingers, one band may produce a handle that another does not.
+// If parts and handles differ from the shape's, both are tried (scripts/constants). A third band
+// and a finer step corrected none of forty shapes that are wrong with these.
+constexpr double kBands[] = {1, 2};  // times the band of the atlas
 constexpr std::size_t kAnyHandles = std::numeric_limits<std::size_t>::max();
 
 Atlas overlapping(Atlas atlas, const Overlap& overlap) {
@@ -90,21 +90,21 @@ Atlas overlapping(Atlas atlas, const Overlap& overlap) {
   return atlas;
 }
 
-// As it comes out of the file.
+// Returns the atlas as it is read back from the file.
 Atlas rounded(Atlas atlas, const Overlap& overlap) {
   set_weights(atlas.caps, overlap.power);
   return unpack(pack(atlas), "");
 }
 
-// The surface of a model, what is measured on it, and how it hangs together.
+// The surface of a model, its measured errors, and its topology.
 struct TrialSurface {
   AtlasModel model;
   Topology topology;
   std::size_t wrong = 0;  // parts and handles
 };
 
-// Lower is better: first a tolerance that is kept, then the handles, then few numbers; where the
-// tolerance is missed, right handles, then the error.
+// Ranks models, lower is better: first a kept tolerance, then the handles, then few numbers. If the
+// tolerance is exceeded, right handles count first, then the error.
 using Rank = std::tuple<bool, std::size_t, double>;
 Rank rank(const AtlasModel& model, std::size_t wrong, double accepted) {
   const double rms = model.errors->rms();
@@ -112,7 +112,7 @@ Rank rank(const AtlasModel& model, std::size_t wrong, double accepted) {
   return {false, wrong, static_cast<double>(size_of(model.atlas).numbers())};
 }
 
-// Nothing of a surface with `too_many` wrong handles or more: it is not measured.
+// Returns nothing, without measuring, for a surface with `too_many` wrong handles or more.
 std::optional<TrialSurface> try_surface(const FitTarget& target, AtlasModel model, double band,
                                         std::size_t too_many) {
   model.atlas.band *= band;
@@ -124,7 +124,7 @@ std::optional<TrialSurface> try_surface(const FitTarget& target, AtlasModel mode
   return trial;
 }
 
-// The surface with the first band, or a better one with the second, which comes first from then on.
+// Returns the surface with the first band, or a better one with the second, and swaps the bands.
 TrialSurface try_bands(const FitTarget& target, const AtlasModel& model,
                        std::array<double, 2>& bands) {
   TrialSurface first = *try_surface(target, model, bands[0], kAnyHandles);
@@ -138,7 +138,7 @@ TrialSurface try_bands(const FitTarget& target, const AtlasModel& model,
       return std::move(*second);
     }
   } catch (const Error& error) {
-    // More than memory allows is no choice.
+    // A band that needs more than the allowed memory is not used.
     if (error.code() != ErrorCode::kOutOfMemory) throw;
   }
   return first;
@@ -178,7 +178,7 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
     try {
       trial = timed(report.times, "surface", [&] { return try_bands(target, model, bands); });
     } catch (const Error& error) {
-      // No surface, or none that memory allows: what there is already stands.
+      // There is no surface, or none within the allowed memory: the model found so far is kept.
       const bool none =
           error.code() == ErrorCode::kInvalidInput || error.code() == ErrorCode::kOutOfMemory;
       if (!none || !result.model.errors) throw;
@@ -193,14 +193,14 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
       report.components = trial->topology.components, report.genus = trial->topology.genus;
       report.met = outcome.met, report.topology_kept = outcome.whole;
     }
-    // No number is saved where more than the tolerance would do.
+    // If an error above the tolerance is accepted, another aim need not save numbers.
     const bool good = aims.is_close(outcome.rms) || target.tolerance < target.accepted;
     if (outcome.met && outcome.whole && good) break;
     if (outcome.met && !outcome.whole && !overlap.settles) {
       aim = std::min(aims.aim(), aims.corrected(outcome.rms));
       break;
     }
-    // (Farther than aimed at, they may be due to that.)
+    // If the error exceeds the tolerance, the handles may be due to it, and another aim is tried.
     if (trial->wrong > kFewHandles && outcome.rms <= target.tolerance) break;
     if (!aims.advance(outcome)) break;
   }

@@ -22,17 +22,17 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kSamples = 100000;  // chosen: half as many as the finest models are made from
-// Chosen: on a bunny one alone leaves a level of 4 with 8 % more of badly turned normals.
+constexpr std::size_t kSamples = 100000;  // chosen: half as many as the finest models use
+// Chosen: on a bunny, a single sweep leaves a level of 4 with 8 % more badly turned normals.
 constexpr int kSweeps = 3;
 
-// What leans by more because caps disagree shows as a ledge.
+// A slope above this angle that is due to disagreeing caps shows as a ledge.
 constexpr double kLedgeAngle = 10 * std::numbers::pi / 180;
-// Share of the surface that ledges may take more than the whole model's do. Chosen by pictures
-// (scripts/atlas-figures --levels): what is above shows plates, mostly levels of degree 1 and 2.
+// Largest share of the surface that ledges may take beyond the share in the whole model. Chosen by
+// pictures (scripts/atlas-figures --levels): above, plates show, mostly at degrees 1 and 2.
 constexpr double kMoreLedges = 0.01;
 
-// Where caps disagree, one grid may see a handle that another does not: bands to try, in parts.
+// Where caps disagree, one grid may produce a handle that another does not: relative bands to try.
 constexpr double kBands[] = {1, 1.5, 2, 0.7};
 
 SampleLevels samples_of(const Mesh& surface, const Context& context) {

@@ -9,24 +9,24 @@
 
 namespace rholm {
 
-// The caps of an atlas with no degree above `degree`, fitted to its own surface so that they agree
-// where they meet.
+// The caps of an atlas without degrees above `degree`, fitted to the surface of the atlas so that
+// they agree where they meet.
 struct AtlasLevel {
   int degree = 0;
   Atlas atlas;
-  double lost = 0;      // rms distance that the degrees left out make
-  double ledges = 0;    // share of the surface that leans because caps disagree
-  bool usable = false;  // whether that is hardly more than of the whole model
+  double lost = 0;      // rms distance due to the degrees left out
+  double ledges = 0;    // share of the surface that is tilted because caps disagree
+  bool usable = false;  // ledges are hardly more than in the whole model
 };
 
 class LevelMaker {
  public:
-  // Of an atlas and its surface, which is not empty; both are referred to.
+  // Takes an atlas and its surface, which is not empty, and keeps references to both.
   LevelMaker(const Atlas& atlas, const Mesh& surface, const Context& context);
-  // Of the least degree from `degree` on that is usable; the highest of the atlas always is.
+  // Returns the lowest usable level from `degree` on; the highest degree is always usable.
   AtlasLevel usable_from(int degree) const;
-  // Throws Unsupported, with the least degree that will do, for one whose caps would stand beside
-  // each other as plates.
+  // Returns the level of this degree. If its caps would show as separate plates, throws Unsupported
+  // with the lowest usable degree.
   AtlasLevel usable_at(int degree) const;
 
  private:
@@ -38,8 +38,8 @@ class LevelMaker {
   double most_ledges_ = 0;
 };
 
-// The surface of a level; connected as the surface of the whole model is, if a band can be found
-// within which caps are averaged so, or as nearly as one that was tried.
+// Returns the surface of a level. Tries several bands for averaging caps until the surface has the
+// topology of the whole model, and otherwise takes the closest topology.
 Mesh level_surface(const Atlas& level, const Mesh& whole, const AtlasSurfaceOptions& options,
                    const Context& context);
 

@@ -10,8 +10,8 @@
 namespace rholm {
 namespace {
 
-// Hues that are told apart, in the order they are given out: those of Okabe and Ito (2008) without
-// black, and their lighter sisters.
+// Distinguishable hues in the order of use: the hues of Okabe and Ito (2008) without black, and
+// lighter variants of them.
 constexpr std::array<std::array<std::uint8_t, 3>, 12> kHues = {{{230, 159, 0},
                                                                 {86, 180, 233},
                                                                 {0, 158, 115},
@@ -26,8 +26,8 @@ constexpr std::array<std::array<std::uint8_t, 3>, 12> kHues = {{{230, 159, 0},
                                                                 {250, 170, 160}}};
 constexpr std::array<std::uint8_t, 3> kGrey = {128, 128, 128};
 
-// Each cap takes the hue that the fewest of the caps before it that reach it have, the first of
-// equal ones.
+// Gives each cap the hue that is rarest among the earlier caps that overlap it, or the first of
+// equally rare hues.
 std::vector<std::size_t> hues_of(const Atlas& atlas) {
   std::vector<std::size_t> hues;
   for (const Cap& cap : atlas.caps) {
@@ -44,7 +44,7 @@ std::vector<std::size_t> hues_of(const Atlas& atlas) {
   return hues;
 }
 
-// The cap whose support ends nearest, as a part of its size.
+// Returns the cap whose support ends nearest to x, relative to its size.
 std::uint32_t nearest_cap(const Atlas& atlas, const Vec3& x) {
   std::uint32_t nearest = kNoCap;
   double least = INFINITY;
@@ -88,7 +88,7 @@ namespace {
 
 using Color = std::array<std::uint8_t, 3>;
 
-// `color_of` a cap's index.
+// Sets the colours; `color_of` takes the index of a cap.
 template <typename ColorOf>
 void set_colors(std::vector<Attribute>& attributes, const std::vector<std::uint32_t>& caps,
                 const ColorOf& color_of) {
@@ -103,7 +103,7 @@ void set_colors(std::vector<Attribute>& attributes, const std::vector<std::uint3
   }
 }
 
-// Dark blue, green, yellow: lighter throughout, so that it reads without colours, too.
+// Returns dark blue, green or yellow: lightness increases, so that grey prints are readable, too.
 Color ramp(double t) {
   constexpr std::array<Color, 3> kStops = {{{52, 28, 110}, {33, 145, 140}, {253, 231, 37}}};
   const std::size_t i = t < 0.5 ? 0 : 1;

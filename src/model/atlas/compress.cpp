@@ -32,44 +32,44 @@
 namespace rholm {
 namespace {
 
-// All of these are tolerances, chosen on four shapes at 1e-3 and 3e-4 of the diagonal.
-constexpr double kSampleSpacing = 2.5;  // errors of a fit have waves longer than that
-constexpr double kStray = 3;          // a cap's surface farther from the samples is not theirs ...
-constexpr double kStrayFitted = 1.5;  // ... and once more, stricter, when coefficients are dropped
-constexpr double kStep = 4;           // of the grid: details that matter are larger
+// The lengths below are in tolerances, chosen on four shapes at 1e-3 and 3e-4 of the diagonal.
+constexpr double kSampleSpacing = 2.5;  // errors of a fit have longer waves
+constexpr double kStray = 3;            // parts of a cap farther from its samples are cut ...
+constexpr double kStrayFitted = 1.5;  // ... and again, more strictly, when coefficients are dropped
+constexpr double kStep = 4;           // step of the grid: relevant details are larger
 constexpr double kBand = 10;          // caps that disagree by less are averaged
 // Parts of the diagonal: neighbours that disagree by more than a coarse tolerance make no surface.
 constexpr double kCoarsest = 0.02, kWidestBand = 0.1;
 constexpr double kLeastSteps = 250;  // along the diagonal: fewer show as facets
 constexpr double kLeastSamples = 20000, kMostSamples = 200000;
-// Thin shapes that need more are refused: meshes 138, 158, 381 and 460 of
+// Thin shapes that need more samples are refused. Meshes 138, 158, 381 and 460 of
 // tests/cli/random_meshes.py took a minute, for grids of three to five million triangles, and all
-// kept handles too many.
+// kept too many handles.
 constexpr double kMostThinSamples = 100000;
 
-// Sheets of a surface that face each other leave room for the error of both caps, and for the band
-// within which the grid blends them: at most these parts of the gap. It is the one that kThin of
-// the area falls below: at sharp edges all fall to 0.
+// Facing sheets of a surface need room for the errors of both caps, and for the band in which the
+// grid blends caps. Each may take this part of the gap. The gap is the one that a share kThin of
+// the area falls below, because at sharp edges all gaps fall to 0.
 constexpr double kThin = 0.05;
 constexpr double kToleranceOfGap = 1.0 / 6, kBandOfGap = 1.0 / 3;
 constexpr double kStepOfGap = kBandOfGap / kBandSteps;
 
 // Where neighbours barely overlap, the surface changes from one to the other in a step. Measured:
-// 1.3 leaves fewer steps still, but splinters at thin parts. Where parts lie close together, as
-// fingers do, that makes handles, and caps reach as far as they were chosen to.
+// 1.3 leaves fewer steps still, but splinters at thin parts. At close parts, as fingers, larger
+// supports make handles, and caps keep the supports with which they were chosen.
 constexpr Overlap kOverlaps[] = {{1.15, 1, false}, {1, 3, true}};
-// A cover takes more numbers than the model made of it, as coefficients are dropped to the
-// tolerance. One of more than this times the numbers allowed is given up before it is fitted.
+// A cover has more numbers than its model, because coefficients are then dropped to the tolerance.
+// A cover with more than this times the allowed numbers is given up before it is fitted.
 constexpr std::size_t kDropped = 2;
 
 static_assert(kMaxCapDegree == kMaxLowDegree);
 
-// A level has as many faces as its error needs: faces may leave this part of what the degrees left
-// out make. The fit of a level leaves half of that or more (compress_test), so faces add 2 % at
-// most.
+// The error of a level determines its number of faces: faces may add this part of the error of the
+// degrees left out. The fit of a level leaves half of this error or more (compress_test), so that
+// faces add at most 2 %.
 constexpr double kLevelError = 0.1;
 
-// What a shape is to compress().
+// The input of compress_subject(), made from a mesh or from points.
 struct Subject {
   OrientedPoints samples;
   double diagonal = 0;
@@ -78,12 +78,12 @@ struct Subject {
   std::function<AtlasErrors(const Mesh&)> measure;
 };
 
-// What a gap between sheets allows.
+// Lengths that a gap between sheets allows.
 struct Lengths {
   double tolerance, band, step;
 };
 Lengths lengths_for(double tolerance, double diagonal, double gap, double area) {
-  // Samples are as far apart as errors have waves.
+  // The spacing of samples is the wave length of errors.
   const double least = std::sqrt(area / kMostThinSamples) / (kSampleSpacing * kToleranceOfGap);
   if (gap < least) {
     throw Error(ErrorCode::kUnsupported,
@@ -120,7 +120,7 @@ std::size_t most_numbers(const Subject& subject, const CompressOptions& options)
                   tolerance, numbers, subject.input_numbers, most_numbers(subject, options)));
 }
 
-// A cover that was given up, or has no caps.
+// Refuses a cover that was given up, or that has no caps.
 [[noreturn]] void refuse(const GreedyCover& cover, const Subject& subject,
                          const CompressOptions& options, double tolerance) {
   if (cover.foreseen > 0) {
@@ -199,7 +199,7 @@ Compressed compress_subject(const Subject& subject, const Lengths& lengths,
   return result;
 }
 
-// Of a mesh that bounds a solid; none for others.
+// Returns the topology of a mesh that bounds a solid; none for other meshes.
 std::optional<Topology> topology_of_solid(const Inspection& found) {
   if (!found.closed || !found.manifold || !found.oriented) return std::nullopt;
   return topology_of(found);
@@ -213,7 +213,7 @@ void check_oriented_alike(const Inspection& found) {
                           found.misoriented_edges));
 }
 
-// What is told to extract_atlas(), for a grid of this step.
+// Makes the options of extract_atlas() for a grid of this step.
 class RuledExtraction {
  public:
   RuledExtraction(const AtlasModel& model, double step, const Context& context) : step_(step) {
@@ -229,7 +229,7 @@ class RuledExtraction {
   RuledExtraction(const RuledExtraction&) = delete;
   RuledExtraction& operator=(const RuledExtraction&) = delete;
 
-  // Good as long as this is.
+  // Valid as long as this object.
   AtlasSurfaceOptions options(std::size_t max_memory) const {
     AtlasSurfaceOptions options{.step = step_, .max_memory = max_memory};
     options.keep_holes = keep_holes_, options.min_component = min_component_;
@@ -268,10 +268,10 @@ Compressed compress(const Mesh& mesh, const CompressOptions& options, const Cont
   subject.diagonal = bounds(welded.vertices).diagonal();
   const double area = surface_area(welded);
   const Lengths lengths = lengths_for(options.tolerance, subject.diagonal, probe.gap, area);
-  outer.closed = probe.hidden > 0;  // nothing else has to be looked for
+  outer.closed = probe.hidden > 0;  // if false, all samples are outer
   subject.samples = outer_samples(outer, n_samples(options, lengths, area), context);
-  subject.input_numbers = 3 * welded.vertices.size();  // copies say nothing new
-  // What is left of parts that run into each other hangs together in a way of its own.
+  subject.input_numbers = 3 * welded.vertices.size();  // copies carry no information
+  // The remaining parts of intersecting parts have a topology of their own.
   if (probe.hidden == 0) subject.topology = topology_of_solid(found);
   const std::vector<Vec3>& visible = subject.samples.points;
   subject.measure = [&](const Mesh& surface) {

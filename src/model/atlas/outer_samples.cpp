@@ -15,11 +15,11 @@ namespace rholm {
 namespace {
 
 constexpr std::size_t kProbes = 5000;
-// Of the diagonal: where sheets lie closer, rays cannot tell on which side of both they start.
+// Part of the diagonal: for closer sheets, rays cannot tell on which side of both they start.
 constexpr double kLeastGap = 1e-5;
-constexpr double kMostInverted = 1e-3;  // share of probes: fewer may be rounding
+constexpr double kMostInverted = 1e-3;  // share of probes; a smaller share may be rounding
 
-// The samples that are on the outside; `inverted` counts those of parts that are inside out.
+// Returns the samples on the outside; `inverted` counts the samples of parts that are inside out.
 AreaSamples outer_of(const OuterSurface& surface, std::size_t n, std::size_t& inverted,
                      const Context& context) {
   AreaSamples all = sample_by_area(surface.mesh, n, surface.seed);
@@ -37,7 +37,7 @@ AreaSamples outer_of(const OuterSurface& surface, std::size_t n, std::size_t& in
   return outer;
 }
 
-// The gap that a share of the points falls below.
+// Returns the gap that a share `thin` of the points falls below.
 double gap_of(const OuterSurface& surface, const AreaSamples& on, double thin,
               const Context& context) {
   std::vector<double> gaps =

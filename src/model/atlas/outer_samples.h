@@ -1,4 +1,4 @@
-// Samples of the outer surface of a mesh, where parts of it may run into each other. Layer: model,
+// Samples of the outer surface of a mesh whose parts may intersect each other. Layer: model,
 // private.
 #pragma once
 
@@ -14,20 +14,20 @@ namespace rholm {
 
 struct OuterSurface {
   const Mesh& mesh;
-  const RayScene& scene;  // of it
-  bool closed = false;    // of an open mesh all is outside
+  const RayScene& scene;  // rays in the mesh
+  bool closed = false;    // an open mesh has only outer samples
   std::uint64_t seed = 1;
 };
 
 struct SheetProbe {
-  double gap = 0;     // between sheets that face each other: less on the share `thin` of the area
-  double hidden = 0;  // share of the area that lies inside of the solid
+  double gap = 0;     // between facing sheets: smaller on the share `thin` of the area
+  double hidden = 0;  // share of the area that is inside the solid
 };
 
-// From five thousand points. Throws InvalidInput if parts of the mesh are inside out.
+// Probes five thousand points. Throws InvalidInput if parts of the mesh are inside out.
 SheetProbe probe_sheets(const OuterSurface& surface, double thin, const Context& context);
 
-// What lies on the outside of `n` points spread by area, with the normals of their triangles.
+// Returns the outer ones of `n` points spread by area, with the normals of their triangles.
 OrientedPoints outer_samples(const OuterSurface& surface, std::size_t n, const Context& context);
 
 }  // namespace rholm

@@ -29,12 +29,12 @@ namespace {
 
 // Precision of the integrals: far below the jump at the border of a patch.
 constexpr double kPrecision = 1e-8;
-// Points of a widened cell are seen from its centre at a cosine above this, or left out.
+// Least cosine at which a centre sees points of its widened cell; other points are left out.
 constexpr double kLeastCosine = 0.1;
-// The edge of the grid's cubes over the distance between points.
+// Ratio of the edge of the grid's cubes to the distance between points.
 constexpr double kStepSpacings = 1;
 
-// In local units: moduli of about 1, normals of length 1.
+// Points with moduli of about 1 in local units, and normals of length 1.
 struct Points {
   std::vector<Vec3> points, normals;
   UnitFrame frame;
@@ -52,7 +52,7 @@ Points local_points(const std::vector<Vec3>& points, const std::vector<Vec3>& no
   return local;
 }
 
-// A patch and the points around it, its own first.
+// The points of a patch, followed by neighbouring points.
 struct Cell {
   std::vector<Vec3> points;
   std::size_t own = 0;
@@ -84,16 +84,16 @@ Cell cell_of(const Points& all, const KdPartition& partition, const KdPatch& pat
   return cell;
 }
 
-// One cap, and what is needed of all.
+// One cap, and its contributions to the whole atlas.
 struct MadeCap {
   Cap cap;
   std::vector<double> coefficients;
   double own_area = 0;
-  double squares = 0;  // of errors along rays
+  double squares = 0;  // sum of squared errors along rays
   std::size_t points = 0;
 };
 
-// Triangles between points as their patch's sphere sees them.
+// Returns triangles between points, seen as directions from the centre of the patch's sphere.
 std::vector<Triangle> triangles_between(const KdPatch& patch, const std::vector<Vec3>& points) {
   std::vector<Vec3> directions;
   directions.reserve(points.size());
@@ -101,7 +101,7 @@ std::vector<Triangle> triangles_between(const KdPatch& patch, const std::vector<
   return sphere_delaunay(directions);
 }
 
-// In the order of atlas.h, of r / R_0 - 1.
+// Returns the coefficients of r / R_0 - 1 in the order of atlas.h.
 std::vector<double> flattened(const Coefficients& series, double radius) {
   std::vector<double> values;
   for (int l = 0; l <= series.degree(); ++l) {
@@ -145,7 +145,7 @@ MadeCap make_cap(const Cell& cell, const KdPatch& patch, const PatchAtlasOptions
   return made;
 }
 
-// Back to the shape's place and size.
+// Moves a cap back to the shape's position and size.
 void move_back(const UnitFrame& frame, Cap& cap) {
   cap.frame.center = frame.to_shape(cap.frame.center);
   cap.where.xx *= frame.scale * frame.scale;
@@ -200,11 +200,11 @@ PatchAtlas make_all(const std::vector<Vec3>& points, const std::vector<Vec3>& no
   model.step = kStepSpacings * model.atlas.spacing;
   model.input_numbers = 3 * points.size();
   model.method = fmt::format("integral, {} beyond", to_string(options.extension));
-  model.atlas = unpack(pack(model.atlas), "");  // as it comes out of the file
+  model.atlas = unpack(pack(model.atlas), "");  // the atlas as it is read back from the file
   try {
     made.surface = synthesize(model, {}, context);
   } catch (const Error& error) {
-    // Nobody chose that step.
+    // The user has not chosen that step.
     if (error.code() != ErrorCode::kOutOfMemory) throw;
     throw Error(ErrorCode::kUnsupported,
                 fmt::format("the shape is too thin for an atlas of patches: its points are {:.2g} "
@@ -220,10 +220,10 @@ PatchAtlas make_all(const std::vector<Vec3>& points, const std::vector<Vec3>& no
   return made;
 }
 
-// Triangles that stand apart are so much smaller.
+// Scale of each triangle in a view of separate triangles.
 constexpr double kApart = 0.85;
 
-// The pieces of a picture, and which patch each vertex is of.
+// Collects the parts of a picture, and the patch of each vertex.
 class PictureMaker {
  public:
   explicit PictureMaker(PatchView view) : view_(view) {}
@@ -273,7 +273,7 @@ class PictureMaker {
   PatchView view_;
   Mesh mesh_;
   std::vector<std::uint32_t> patch_of_;
-  Atlas atlas_;  // frames alone, in local units: neighbours are told apart by them
+  Atlas atlas_;  // frames only, in local units, from which neighbours get different colours
 };
 
 PatchPicture picture_of(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,

@@ -8,7 +8,7 @@
 namespace rholm {
 namespace {
 
-// Whether a text begins as formulas do, behind as many apostrophes.
+// Returns true if a text begins like a formula, also after apostrophes.
 bool begins_like_formula(std::string_view text) {
   const std::size_t first = text.find_first_not_of('\'');
   constexpr std::string_view kBeginnings = "=+-@\t\r";
@@ -21,8 +21,8 @@ bool is_number(std::string_view text) {
   return take_number(cursor, value) && cursor.at_end();
 }
 
-// One pass over the text. A quote opens a field only at its beginning; within it, two stand for
-// one.
+// Parses the text in one pass. A quote opens a field only at its start; within the field, two
+// quotes stand for one.
 class CsvReader {
  public:
   CsvReader(std::span<const char> text, const std::string& name, std::size_t most_bytes)

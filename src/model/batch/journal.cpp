@@ -20,7 +20,7 @@ struct BatchJournal::State {
   int descriptor = -1;
   mutable std::mutex mutex;
   JournalContent content;
-  std::uint64_t end = 0;  // of the file
+  std::uint64_t end = 0;  // size of the file
   std::size_t dropped = 0;
 
   explicit State(const std::filesystem::path& where)
@@ -48,7 +48,7 @@ struct BatchJournal::State {
   }
 };
 
-// The lock is a courtesy: file systems without locks do not refuse the work.
+// The lock is optional: on file systems without locks the work goes on.
 BatchJournal::BatchJournal(const std::filesystem::path& path, std::uint64_t job, std::size_t rows)
     : state_(std::make_unique<State>(path)) {
   State& s = *state_;
@@ -126,7 +126,7 @@ std::uint64_t fingerprint(std::span<const std::string> texts) {
   const auto add = [&](std::string_view bytes) {
     for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
   };
-  for (const std::string& text : texts) {  // with its length: where one ends counts
+  for (const std::string& text : texts) {  // with its length, so that the borders of texts count
     std::string size;
     put_u64(size, text.size());
     add(size);

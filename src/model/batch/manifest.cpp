@@ -19,7 +19,7 @@ namespace {
   throw Error(ErrorCode::kInvalidInput, fmt::format("{}: line {}: {}", name, line, what));
 }
 
-// Names that a column of results may have: HDF5 takes a slash for a folder.
+// Checks that columns of results may have these names: HDF5 takes a slash for a folder.
 void check_names(const CsvRecord& header, const std::string& name) {
   for (std::size_t i = 0; i < header.fields.size(); ++i) {
     const std::string& column = header.fields[i];
@@ -80,7 +80,7 @@ Manifest parse_manifest(std::span<const char> text, const std::string& name) {
                      in_quotes(fmt::format("{}", fmt::join(header.fields, ",")))));
   }
   if (records.size() == 1) fail(name, header.line, "no shapes follow the names of the columns");
-  std::unordered_map<std::string, std::size_t> lines;  // of ids
+  std::unordered_map<std::string, std::size_t> lines;  // line of each id
   for (std::size_t r = 1; r < records.size(); ++r) {
     const CsvRecord& record = records[r];
     ManifestItem item{record.fields[id.value_or(*path)], record.fields[*path], {}};

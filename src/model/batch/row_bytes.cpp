@@ -26,7 +26,7 @@ void put_text(std::string& bytes, std::string_view text) {
   bytes += text;
 }
 
-// What follows the index of its kind in Cell.
+// Appends the bytes that follow the index of the kind in Cell.
 struct CellBytes {
   std::string& bytes;
   void operator()(std::monostate) const {}
@@ -40,7 +40,7 @@ struct CellBytes {
   }
 };
 
-// Every step says whether the bytes were there; nothing is allocated that they do not hold.
+// Every step returns false if bytes are missing; memory is limited by the size of the bytes.
 class RowReader {
  public:
   explicit RowReader(std::string_view bytes) : rest_(bytes) {}

@@ -1,4 +1,4 @@
-// Rows as columns, and back.
+// Converts rows to columns, and back.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,11 +26,11 @@ std::string_view take_digits(std::string_view& text) {
   return digits;
 }
 
-// What the cells of a column are.
+// The kinds of cells in a column.
 struct Kind {
   bool booleans = false, wholes = false, reals = false, texts = false, lists = false;
-  std::size_t width = 0;  // of the longest list
-  std::size_t rows = 0;   // that have one
+  std::size_t width = 0;  // length of the longest list
+  std::size_t rows = 0;   // number of rows with a value
 };
 
 struct NameOrder {
@@ -51,7 +51,7 @@ void look_at(const Cell& cell, Kind& kind) {
   }
 }
 
-// Texts take what does not agree; a number among lists is a list of one.
+// Columns of mixed kinds become texts; a number among lists is a list of one.
 BatchColumn empty_column(const std::string& name, const Kind& kind, std::size_t rows) {
   BatchColumn column{.name = name, .width = 0, .values = {}};
   const bool numbers = kind.wholes || kind.reals || kind.lists;
@@ -127,7 +127,7 @@ bool column_before(std::string_view a, std::string_view b) {
     }
   }
   if (x.empty() != y.empty()) return x.empty();
-  return a < b;  // alike but for zeros in front
+  return a < b;  // they differ only by leading zeros
 }
 
 std::span<const double> trimmed(const std::vector<double>& list) {

@@ -14,7 +14,7 @@
 namespace rholm {
 namespace {
 
-// A column of the file: a column of the table, or a number of each list.
+// A column of the file: a column of the table, or one number of each list.
 struct Place {
   std::string name;
   const BatchColumn* column;

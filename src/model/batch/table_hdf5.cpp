@@ -35,7 +35,7 @@ void write_column(Writer& writer, const BatchColumn& column, std::size_t rows) {
   }
 }
 
-// HDF5 takes a slash for a folder; two names are of what is no column.
+// Checks a name: HDF5 takes a slash for a folder, and two names are reserved.
 void check_name(const std::string& column, const std::string& name) {
   if (!column.empty() && column != "." && column.find('/') == std::string::npos &&
       column != kColumnNames && column != kBatchAbout) {
@@ -46,7 +46,7 @@ void check_name(const std::string& column, const std::string& name) {
                           name, column));
 }
 
-// What makes a table of a file's columns; each must have a value for every row.
+// Makes a table from a file's columns; each must have a value for every row.
 class Reader {
  public:
   Reader(std::span<const char> bytes, const std::string& name)

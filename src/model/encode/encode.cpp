@@ -27,7 +27,7 @@ std::string bytes_of(Place place, const std::filesystem::path& path, const MeshV
   return writer.take();
 }
 
-// Continues where a mesh cannot be expanded in place.
+// Continues with a mesh that cannot be expanded in place.
 Encoded encode_prepared(const Mesh& mesh, const EncodeOptions& options, const Context& context) {
   StageTimes times;
   report_progress(context, "topology", 0);
@@ -64,7 +64,7 @@ Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& opti
     hooks.executor = executor.get();
     return expand_in_place(mesh, options, hooks, context);
   };
-  // What the reader hands on of faces that no pass can use, a pass may be able to use.
+  // The reader may change faces that no pass can use so that a pass can use them.
   std::variant<Encoded, NotInPlace> result = NotInPlace::kUnusable;
   if (const auto mapped = timed(times, "read", [&] { return map_mesh(path, context); })) {
     result = in_place(hooks_of(*mapped), Place::kMapped, mapped->view());

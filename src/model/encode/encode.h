@@ -19,24 +19,24 @@
 
 namespace rholm {
 
-// Makes an executor whose other processes open a mesh by those bytes; or no function.
+// Returns an executor whose other processes open the mesh described by `mesh`; may be empty.
 using ExecutorOfMesh = std::function<std::unique_ptr<Executor>(const std::string& mesh)>;
 
-// As encode_file() of model.h, with the mesh pass and the norms shared where it goes over the mesh
-// as it is in the file. What another process works may throw as the pass itself.
+// Works as encode_file() of model.h. Processes share the mesh pass and the norms if these use the
+// mesh as it is in the file. Work of another process throws the same errors as the pass itself.
 Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
                     const Context& context, const std::function<Mesh()>& read,
                     const ExecutorOfMesh& executor_of);
 
-// In one of these processes: the mesh, mapped or read as the first one has it.
+// The mesh in one of the other processes, mapped or read as in the first process.
 class SharedMesh {
  public:
-  // Throws what reading it throws, and InvalidInput if it is another than the first process has.
+  // Throws the reader's errors, and InvalidInput if the mesh differs from the first process's.
   SharedMesh(std::string_view mesh, const Context& context);
   SharedMesh(const SharedMesh&) = delete;
   SharedMesh& operator=(const SharedMesh&) = delete;
 
-  // What expand_in_place() has other processes do: good until the next. Throws Io for what is none.
+  // Returns work for expand_in_place(), valid until the next call. Throws Io for invalid bytes.
   Executor::Work work_of(std::string_view job, std::string_view input);
 
  private:
@@ -47,7 +47,7 @@ class SharedMesh {
   std::optional<PassHelper> helper_;
 };
 
-// What the mesh pass calls for blocks of a mesh in a file, which must outlive it.
+// Returns functions for the mesh pass over blocks of a mapped mesh, which must outlive them.
 MeshPassOptions hooks_of(const MappedMesh& mesh);
 
 }  // namespace rholm

@@ -36,7 +36,7 @@ bool may_fold(const EncodeOptions& options) {
   return options.chart.allow_signed && !options.tolerance;
 }
 
-// What a pass finds wrong with the mesh.
+// Returns the fault that a pass finds in the mesh, if there is one.
 std::optional<NotInPlace> fault_in(const MeshPassResult& pass, const EncodeOptions& options) {
   if (!pass.closed) return NotInPlace::kNotClosed;
   if (!(pass.volume > 0)) return NotInPlace::kInsideOut;
@@ -44,7 +44,7 @@ std::optional<NotInPlace> fault_in(const MeshPassResult& pass, const EncodeOptio
   return std::nullopt;
 }
 
-// What a search for a degree has found; `encoded` keeps the times it has.
+// Stores the result of a search for a degree; `encoded` keeps its times.
 void set_found(ToleranceAnalysis found, const EncodeOptions& options, Encoded& encoded) {
   encoded.tolerance = ToleranceReport{.allowed = found.allowed,
                                       .reached = found.reached,
@@ -56,9 +56,9 @@ void set_found(ToleranceAnalysis found, const EncodeOptions& options, Encoded& e
   if (!options.errors) encoded.analysis.expansion.errors.reset();
 }
 
-// Measures the errors of the surface, unless they are not wanted or a search has done so.
-// `sites`: of the mesh about the centre of its expansion; `predict`: the largest errors are
-// predicted from the edges as well.
+// Measures the errors of the surface, unless they are not wanted or a search has done so. `sites`
+// belong to the mesh about the centre of its expansion. If `predict`, the largest errors are also
+// predicted from the edges.
 void add_errors(ErrorSites& sites, bool predict, const EncodeOptions& options,
                 const Context& context, Encoded& encoded) {
   Analysis& analysis = encoded.analysis;
@@ -70,9 +70,9 @@ void add_errors(ErrorSites& sites, bool predict, const EncodeOptions& options,
   });
 }
 
-// One mesh, from its centre to the errors of its coefficients. `prepared`: the centre of a mesh
-// that is closed and outward, and how well it sees the surface. Without it a pass checks all of
-// this.
+// Expands one mesh, from its centre to the errors of its coefficients. `prepared` has the centre
+// of a closed, outward mesh and its star report. Without it, a pass checks all of these
+// properties.
 class Expand {
  public:
   Expand(const MeshView& mesh, const EncodeOptions& options, const MeshPassOptions& hooks,
@@ -96,8 +96,8 @@ class Expand {
     const bool star_shaped = prepared_ ? seen_->star_shaped : pass.bad_triangles == 0;
     if (!prepared_) {
       if (const std::optional<NotInPlace> fault = fault_in(pass, options_)) return *fault;
-      // Faces that all turn outwards cover every direction equally often: a second sheet may have
-      // few.
+      // If all faces turn outwards, all directions are covered equally often: a second sheet may
+      // have few faces.
       if (star_shaped && !covers_once(norms())) return NotInPlace::kCoveredTwice;
     }
     if (!problem) {
@@ -126,7 +126,7 @@ class Expand {
   Analysis& analysis() { return encoded_.analysis; }
   const Vec3& center() const { return pass_options_.center; }
 
-  // Whether there is one.
+  // Returns true if there is a centre.
   bool find_center() {
     report_progress(context_, "center", 0);
     const StageTimer timer(encoded_.times, "center");
@@ -147,7 +147,7 @@ class Expand {
     return true;
   }
 
-  // A tolerance needs them before the first pass, all else after it.
+  // A tolerance needs the norms before the first pass, everything else after it.
   const ExactNorms& norms() {
     if (!norms_) {
       norms_ = timed(analysis().times, "norms", [&] {
@@ -199,8 +199,8 @@ class Expand {
     add_errors(sites, paired, options_, context_, encoded_);
   }
 
-  // The signed sum of a surface some of whose faces turn their backs: no norms, no errors, but
-  // how many directions meet it more than once.
+  // Finishes the signed sum of a surface with faces that turn inwards. There are no norms and no
+  // errors, but a count of the directions that meet the surface more than once.
   void finish_signed() {
     const int rays = options_.chart.center.rays;
     if (!seen_ && rays > 0) {
@@ -220,16 +220,16 @@ class Expand {
 
   const MeshView& mesh_;
   const EncodeOptions& options_;
-  MeshPassOptions pass_options_;  // with the centre, once it is found
+  MeshPassOptions pass_options_;  // includes the centre, once it is found
   const Context& context_;
   const bool prepared_;
-  std::optional<StarReport> seen_;  // of a prepared mesh, or one without a kernel
+  std::optional<StarReport> seen_;  // set for a prepared mesh, or one without a kernel
   std::optional<ExactNorms> norms_;
   FaceSizes sizes_;  // with the norms, if errors are wanted
   Encoded encoded_;
 };
 
-// Says that the mesh was turned even where no centre sees it.
+// Adds to the error that the mesh was turned, also if no centre sees it.
 template <typename Seek>
 auto timed_center(const PreparedMesh& mesh, StageTimes& times, const Seek& seek) {
   try {
@@ -244,7 +244,7 @@ auto timed_center(const PreparedMesh& mesh, StageTimes& times, const Seek& seek)
   }
 }
 
-// By a method that the mesh pass is not: the gauge, and the oracles.
+// Expands by other methods than the mesh pass: the gauge, and the oracles.
 Encoded expand_by_chart(PreparedMesh& mesh, const EncodeOptions& options, const Context& context) {
   Encoded encoded;
   const Mesh& welded = mesh.shape.welded.mesh;
@@ -282,8 +282,8 @@ std::variant<Encoded, NotInPlace> expand_in_place(const MeshView& mesh,
   try {
     return Expand(mesh, options, hooks, context).run();
   } catch (const Error& error) {
-    // The loops over triangles cannot go on where one makes no sense, and end by an exception in
-    // whatever thread it is. With all checks of options done, that is what InvalidInput means here.
+    // The loops over triangles cannot continue with an invalid triangle, and throw in any thread.
+    // All options have been checked, so that InvalidInput means an invalid triangle here.
     if (error.code() != ErrorCode::kInvalidInput) throw;
     return NotInPlace::kUnusable;
   }
@@ -302,7 +302,7 @@ PreparedMesh prepare(const Mesh& mesh, double weld_tolerance) {
 Encoded expand(PreparedMesh& mesh, const EncodeOptions& options, const Context& context) {
   report_progress(context, "center", 0);
   if (!uses_mesh_pass(options.analyze)) return expand_by_chart(mesh, options, context);
-  // The star check is sharper than what a pass sees: it knows the rounding of each face.
+  // The star check is more precise than a pass: it uses the rounding error of each face.
   const Mesh& welded = mesh.shape.welded.mesh;
   StageTimes times;
   const StarReport star =

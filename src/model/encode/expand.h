@@ -11,33 +11,33 @@
 
 namespace rholm {
 
-// Why a mesh cannot be expanded in place. prepare() may change it so that it can; expand() says
-// what is wrong if not.
+// Reasons why a mesh cannot be expanded in place. prepare() may remove the reason; otherwise
+// expand() reports it.
 enum class NotInPlace {
-  kOptions,       // vertices to be welded, a method or an engine that the mesh pass is not
-  kUnusable,      // numbers, indices or faces that no pass can work with
+  kOptions,       // vertices to be welded, a method or an engine other than the mesh pass
+  kUnusable,      // numbers, indices or faces that no pass can use
   kNoCenter,      // no point sees the front of all faces
-  kNotClosed,     // or not oriented alike
+  kNotClosed,     // or faces are not oriented alike
   kInsideOut,     // the enclosed volume is not above 0
-  kFolded,        // faces turn their backs, and a surface that does is not wanted
-  kCoveredTwice,  // no face turns its back, and directions meet more than one
+  kFolded,        // faces turn inwards, and a surface with such faces is not wanted
+  kCoveredTwice,  // no face turns inwards, but directions meet several faces
 };
 
-// Expands a mesh without a copy of it, by the mesh pass. `hooks`: `check` and `release` of it, and
-// `executor`. Throws InvalidInput for options out of range, and what is no fault of the mesh: Io,
-// OutOfMemory, Cancelled, and whatever else a hook or the progress callback throws.
+// Expands a mesh without copying it, by the mesh pass. It uses `check`, `release` and `executor` of
+// `hooks`. Throws InvalidInput for options out of range, and errors that are not due to the mesh:
+// Io, OutOfMemory, Cancelled, and exceptions of hooks or the progress callback.
 std::variant<Encoded, NotInPlace> expand_in_place(const MeshView& mesh,
                                                   const EncodeOptions& options,
                                                   const MeshPassOptions& hooks,
                                                   const Context& context);
 
-// A mesh made fit for expansion: welded, turned outwards, its edges paired.
+// A mesh prepared for expansion: welded, turned outwards, with paired edges.
 struct PreparedMesh {
   Outward shape;            // without attributes and thin faces
-  std::vector<Edge> edges;  // of the welded mesh
+  std::vector<Edge> edges;  // edges of the welded mesh
 };
 // The mesh must be valid. Throws InvalidInput if it is not closed and oriented alike, as
-// pair_edges().
+// pair_edges() does.
 PreparedMesh prepare(const Mesh& mesh, double weld_tolerance);
 
 // Expands a prepared mesh in the same way, or by another method on a chart, which takes the edges

@@ -1,4 +1,4 @@
-// The model file, read. Layout: docs/model-file.md.
+// Reads the model file. Layout: docs/model-file.md.
 #include "model/file/model_read.h"
 
 #include <algorithm>
@@ -101,7 +101,7 @@ class ModelReader {
     return result;
   }
 
-  // Lengths: no less than nothing.
+  // Returns a length, which is not negative.
   std::optional<double> optional_length(const hdf5::Object& object, const char* name) const {
     const std::optional<double> value = optional_number(object, name);
     if (value && !(*value >= 0 && std::isfinite(*value))) {

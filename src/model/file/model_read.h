@@ -8,7 +8,7 @@
 
 namespace rholm {
 
-// What read_model() does with the file's bytes; `name` serves messages.
+// Parses the bytes of a file for read_model(); `name` is for messages.
 Expansion parse_model(std::span<const char> bytes, const std::string& name);
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// The model file, written. Layout: docs/model-file.md.
+// Writes the model file. Layout: docs/model-file.md.
 #include <fmt/format.h>
 
 #include <array>
@@ -23,8 +23,8 @@ namespace {
 
 using hdf5::Writer;
 
-// Over the coefficients as they stand in the file, unit and method: what HDF5 itself leaves
-// without a checksum.
+// Checksum of the coefficients as stored, the unit and the method, for which HDF5 itself has no
+// checksum.
 std::uint32_t model_crc32(const Expansion& expansion) {
   static_assert(std::endian::native == std::endian::little, "the file is little endian");
   const std::span<const double> values = expansion.coefficients.values();

@@ -13,7 +13,7 @@
 namespace rholm {
 namespace {
 
-// Cubature of r conj(Y) dOmega over the flat faces: r dOmega = d_T dS / |x|^2.
+// Cubature of r conj(Y) dOmega over the flat faces, with r dOmega = d_T dS / |x|^2.
 MethodResult area_method(const StarGeometry& geometry, const MethodOptions& options,
                          const Context& context) {
   Sources sources({.degree = options.degree}, context);

@@ -1,7 +1,7 @@
-// K_0 and K_1 in closed form, the others by the three-term recurrence (M3)
+// K_0 and K_1 in closed form, the others by the three-term recurrence (M3):
 //   (rho/2) (K_{m-1} + K_{m+1}) + C K_m = E_m,   E_0 = psi,   E_m = (1 - e^{-i m psi}) / (i m).
-// Its solutions without right side grow like lambda^m, lambda the larger root of
-// rho/2 x^2 + C x + rho/2: run forward while L ln|lambda| is small, else solved as a diagonally
+// Its homogeneous solutions grow like lambda^m, where lambda is the larger root of rho/2 x^2 + C
+// x + rho/2. It runs forward while L ln|lambda| is small, and is otherwise solved as a diagonally
 // dominant tridiagonal system.
 #include "paper/methods/curl_integrals.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// atan(sqrt z)/sqrt z for z >= 0, artanh(sqrt -z)/sqrt -z for z < 0; `one_plus_z` is 1 + z.
+// Returns atan(sqrt z)/sqrt z for z >= 0, artanh(sqrt -z)/sqrt -z for z < 0; `one_plus_z` is 1 + z.
 double arc_tangent_ratio(double z, double one_plus_z) {
   if (std::abs(z) < 0.02) {  // nine terms: remainder 0.02^9/19 = 3e-17
     double sum = 0;
@@ -23,7 +23,7 @@ double arc_tangent_ratio(double z, double one_plus_z) {
   }
   const double root = std::sqrt(std::abs(z));
   if (z > 0) return std::atan(root) / root;
-  // artanh y = ln((1+y)^2 / (1-y^2)) / 2, with 1 - y^2 = 1 + z given.
+  // artanh y = ln((1+y)^2 / (1-y^2)) / 2, where 1 - y^2 = 1 + z is given.
   return 0.5 * std::log((1 + root) * (1 + root) / one_plus_z) / root;
 }
 
@@ -45,7 +45,7 @@ void run_forward(double C, double rho, double psi, double end_value, double k0,
   }
 }
 
-// Unknowns K_1 ... K_{M-1} with K_0 given and the leading asymptotics at M (Thomas algorithm).
+// Solves for K_1 ... K_{M-1} from K_0 and the leading asymptotics at M (Thomas algorithm).
 void solve_tridiagonal(double C, double rho, double psi, double end_value, double k0,
                        double log_lambda, std::span<Complex> out) {
   const int last = static_cast<int>(out.size()) - 1;
@@ -73,9 +73,9 @@ void solve_tridiagonal(double C, double rho, double psi, double end_value, doubl
 
 }  // namespace
 
-// With eps = (C-rho)/(C+rho) and T = tan(psi/2): K_0 = 2 T f(eps T^2) / (C+rho), and
-// 1 + eps T^2 = D(psi) (1 + T^2) / (C+rho). For C > rho one turn of psi adds 2 pi /
-// sqrt(C^2-rho^2).
+// With eps = (C-rho)/(C+rho) and T = tan(psi/2): K_0 = 2 T f(eps T^2) / (C+rho) and
+// 1 + eps T^2 = D(psi) (1 + T^2) / (C+rho). If C > rho, each turn of psi adds
+// 2 pi / sqrt(C^2-rho^2).
 double curl_integral_of_order_zero(double C, double rho, double psi, double end_value) {
   const double turns = std::round(psi / (2 * std::numbers::pi));
   const double rest = psi - turns * 2 * std::numbers::pi;
@@ -84,7 +84,7 @@ double curl_integral_of_order_zero(double C, double rho, double psi, double end_
   const double c = std::cos(rest / 2), s = std::sin(rest / 2);
   const double eps = (C - rho) / (C + rho);
   if (std::abs(c) < 1e-3) {
-    // T is infinite or nearly: only C > rho reaches it. atan(sqrt(eps) s/c) without the quotient.
+    // T is nearly infinite, which requires C > rho: atan(sqrt(eps) s/c) without the quotient.
     return whole + 2 / std::sqrt((C - rho) * (C + rho)) *
                        std::copysign(std::atan2(std::sqrt(eps) * std::abs(s), std::abs(c)), rest);
   }

@@ -1,10 +1,10 @@
-// The paper's field made right: c_lm = sum_T oint F_theta dtheta, (M1), with
+// The corrected field of the paper: c_lm = sum_T oint F_theta dtheta, (M1), with
 //   F_theta = -Pbar_lm(cos theta) sin(theta) d_T e^{-i m phi_n} K_m.
-// differs from (P22): the line integral is of F dtheta, not of F ds. differs from (P30)-(P31): the
-// factor kappa depends on phi and stays under the integral; K_m is the whole integral.
-// Along x = a + t e of an edge, sin(theta) dtheta = -d(u_z) = -(e_z - u_z (u.e)) / |x| dt: nothing
-// is divided by sin(theta). Faces that contain the z axis or come near to it are left to cubature
-// of r dOmega: there phi is not single-valued on the boundary.
+// This differs from (P22): the line integral is over F dtheta, not F ds. It also differs from
+// (P30)-(P31): the factor kappa depends on phi and stays under the integral K_m. Along an edge
+// x = a + t e, sin(theta) dtheta = -d(u_z) = -(e_z - u_z (u.e)) / |x| dt, without a division by
+// sin(theta). Faces that contain or nearly meet the z axis are left to cubature of r dOmega,
+// because phi is not single-valued on their boundary.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -24,22 +24,22 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kPi = std::numbers::pi;
 
-// A node of the boundary of a face: what G_m = -w sin(theta) theta' d e^{-i m phi_n} K_m needs.
+// A node of a face's boundary: data of G_m = -w sin(theta) theta' d e^{-i m phi_n} K_m.
 struct CurlNode {
   Vec3 direction;
   double factor = 0;      // weight times d_T times -sin(theta) dtheta/dt
-  double C = 0, rho = 0;  // of (M2)
+  double C = 0, rho = 0;  // coefficients in (M2)
   double psi = 0, phi_n = 0;
   double end_value = 0;  // d_T / |x|
 };
 
-// Distance of a segment from the z axis.
+// Returns the distance of a segment from the z axis.
 double axis_distance(const Vec3& a, const Vec3& b) {
   return segment_distance({a.x, a.y, 0}, {b.x, b.y, 0});
 }
 
-// Is the face cut by the z axis, or nearer to it than a tenth of its longest edge? (Chosen: nearer,
-// the edge would be halved more than three times.)
+// Returns true if the z axis cuts the face, or is nearer to it than a tenth of its longest edge.
+// (Chosen: if nearer, the edge would be halved more than three times.)
 bool near_axis(const std::array<Vec3, 3>& p) {
   double longest = 0, nearest = INFINITY;
   bool left = true, right = true;
@@ -58,14 +58,14 @@ double wrapped(double angle) { return angle - 2 * kPi * std::round(angle / (2 * 
 
 void add_face_nodes(const std::array<Vec3, 3>& p, const FaceGeometry& face,
                     const Allowance& allowance, std::vector<CurlNode>& nodes) {
-  // A face that turns its back: the same radius d/(n.u) with both signs changed; the sense of its
-  // boundary makes it count negative.
+  // A face that turns inwards has the same radius d/(n.u) with both signs changed; the direction of
+  // its boundary makes it count negative.
   const double side = face.d < 0 ? -1 : 1;
   const Vec3 n = (side / norm(face.twice_area)) * face.twice_area;
   const double d = side * face.d;
   const double slant = std::hypot(n.x, n.y);
   const double phi_n = slant > 0 ? std::atan2(n.y, n.x) : 0.0;
-  // psi is continuous over a face that does not meet the axis: branch by its middle.
+  // psi is continuous over a face that does not meet the axis: its middle chooses the branch.
   const Vec3 middle = (p[0] + p[1] + p[2]) / 3.0;
   const double phi_middle = std::atan2(middle.y, middle.x);
   const double psi_middle = wrapped(phi_middle - phi_n);
@@ -117,7 +117,7 @@ void add_nodes(std::span<const CurlNode> nodes, Coefficients& sum, const Context
   add_order_sums(block, table, sum, context, stage);
 }
 
-// Total |d_T| |K| |sin theta dtheta| of a face's boundary, roughly: the integral of r over the
+// Estimates the total |d_T| |K| |sin theta dtheta| of a face's boundary: the integral of r over the
 // solid angle between the boundary and psi = 0.
 double boundary_weight(const std::array<Vec3, 3>& p) {
   double radius = 0, length = 0;
@@ -143,8 +143,8 @@ MethodResult curl_method(const StarGeometry& geometry, const MethodOptions& opti
   Allowance allowance =
       undivided_allowance(options.allowed / 2, std::max(boundary, 1e-300), options.degree);
   allowance.growth = Growth::kFlat;
-  // The node's function has the singular set of theta and phi, the axis, and besides e^{-i m phi}
-  // the phases of K_m at both ends of its integral: twice the degree.
+  // The node's function has the singular set of theta and phi, the axis. Its phases are e^{-i m
+  // phi} and the phases of K_m at both ends of its integral: twice the degree.
   allowance.degree = std::max(1, 2 * options.degree);
   MethodResult result;
   result.coefficients = Coefficients(options.degree);

@@ -1,4 +1,4 @@
-// The paper's own route from a star chart to its coefficients. Layer: paper.
+// The paper's own method from a star chart to its coefficients. Layer: paper.
 #pragma once
 
 #include "rholm/context.h"

@@ -1,13 +1,13 @@
-// Random points need no smoothness: unlike the cubature of the curl method no face near the axis
-// is left out, and the integral of (M2) may start where it likes.
+// Random points need no smoothness. Unlike in the cubature of the curl method, no face near the
+// axis is left out, and the integral of (M2) may start anywhere.
 //
-// F_theta = -Pbar_lm(cos theta) sin(theta) int_start^phi r e^{-i m phi'} dphi', and Stokes needs
-// no more than that it is an antiderivative along each parallel within the face: `start` may be any
-// function of theta. (M2) starts at the foot of the normal, where the path is safe: on a rough
-// surface far from the face, which makes the field, and its scatter, as large as r, not r times the
-// face's width. The middle of the face's longitudes is near; where the parallel leaves the half
-// space of the face before it gets there, the nearest point to the foot of the normal is taken: it
-// lies between the foot and every point of the face.
+// F_theta = -Pbar_lm(cos theta) sin(theta) int_start^phi r e^{-i m phi'} dphi'. Stokes' theorem
+// only needs an antiderivative along each parallel within the face: `start` may be any function of
+// theta. (M2) starts at the foot of the normal, where the path is safe. On a rough surface the foot
+// is far from the face. The field and its scatter are then as large as r, not r times the face's
+// width. The middle of the face's longitudes is near. If the parallel leaves the half space of the
+// face before this middle, the point nearest to the foot of the normal is taken. It is between the
+// foot and all points of the face.
 #include "paper/monte_carlo/edge_terms.h"
 
 #include <algorithm>
@@ -28,8 +28,8 @@ double wrapped(double angle) { return angle - 2 * kPi * std::round(angle / (2 * 
 double cross_xy(const Vec3& a, const Vec3& b) { return a.x * b.y - a.y * b.x; }
 double dot_xy(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y; }
 
-// Sets the range of longitudes of a triangle that does not have the axis in its interior: it is at
-// most pi. Corners on the axis have no longitude.
+// Sets the range of longitudes, at most pi, of a triangle without the axis in its interior. Corners
+// on the axis have no longitude.
 void set_longitudes(const std::array<Vec3, 3>& p, FieldFace& face) {
   face.phi_half = -1;
   int opposite = 0;
@@ -42,8 +42,8 @@ void set_longitudes(const std::array<Vec3, 3>& p, FieldFace& face) {
     face.phi_middle = std::atan2(a.y, a.x) + turn / 2;
     opposite = (i + 2) % 3;
   }
-  // An edge through the axis, or nearly: rounding says which way round it goes, the third corner
-  // knows better.
+  // For an edge that nearly meets the axis, rounding decides on which side it passes. The third
+  // corner then corrects the side.
   const Vec3& third = p[opposite];
   if (face.phi_half > 1.5 && dot_xy(third, third) > 0) {
     const double away = wrapped(std::atan2(third.y, third.x) - face.phi_middle);
@@ -54,8 +54,8 @@ void set_longitudes(const std::array<Vec3, 3>& p, FieldFace& face) {
 FieldFace field_face(const std::array<Vec3, 3>& p, const FaceGeometry& geometry) {
   FieldFace face;
   if (geometry.degenerate || geometry.d == 0) return face;
-  // A face that turns its back: the same radius d/(n.u) with both signs changed; the sense of its
-  // boundary makes it count negative.
+  // A face that turns inwards has the same radius d/(n.u) with both signs changed; the direction of
+  // its boundary makes it count negative.
   const double side = geometry.d < 0 ? -1 : 1;
   face.n = (side / norm(geometry.twice_area)) * geometry.twice_area;
   face.d = side * geometry.d;
@@ -68,7 +68,7 @@ FieldFace field_face(const std::array<Vec3, 3>& p, const FaceGeometry& geometry)
   return face;
 }
 
-// Is the axis in the interior? Shares of the corners in the pole's point, if so.
+// Returns true if the axis is in the interior, with `shares` of the corners at the pole.
 bool contains_axis(const std::array<Vec3, 3>& p, std::array<double, 3>& shares) {
   for (int i = 0; i < 3; ++i) shares[i] = cross_xy(p[(i + 1) % 3], p[(i + 2) % 3]);
   const double sum = shares[0] + shares[1] + shares[2];
@@ -78,7 +78,7 @@ bool contains_axis(const std::array<Vec3, 3>& p, std::array<double, 3>& shares) 
   return inside;
 }
 
-// The faces at the three sides of a triangle, side i from corner i on.
+// Adds the faces at the three sides of a triangle; side i begins at corner i.
 using SideFaces = std::array<int, 3>;
 
 SideFaces add_faces(const std::array<Vec3, 3>& p, const FaceGeometry& geometry, FieldEdges& field) {
@@ -107,17 +107,17 @@ int side_of(const Triangle& triangle, std::uint32_t from, std::uint32_t to) {
   for (int i = 0; i < 3; ++i) {
     if (triangle[i] == from && triangle[(i + 1) % 3] == to) return i;
   }
-  return 0;  // not reached: an edge's triangles have it
+  return 0;  // not reached: the edge belongs to the triangle
 }
 
-// A point of a parallel as a face sees it.
+// A parallel in the terms of a face.
 struct Parallel {
-  double C = 0, rho = 0;  // of (M2)
+  double C = 0, rho = 0;  // coefficients in (M2)
   double value(double psi) const { return C + rho * std::cos(psi); }
 };
 
 double start_of(const FieldFace& face, const Parallel& at, double psi_middle) {
-  // Where C + rho cos(psi) is below this, the face's plane is farther than twice the face.
+  // If C + rho cos(psi) is below this, the plane there is more than 2 largest_radius away.
   const double least = face.d / (2 * face.largest_radius);
   const double nearest = std::clamp(0.0, psi_middle - face.phi_half, psi_middle + face.phi_half);
   for (const double psi : {psi_middle, nearest}) {
@@ -128,8 +128,8 @@ double start_of(const FieldFace& face, const Parallel& at, double psi_middle) {
 
 Complex over_i(const Complex& z) { return {z.imag(), -z.real()}; }
 
-// (M3) for the integrals from `from` to `to`, as curl_integrals.cpp has it from 0 on: K_m of both
-// ends obey the same recurrence, so does their difference, with
+// Evaluates (M3) from `from` to `to`, where curl_integrals.cpp starts at 0. K_m of both ends obey
+// the same recurrence, and so does their difference, with
 //   E_m = (e^{-i m from} - e^{-i m to}) / (i m).
 class FieldIntegrals {
  public:
@@ -152,7 +152,7 @@ class FieldIntegrals {
               ? std::log((at_.C + std::sqrt((at_.C - at_.rho) * (at_.C + at_.rho))) / at_.rho)
               : INFINITY;
     }
-    // Forward the rounding grows by e^12 = 2e5: 1e-11, nothing beside the scatter.
+    // The forward recurrence amplifies rounding by e^12 = 2e5, to 1e-11, far below the scatter.
     if (size * log_lambda < 12) {
       run_forward(out);
     } else {
@@ -177,7 +177,7 @@ class FieldIntegrals {
 
   void solve_tridiagonal(double log_lambda, std::span<Complex> out, FieldScratch& scratch) const {
     const std::size_t last = out.size() - 1;
-    // The asymptotics at the far end are wrong by a part of 1, which reaches `last` times e^-30.
+    // The asymptotics at the far end have a relative error of 1, which reaches `last` times e^-30.
     const std::size_t end = last + 2 + static_cast<std::size_t>(std::ceil(30 / log_lambda));
     std::vector<double>& upper = scratch.upper;
     std::vector<Complex>& value = scratch.value;
@@ -211,11 +211,11 @@ class FieldIntegrals {
   double zero_;
 };
 
-// Adds factor d e^{-i m phi_n} K_m of a face at direction u, radius r.
+// Adds factor d e^{-i m phi_n} K_m of a face at direction u and radius r.
 void add_face_terms(const FieldFace& face, const Vec3& u, double r, double factor, FieldStart start,
                     std::span<Complex> terms, FieldScratch& scratch) {
   const Parallel at = {.C = face.n.z * u.z, .rho = face.slant * std::hypot(u.x, u.y)};
-  if (!(at.C + at.rho > 0)) return;  // rounding: the pole on a face seen edge on
+  if (!(at.C + at.rho > 0)) return;  // due to rounding: the pole on a face seen edge on
   const double psi_middle = wrapped(face.phi_middle - face.phi_n);
   double psi = psi_middle + wrapped(std::atan2(u.y, u.x) - face.phi_middle);
   // For C <= rho the half space is an interval around psi = 0 that does not reach +-pi.

@@ -16,13 +16,13 @@ constexpr std::size_t kPairsPerTask = 32;  // chosen: about 0.1 ms at L = 64
 constexpr std::size_t kTile = 8;           // tables are written by cache lines
 constexpr std::size_t kOrdersPerTask = 4;  // as in order_sums.cpp
 
-// The two sides of a block of pairs.
+// The two samples of each pair in a block.
 struct PairBlock {
   std::array<std::vector<Vec3>, 2> directions;
   std::array<OrderTable, 2> tables;
 };
 
-// Draws pairs `first` ... `first + n`, counted through the places, then through their pairs.
+// Draws pairs `first` ... `first + n`; consecutive numbers run through the places first.
 void draw_block(const DrawSample& draw, std::size_t places, std::size_t first, std::size_t n,
                 int degree, PairBlock& block, const Context& context) {
   const std::vector<Vec3> anywhere(n, Vec3{0, 0, 1});
@@ -54,7 +54,7 @@ void draw_block(const DrawSample& draw, std::size_t places, std::size_t first, s
   });
 }
 
-// Rows of sums of one order, index l - m: cosine and sine.
+// Sums for the cosine and sine coefficients of one order, with index l - m.
 struct OrderMoments {
   explicit OrderMoments(std::size_t rows) {
     for (std::vector<double>& row : values) row.assign(rows, 0.0);
@@ -97,7 +97,7 @@ void add_block(const PairBlock& block, Moments& moments, const Context& context)
   });
 }
 
-// Calls set(value, sum, square, fourth) for every coefficient.
+// Returns function(sum, square, fourth) for every coefficient.
 template <typename Function>
 Coefficients map(const Moments& moments, const Function& function) {
   Coefficients result(moments.sum.degree());
@@ -144,7 +144,7 @@ Coefficients standard_error_of(const Moments& moments) {
 }
 
 double student_factor(double nu) {
-  // Fitted to the exact quantiles, within 0.4 % for nu >= 1.
+  // The formula is fitted to the exact quantiles, within 0.4 % for nu >= 1.
   const double x = 1 / nu;
   return std::exp(x * (2.48666 + x * (3.05423 + x * (-1.28467 + x * 0.10466))));
 }
@@ -153,12 +153,12 @@ Coefficients deviation_of(const Moments& moments) {
   const double n = static_cast<double>(moments.samples);
   return map(moments, [n](double, double square, double fourth) {
     if (!(square > 0)) return 0.0;
-    // Satterthwaite's degrees of freedom, (sum v)^2 / sum v^2 of normal pairs with variances v.
-    // Squares of estimates of v with one degree of freedom are 3 times too large, the square of
-    // their sum has 2 / nu of itself too much: 3 square^2 / fourth - 2. Of few pairs that is itself
-    // uncertain: with 2 taken away 99.0 % of the coefficients lie within 3 deviations at 2 points
-    // an edge of an octahedron, with 5 it is 99.6 to 99.9 % at 2, 4, 8 and 32 points on edges and
-    // faces of octahedra and a tetrahedron (measured, 1000 seeds each).
+    // Satterthwaite's degrees of freedom are (sum v)^2 / sum v^2 for normal pairs with variances v.
+    // With one degree of freedom, squares of estimates of v are 3 times too large. The square of
+    // their sum is too large by the relative amount 2 / nu, which gives 3 square^2 / fourth - 2.
+    // For few pairs this is uncertain. Measured with 1000 seeds each: with 2 taken away 99.0 % of
+    // the coefficients are within 3 deviations at 2 points per edge of an octahedron. With 5 it is
+    // 99.6 to 99.9 % at 2, 4, 8 and 32 points on edges and faces of octahedra and a tetrahedron.
     const double nu = 3 * square * square / std::max(fourth, 1e-300) - 5;
     return std::sqrt(square) / n * student_factor(std::max(nu, 1.0));
   });

@@ -27,7 +27,7 @@ double sum_of_squares(const Coefficients& f, int first_degree) {
   return sum.value();
 }
 
-// At most 100, far above what can be wanted: where nothing rises above the scatter.
+// Returns at most 100, far above any wanted value, if the scatter hides the coefficients.
 double relative_deviation(const Moments& moments) {
   const int first = moments.sum.degree() > 0 ? 1 : 0;
   const double scatter = sum_of_squares(standard_error_of(moments), first);
@@ -36,10 +36,10 @@ double relative_deviation(const Moments& moments) {
   return std::sqrt(scatter / std::max(norm, 1e-4 * scatter));
 }
 
-// Whether it says more than chance does. Scatter of few pairs looks like a norm: on a box of 12
-// faces, 2 to 8 points each, runs that are in truth 2 to 5 off find values below 1 in up to a
-// quarter of all seeds, most of them near 3/4; below 1/2 in a fiftieth (measured). On 80 faces what
-// is below 1 is right within a factor of 2.
+// Returns true if the relative deviation is meaningful. Scatter of few pairs looks like a norm.
+// This was measured on a box of 12 faces with 2 to 8 points each, in runs that are wrong by 2 to 5.
+// Values are below 1 in up to a quarter of all seeds, most of them near 3/4, and below 1/2 in a
+// fiftieth. On 80 faces, values below 1 are right within a factor of 2.
 bool means_something(double relative, const Moments& moments, std::size_t places) {
   constexpr double kFewPairs = 100;
   const std::size_t pairs_at_place = moments.samples / 2;
@@ -49,16 +49,17 @@ bool means_something(double relative, const Moments& moments, std::size_t places
 
 std::size_t even(std::size_t samples) { return samples + samples % 2; }
 
-// How many samples of a place there should be after the next round.
+// Returns the number of samples of a place after the next round.
 std::size_t next_samples(const MonteCarloOptions& options, std::size_t samples, double reached) {
-  // The first round: enough for a relative deviation that is right within a factor of 2 on any
-  // mesh.
+  // The first round is large enough for a relative deviation that is right within a factor of 2 on
+  // any mesh.
   constexpr std::size_t kFirst = 4;
   if (samples == 0) return std::min(kFirst, even(options.most_samples));
-  // Scatter falls with the root of the number: what is missing and 5 % more, so that one round does
-  // as a rule; at most 16 times what there is, for the deviation found is itself uncertain.
+  // Scatter decreases with the square root of the number. The next round adds what is missing and 5
+  // % more, so that it usually suffices. It has at most 16 times the samples, because the deviation
+  // is uncertain.
   const double missing = 1.05 * (reached / options.deviation) * (reached / options.deviation);
-  // What looks reached, but means nothing yet, is looked at again with twice as many.
+  // A result that seems reached but is not yet meaningful is tested again with twice the samples.
   const double least = reached <= options.deviation ? 2 : 1;
   const double wanted = static_cast<double>(samples) * std::clamp(missing, least, 16.0);
   const auto most = static_cast<double>(even(options.most_samples));
@@ -113,7 +114,7 @@ void set_norms(const StarChart& chart, MonteCarlo& result) {
   Expansion& expansion = result.expansion;
   expansion.norm_squared = radius_norm_squared(chart);
   expansion.tail_strength = tail_strength(chart, RadialFunction::kRadius);
-  // As far as three deviations.
+  // The errors are three deviations.
   const Coefficients& deviation = result.deviation;
   const CoefficientErrors errors{.mean = 3 * deviation.c(0, 0),
                                  .varying = 3 * std::sqrt(sum_of_squares(deviation, 1))};

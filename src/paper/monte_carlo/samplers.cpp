@@ -10,7 +10,8 @@
 namespace rholm {
 namespace {
 
-// The samples of a place: numbered through places, so that more samples do not change the first.
+// Returns a random number of a sample. Numbers run through places first, so that more samples do
+// not change earlier ones.
 double random_of(std::uint64_t seed, std::size_t places, std::size_t place, std::size_t sample,
                  int which) {
   return random_uniform(seed, 2 * (sample * places + place) + static_cast<std::uint64_t>(which));
@@ -18,7 +19,7 @@ double random_of(std::uint64_t seed, std::size_t places, std::size_t place, std:
 
 struct SampledFace {
   SphericalTriangle triangle;
-  Vec3 n;  // n and d both turned so that n . u > 0, the sign is the weight's
+  Vec3 n;  // n and d are turned so that n . u > 0; the weight has the sign
   double d = 0;
   double weight = 0;  // solid angle, signed
   double largest_radius = 0;
@@ -41,10 +42,10 @@ std::vector<SampledFace> sampled_faces(const StarGeometry& geometry) {
   return faces;
 }
 
-// r times the solid angle, and its cosines and sines of m phi.
+// Draws r times the solid angle, and its cosines and sines of m phi.
 Vec3 draw_in(const SampledFace& face, double along, double across, SampleScratch& scratch) {
   const Vec3 u = uniform_direction(face.triangle, along, across);
-  // Rounding may put u a little outside of a face seen nearly edge on.
+  // Rounding may put u slightly outside of a face seen nearly edge on.
   const double r = std::min(face.largest_radius, face.d / std::max(dot(face.n, u), 1e-300));
   const double s = std::hypot(u.x, u.y);
   const std::complex<double> turn = s > 0 ? std::complex<double>(u.x / s, u.y / s) : 1.0;

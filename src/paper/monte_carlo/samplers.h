@@ -1,4 +1,4 @@
-// What to sample and how: edges by the field, triangles by r conj(Y).
+// Samplers: edges by the field, triangles by r conj(Y).
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,9 @@ struct Sampler {
   DrawSample draw;
 };
 
-// Uniform along the flat edge, (P40).
+// Returns a sampler that is uniform along the flat edge, (P40).
 Sampler edge_sampler(const StarGeometry& geometry, std::uint64_t seed, FieldStart start);
-// Uniform on the spherical triangle.
+// Returns a sampler that is uniform on the spherical triangle.
 Sampler triangle_sampler(const StarGeometry& geometry, std::uint64_t seed);
 
 }  // namespace rholm

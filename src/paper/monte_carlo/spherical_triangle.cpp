@@ -1,9 +1,9 @@
-// Arvo's map in a form that does not cancel on small triangles. The point c' of the arc from a to c
-// at angle t cuts off the triangle (a, b, c') of solid angle S with
-//   tan(S/2) = a.(b x c') / (1 + a.b + b.c' + c'.a)
-//            = tau V / (1 + a.b + tau b.e),      c' = cos(t) a + sin(t) e,  tau = tan(t/2),
-// V = a.(b x e) (Van Oosterom and Strackee 1983, divided by 1 + cos t): linear in tau. Then the
-// point on the arc from b to c' has 1 - cos(distance from b) uniform.
+// Arvo's map in a form without cancellation on small triangles. The point c' of the arc from a to c
+// at angle t is cos(t) a + sin(t) e. It cuts off the triangle (a, b, c') of solid angle S. Let
+// tau = tan(t/2) and V = a.(b x e). By Van Oosterom and Strackee (1983), divided by 1 + cos t,
+//   tan(S/2) = a.(b x c') / (1 + a.b + b.c' + c'.a) = tau V / (1 + a.b + tau b.e).
+// This is linear in tau. The point on the arc from b to c' then has a uniform 1 - cos(distance from
+// b).
 #include "paper/monte_carlo/spherical_triangle.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace rholm {
 namespace {
 
-// Unit tangent at the unit vector a towards c; any if c = a.
+// Returns the unit tangent at the unit vector a towards c; any tangent if c = a.
 Vec3 tangent(const Vec3& a, const Vec3& c) {
   const Vec3 chord = c - a;
   return normalized(chord - dot(chord, a) * a);

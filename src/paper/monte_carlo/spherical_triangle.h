@@ -7,8 +7,8 @@
 
 namespace rholm {
 
-// What Arvo's map (Stratified Sampling of Spherical Triangles, 1995) needs of a triangle with
-// positive solid angle.
+// Data of a triangle with positive solid angle for Arvo's map (Stratified Sampling of Spherical
+// Triangles, 1995).
 struct SphericalTriangle {
   Vec3 a, b;         // directions of two corners
   Vec3 toward;       // unit tangent at a towards the third
@@ -18,11 +18,11 @@ struct SphericalTriangle {
   double lean = 0;    // b . toward
 };
 
-// Corners counter-clockwise as seen from the origin's far side (positive solid angle `omega`).
+// Takes corners counter-clockwise as seen from outside (positive solid angle `omega`).
 SphericalTriangle spherical_triangle(const std::array<Vec3, 3>& corners, double omega);
 
-// Maps the unit square to the triangle, area to solid angle by a constant factor. Keeps its digits
-// on triangles of any size.
+// Maps the unit square to the triangle with a constant ratio of solid angle to area. Accurate for
+// triangles of any size.
 Vec3 uniform_direction(const SphericalTriangle& triangle, double along, double across);
 
 }  // namespace rholm

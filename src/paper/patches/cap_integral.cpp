@@ -1,5 +1,5 @@
-// r dOmega of flat triangles is d_T dS / |x|, and the dilation multiplies dOmega by the square
-// of its conformal factor d theta' / d theta = sin theta' / sin theta.
+// r dOmega of flat triangles is d_T dS / |x|, and the dilation multiplies dOmega by the square of
+// its conformal factor d theta' / d theta = sin theta' / sin theta.
 #include "paper/patches/cap_integral.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using Corners = std::array<Vec3, 3>;
 
 struct Face {
   Corners corners;
-  double density = 0;  // d_T |T|: of a mean over the triangle, of dS d_T
+  double density = 0;  // d_T |T|: the factor of a mean over the triangle, for dS d_T
   double omega = 0;    // solid angle
 };
 
@@ -57,7 +57,7 @@ Corners corners_of(const CapFrame& frame, const PatchMesh& patch, std::size_t t)
                                                 std::to_string(patch.points.size()) + " points");
     }
     corners[k] = in_frame(frame, patch.points[v]);
-    // Far from the sphere's own size squares of lengths would overflow.
+    // At lengths far from the sphere's radius, squares would overflow or underflow.
     const double length = norm(corners[k]);
     if (!(length > 1e-100 && length < 1e100)) {
       throw Error(ErrorCode::kInvalidInput,
@@ -86,8 +86,8 @@ std::vector<Face> faces_of(const CapFrame& frame, const PatchMesh& patch) {
   return faces;
 }
 
-// The largest conformal factor on a triangle. It is monotone in cos theta, which is largest at
-// a corner, or within an edge or face: there it is at most the corner's plus the longest edge.
+// Returns a bound of the conformal factor on a triangle. The factor is monotone in cos theta, which
+// differs from a corner's value by at most the longest edge.
 double largest_factor(const CapFrame& frame, const Corners& corners) {
   if (frame.dilation == 1) return 1;
   double low = 1, high = -1;
@@ -100,7 +100,7 @@ double largest_factor(const CapFrame& frame, const Corners& corners) {
                   conformal_factor(frame.dilation, std::clamp(high, -1.0, 1.0)));
 }
 
-// int r dOmega' over the triangles, roughly.
+// Estimates int r dOmega' over the triangles.
 double total_weight(const CapFrame& frame, const std::vector<Face>& faces) {
   double total = 0;
   for (const Face& face : faces) {
@@ -116,7 +116,7 @@ double total_weight(const CapFrame& frame, const std::vector<Face>& faces) {
 template <typename Visit>
 void visit_nodes(const CapFrame& frame, const Face& face, const Allowance& allowance,
                  const Visit& visit) {
-  // The dilation makes harmonics vary faster on a triangle by its conformal factor.
+  // The dilation makes harmonics vary faster on a triangle by the conformal factor.
   Allowance own = allowance;
   const double factor = std::max(1.0, largest_factor(frame, face.corners));
   own.degree = static_cast<int>(std::ceil(std::min(1e9, allowance.degree * factor)));
@@ -172,7 +172,7 @@ CapIntegral cap_integral(const CapFrame& frame, const PatchMesh& patch,
   for (std::size_t t = 0; t < faces.size(); ++t) {
     sources.set_progress(static_cast<double>(t) / static_cast<double>(faces.size()));
     visit_nodes(frame, faces[t], allowance, [&](const Vec3& u, double w, double r) {
-      // Of r - R_0, if the sphere itself is there everywhere.
+      // If the sphere itself extends the patch, the function is r - R_0.
       sources.add(u, options.extension == CapExtension::kZero ? w : w * (1 - 1 / r));
     });
   }
@@ -193,7 +193,7 @@ CapErrors cap_errors(const CapFrame& frame, const Coefficients& coefficients,
   }
   CapErrors errors;
   errors.along_rays = evaluate(coefficients, directions, {}, context);
-  // Relative to the largest, squares do not over- or underflow.
+  // Relative to the largest error, squares neither overflow nor underflow.
   for (std::size_t i = 0; i < points.size(); ++i) {
     double& error = errors.along_rays[i];
     error = norm(points[i] - frame.center) - error;

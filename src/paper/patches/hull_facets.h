@@ -9,8 +9,8 @@
 
 namespace rholm {
 
-// The triangles of the hull of points x, y, z, x, y, z ..., oriented in any way; none if the points
-// lie in a plane. Throws InvalidInput where Qhull fails, Unsupported without it.
+// Returns the triangles of the hull of points x, y, z, x, y, z ..., with any orientation; none if
+// the points are in a plane. Throws InvalidInput if Qhull fails, Unsupported without it.
 std::vector<Triangle> hull_facets(std::span<double> coordinates);
 
 }  // namespace rholm

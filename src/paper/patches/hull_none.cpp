@@ -1,4 +1,4 @@
-// In place of Qhull, where rholm is built without it.
+// Replaces Qhull if rholm is built without it.
 #include "paper/patches/hull_facets.h"
 #include "rholm/error.h"
 

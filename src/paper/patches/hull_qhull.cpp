@@ -13,7 +13,7 @@
 namespace rholm {
 namespace {
 
-// Qhull's memory, and what it would print.
+// Owns Qhull's memory and its messages, which are not printed.
 class Hull {
  public:
   Hull() : messages_(open_memstream(&text_, &size_)) {
@@ -30,9 +30,9 @@ class Hull {
     std::free(text_);
   }
 
-  // `coordinates` must live as long as the hull. False if the points lie in a plane.
+  // `coordinates` must live as long as the hull. Returns false if the points are in a plane.
   bool build(std::span<double> coordinates) {
-    char command[] = "qhull Qt Pp";  // simplices only, no warnings of narrow hulls
+    char command[] = "qhull Qt Pp";  // simplices only, no warnings about narrow hulls
     const int code = qh_new_qhull(&qh_, 3, static_cast<int>(coordinates.size() / 3),
                                   coordinates.data(), False, command, nullptr, messages_);
     if (code == qh_ERRmem) throw std::bad_alloc();
@@ -45,10 +45,10 @@ class Hull {
     return code == 0;
   }
 
-  // Calls visit(the facet's three points).
+  // Calls visit with the three points of each facet.
   template <typename Visit>
   void for_each_facet(const Visit& visit) {
-    qhT* const qh = &qh_;  // the name Qhull's macros want
+    qhT* const qh = &qh_;  // the name that Qhull's macros require
     facetT* facet = nullptr;
     FORALLfacets {
       Triangle corners{};

@@ -49,7 +49,7 @@ Bounds bounds_of(std::span<const Vec3> points) {
   return box;
 }
 
-// Squares of what is not of order 1 may be 0 or infinite.
+// Without scaling, squares of very large or small components may be 0 or infinite.
 Vec3 unit(const Vec3& a) {
   return normalized(a / std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}));
 }
@@ -70,7 +70,7 @@ struct Cell {
   std::uint32_t size() const { return end - begin; }
 };
 
-// One cell: measured, and where it does not hold, its items parted at the median.
+// The result for one cell; items of a split cell are divided at the median.
 struct Verdict {
   KdPatch patch;
   bool is_split = false;
@@ -137,7 +137,7 @@ KdPartition kd_partition(std::span<const Vec3> points, std::span<const Vec3> nor
   const UnitFrame frame = unit_frame(bounds_of(points));
   Sorted sorted = sorted_points(points, normals, frame);
 
-  // Level by level: cells of one level share nothing.
+  // Works level by level: the cells of one level share no items.
   std::vector<Cell> open = {{0, static_cast<std::uint32_t>(points.size())}};
   while (!open.empty()) {
     std::vector<Verdict> verdicts(open.size());

@@ -1,6 +1,6 @@
-// The Delaunay triangulation of points on the unit sphere is their convex hull: a facet's plane
-// cuts off a cap of the sphere, and no point lies in it. The origin is made one more point: facets
-// through it are those that close the hull of a patch on its inner side.
+// The Delaunay triangulation of points on the unit sphere is their convex hull. The plane of a
+// facet cuts off a cap of the sphere without points. The origin is added as one more point. Facets
+// through it close the hull of a patch on its inner side.
 #include "paper/patches/sphere_delaunay.h"
 
 #include <algorithm>
@@ -31,14 +31,14 @@ std::vector<Vec3> unit_directions(std::span<const Vec3> directions) {
   return units;
 }
 
-// Counter-clockwise, with the smallest index first; false if its plane goes through the origin:
-// it closes a hemisphere.
+// Makes a triangle counter-clockwise, with the smallest index first. Returns false if its plane
+// meets the origin, which closes a hemisphere.
 bool turn_outwards(std::span<const Vec3> units, Triangle& t) {
   const double volume = dot(units[t[0]], cross(units[t[1]], units[t[2]]));
   if (volume < 0) std::swap(t[1], t[2]);
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   const double twice_area = norm(cross(units[t[1]] - units[t[0]], units[t[2]] - units[t[0]]));
-  return std::abs(volume) > 1e-12 * twice_area;  // the origin's distance, far above its rounding
+  return std::abs(volume) > 1e-12 * twice_area;  // origin's distance, far above rounding
 }
 
 std::vector<Triangle> hull_triangles(std::span<const Vec3> units) {
@@ -55,7 +55,7 @@ std::vector<Triangle> hull_triangles(std::span<const Vec3> units) {
   return triangles;
 }
 
-// The three shortest edges of a point, ascending.
+// Inserts a length into the three shortest edges of a point, in ascending order.
 using Shortest = std::array<double, 3>;
 
 void insert(Shortest& shortest, double length) {
@@ -64,7 +64,7 @@ void insert(Shortest& shortest, double length) {
   }
 }
 
-// Triangles, their neighbours across edges, and which of them are too long to be at the border.
+// Triangles, their neighbours across edges, and marks of triangles too long for the border.
 struct Border {
   std::vector<std::array<std::uint32_t, 3>> neighbors;  // kNone at the border
   std::vector<char> is_long;
@@ -91,7 +91,7 @@ Border border_of(std::span<const Vec3> units, const std::vector<Triangle>& trian
   };
   for (const Triangle& t : triangles) {
     std::array<double, 3> spacings = {spacing(t[0]), spacing(t[1]), spacing(t[2])};
-    std::sort(spacings.begin(), spacings.end());  // a point far off has no short edge
+    std::sort(spacings.begin(), spacings.end());  // an isolated point has no short edge
     const double longest =
         std::max({norm(units[t[0]] - units[t[1]]), norm(units[t[1]] - units[t[2]]),
                   norm(units[t[2]] - units[t[0]])});
@@ -100,7 +100,7 @@ Border border_of(std::span<const Vec3> units, const std::vector<Triangle>& trian
   return border;
 }
 
-// Takes long triangles away from the border inwards; what remains does not depend on the order.
+// Removes long triangles from the border inwards; the result does not depend on the order.
 std::vector<Triangle> peeled(std::span<const Vec3> units, const std::vector<Triangle>& triangles,
                              double gap) {
   const Border border = border_of(units, triangles, gap);

@@ -22,8 +22,8 @@ double largest_distance(std::span<const Vec3> points, const Vec3& from) {
   return largest;
 }
 
-// Of a symmetric positive matrix; empty if it is singular. Pivots stay above the least eigenvalue,
-// and rounding leaves some 1e-15 of the trace where that is 0.
+// Solves for a symmetric positive matrix; empty if it is singular. Pivots are at least the least
+// eigenvalue, and where this is 0 rounding leaves about 1e-15 of the trace.
 std::optional<Vec3> solve(Matrix3 a, std::array<double, 3> b) {
   const double least = 1e-12 * (a[0][0] + a[1][1] + a[2][2]);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -51,7 +51,7 @@ PatchSphere seen_from(const PatchPoints& patch, const Sphere& sphere, const Vec3
 
 }  // namespace
 
-// differs from (P38): in coordinates q about the mean of the points rho and c separate. With
+// This differs from (P38): in coordinates q about the mean of the points, rho and c separate. With
 // sum q = 0 the normal equations are 2 (sum q q^T) c = sum q |q|^2 and rho = -mean |q|^2.
 std::optional<Sphere> fit_sphere(std::span<const Vec3> points) {
   if (points.size() < 4) return std::nullopt;
@@ -100,14 +100,14 @@ PatchSphere patch_sphere(const PatchPoints& patch, double star) {
   const double support = largest_distance(patch.points, middle);
   Vec3 up = mean_normal(patch.normals);
   if (up == Vec3{}) up = patch.normals.front();
-  // One point is seen from anywhere.
+  // A single point is seen from anywhere.
   const double depth = support > 0 ? support / std::tan(kLeastHalfAngle) : 1;
 
   const std::optional<Sphere> fitted = fit_sphere(patch.points);
   if (fitted && fitted->radius <= depth) {
     PatchSphere best = seen_from(patch, *fitted, middle);
     best.best_fitting = true;
-    if (best.star_cosine > star) return best;  // else it is on the outer side, or too near
+    if (best.star_cosine > star) return best;  // else the centre is outside or too near
   }
   Sphere below{.center = middle - depth * up};
   for (const Vec3& p : patch.points) below.radius += norm(p - below.center);

@@ -40,7 +40,7 @@ std::string_view entity(char c) {
   }
 }
 
-// Thin spaces between groups of three of the digits before the point, from five digits on.
+// Puts thin spaces between groups of three digits before the point, from five digits on.
 std::string grouped(const std::string& digits) {
   const std::size_t whole = std::min(digits.find('.'), digits.size());
   if (whole < 5) return digits;
@@ -103,7 +103,7 @@ std::string number(double value, int digits) {
   const std::size_t e = scientific.find('e');
   const int power = std::stoi(scientific.substr(e + 1));
   const std::string sign = value < 0 ? kMinus : "";
-  // Chosen: beyond, zeros are harder to count than a power is to read.
+  // Chosen: beyond this range a power is easier to read than zeros are to count.
   if (power >= -3 && power < 7) {
     return sign + grouped(fmt::format("{:.{}f}", std::abs(value), std::max(0, digits - 1 - power)));
   }

@@ -17,7 +17,7 @@
 namespace rholm {
 namespace {
 
-// The coefficients without what they know of the shape they are of.
+// Returns the coefficients without what they store about their own shape.
 Expansion stranger(const Expansion& expansion) {
   Expansion result = expansion;
   result.norm_squared.reset();

@@ -1,4 +1,4 @@
-// The report of an atlas of caps.
+// Makes the report of an atlas of caps.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -23,7 +23,7 @@ namespace {
 
 using namespace report;
 
-// The surface with the degrees up to a limit, beside the shape.
+// Surface with the degrees up to a limit, compared with the shape.
 struct DrawnLevel {
   int degree = 0;
   std::size_t coefficients = 0;
@@ -36,14 +36,14 @@ struct AtlasData {
   const Mesh* shape;
   const ReportOptions& options;
   AtlasSize size;
-  std::vector<DrawnLevel> levels;  // ascending, the last one with all degrees
+  std::vector<DrawnLevel> levels;  // ascending degrees, the last one with all degrees
 };
 
 std::string length_of(double value, const AtlasData& data, int digits) {
   return html::length(value, data.model.unit, digits);
 }
 
-// What the model says of itself, or else what was measured here.
+// Returns the errors that the model stores; without them, the errors measured here.
 std::optional<AtlasErrors> errors_of(const AtlasData& data) {
   if (data.model.errors) return data.model.errors;
   const std::optional<Comparison>& c = data.levels.back().comparison;
@@ -256,7 +256,7 @@ std::vector<DrawnLevel> make_levels(const AtlasModel& model, const Mesh* shape,
   const LevelMaker maker(model.atlas, whole, context);
   std::vector<DrawnLevel> levels;
   const auto add = [&](int degree, Mesh mesh) {
-    if (mesh.triangles.empty()) return;  // few degrees may leave nothing of a surface
+    if (mesh.triangles.empty()) return;  // with a low degree no surface may be left
     DrawnLevel level{degree, coefficients_up_to(model.atlas, degree), std::move(mesh), {}};
     if (shape != nullptr) {
       level.comparison = compare(*shape, level.mesh, {.samples = kSamples}, context);

@@ -20,8 +20,8 @@ namespace {
 
 constexpr int kRays = 20'000;  // chosen: the share of directions to a hundredth, in 20 ms
 
-// What a computation finds, or nothing where the surface does not exist (a gauge that is not
-// positive, coordinates that overflow).
+// Returns the result of a computation, or nothing where the surface does
+// not exist (a gauge that is not positive, coordinates that overflow).
 template <typename Function>
 auto unless_refused(const Function& function) -> std::optional<decltype(function())> {
   try {
@@ -32,7 +32,7 @@ auto unless_refused(const Function& function) -> std::optional<decltype(function
   }
 }
 
-// By points of the shape, and Parseval where it applies.
+// Measures errors at points of the shape, and by Parseval where it applies.
 std::optional<TruncationErrors> measured_errors(ErrorSites& sites, const Expansion& expansion,
                                                 int degree, bool predict, const Context& context) {
   if (degree > kHighestDrawn) return std::nullopt;
@@ -52,7 +52,7 @@ DegreeRow row_of(int degree, const Expansion& expansion, const Data& data,
     row.max_distance = errors->measured_max_distance;
   }
   if (expansion.function != RadialFunction::kRadius) return row;
-  // What points tell stands but against what is exact.
+  // Figures measured at points are kept, unless an exact one exists.
   const RmsBeyond& beyond = data.beyond;
   const std::optional<double>& rms = beyond.rms[static_cast<std::size_t>(degree)];
   if (rms && (!row.rms || beyond.is_exact(degree))) {
@@ -84,7 +84,7 @@ ShapeFigures shape_figures(const Mesh& mesh, const Vec3& center, double weld_tol
 }
 
 bool may_be_of(const Expansion& expansion, const ShapeFigures& shape) {
-  // Chosen: a format of floats rounds lengths to 6e-8, twice that in their squares.
+  // Chosen: a format of floats rounds lengths to 6e-8, and twice that in their squares.
   constexpr double kSame = 1e-6;
   const auto same = [](double a, double b) { return std::abs(a - b) <= kSame * std::abs(b); };
   if (expansion.errors && expansion.errors->diagonal > 0 &&
@@ -92,7 +92,7 @@ bool may_be_of(const Expansion& expansion, const ShapeFigures& shape) {
     return false;
   }
   if (!expansion.norm_squared) return true;
-  // Only a star-shaped surface has one.
+  // Only a star-shaped surface has a norm.
   if (!shape.is_star()) return false;
   return expansion.function != RadialFunction::kRadius ||
          same(radius_norm_squared(view_of(shape.mesh), expansion.center), *expansion.norm_squared);
@@ -122,11 +122,11 @@ Data find_data(const Expansion& expansion, std::optional<ShapeFigures> shape,
   report_progress(context, "figures", 0);
   data.shape = std::move(shape);
   if (data.shape) data.diagonal = data.shape->inspection.bounds.diagonal();
-  std::optional<ErrorSites> sites;  // of all degrees
+  std::optional<ErrorSites> sites;  // shared by all degrees
   if (data.shape && data.shape->is_star()) {
     sites.emplace(view_of(data.shape->mesh), expansion.center, context.threads);
   }
-  // What the model knows of itself was found with the precision of its coefficients.
+  // Errors stored in the model were found with the precision of its coefficients.
   if (!data.errors && sites) {
     data.errors = measured_errors(*sites, expansion, degree, true, context);
   }

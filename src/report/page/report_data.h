@@ -1,4 +1,4 @@
-// The figures of a report, before they are text.
+// Figures of a report, before they become text.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@
 
 namespace rholm::report {
 
-// Chosen: the shortest wave of this degree is 3 pixels of a picture of the default size, and
-// points are measured in a second.
+// Chosen: the shortest wave of this degree is 3 pixels of a picture
+// of the default size, and measuring points takes a second.
 inline constexpr int kHighestDrawn = 512;
 
 // Throws InvalidInput for options out of range, and for a shape without faces.
@@ -26,47 +26,47 @@ void check(const Mesh* shape, const ReportOptions& options);
 struct ShapeFigures {
   Mesh mesh;  // welded, outward, without attributes
   Inspection inspection;
-  StarReport star;  // from the model's centre
-  // Closed, and every direction meets the surface once: radial errors and Parseval make sense.
+  StarReport star;  // star-shape test from the model's centre
+  // Returns true if radial errors and Parseval apply: closed, each direction meets it once.
   bool is_star() const { return inspection.closed && inspection.oriented && star.star_shaped; }
 };
 ShapeFigures shape_figures(const Mesh& mesh, const Vec3& center, double weld_tolerance,
                            const Context& context);
 
-// Whether the model may be of this shape, by the norm it keeps and the diagonal. One that is of
-// another shape knows the errors of that one, not of this.
+// Returns true if the model may belong to this shape, by the norm and the diagonal
+// that it stores. A model of another shape stores errors of that other shape.
 bool may_be_of(const Expansion& expansion, const ShapeFigures& shape);
 
-// One degree at which the series is cut off.
+// Degree at which the series is cut off.
 struct DegreeRow {
   int degree = 0;
-  // Radial, over solid angle, in the unit of lengths; none if it is not known.
+  // Radial, over solid angle, in the unit of lengths; nullopt if unknown.
   std::optional<double> rms;
   bool rms_is_exact = false;
-  std::optional<double> rms_at_most;   // where it is not known, and bounded
-  std::optional<double> max;           // radial
-  std::optional<double> max_distance;  // between the surfaces
+  std::optional<double> rms_at_most;   // bound, set where rms is unknown but bounded
+  std::optional<double> max;           // largest radial error
+  std::optional<double> max_distance;  // largest distance between the surfaces
 };
 
 struct Data {
   std::optional<ShapeFigures> shape;
-  std::vector<double> energy;              // per degree
-  RmsBeyond beyond;                        // with the errors below
-  std::vector<std::optional<double>> rms;  // RmsBeyond::figures()
-  std::vector<DegreeRow> rows;             // ascending, the last one the model's own
-  std::optional<TruncationErrors> errors;  // of the model's own degree
-  std::optional<SurfaceMeasures> model;    // none above kHighestDrawn, or without a surface
-  double mean_radius = 0;  // of the model, over solid angle; 0 for a gauge and for a signed sum
-  double diagonal = 0;     // of the shape; 0 if unknown
+  std::vector<double> energy;              // energy per degree
+  RmsBeyond beyond;                        // computed with `errors`
+  std::vector<std::optional<double>> rms;  // copy of RmsBeyond::figures()
+  std::vector<DegreeRow> rows;             // ascending degrees, the last one is the model's own
+  std::optional<TruncationErrors> errors;  // errors at the model's own degree
+  std::optional<SurfaceMeasures> model;    // nullopt above kHighestDrawn, or without a surface
+  double mean_radius = 0;  // mean over solid angle; 0 for a gauge and for a signed sum
+  double diagonal = 0;     // diagonal of the shape; 0 if unknown
 };
 
 Data find_data(const Expansion& expansion, std::optional<ShapeFigures> shape,
                const Context& context);
 
-// 1, 2, 4, ... below L, and L.
+// Returns 1, 2, 4, ... below `degree`, and `degree`.
 std::vector<int> degree_ladder(int degree);
 
-// The expansion cut off; what no longer holds is dropped.
+// Returns the expansion cut off at `degree`, without data that are no longer valid.
 Expansion cut_off(const Expansion& expansion, int degree);
 
 }  // namespace rholm::report

@@ -15,7 +15,7 @@
 namespace rholm::report {
 namespace {
 
-// The rms of a degree that is drawn, if the table has it or Parseval knows it.
+// Returns the rms of a drawn degree, if the table has it or Parseval gives it.
 std::string rms_caption(int degree, const Expansion& expansion, const Data& data) {
   const auto rms = [&]() -> std::optional<double> {
     for (const DegreeRow& row : data.rows) {
@@ -67,8 +67,8 @@ Series energy_series(const Data& data, const Expansion& expansion) {
                              : "energy of 1/<i>r</i>",
                 .ink = Ink::kMeasured,
                 .points = {}};
-  // The square of the default precision of coefficients: below, as a rule where a symmetry makes
-  // degrees vanish, energies are rounding, and lines down to them would hide the rest.
+  // Square of the default precision of coefficients. Energies below it are rounding,
+  // usually of degrees that vanish by symmetry, and their lines would hide the others.
   constexpr double kLeastPart = 1e-8 * 1e-8;
   double whole = 0;
   std::size_t left_out = 0;
@@ -84,11 +84,11 @@ Series energy_series(const Data& data, const Expansion& expansion) {
     series.label += fmt::format(" ({} of {} degrees left out: below 10<sup>&#8722;16</sup> of all)",
                                 left_out, data.energy.size() - 1);
   }
-  series.marks = data.energy.size() <= 40;  // chosen: beyond, they run into each other
+  series.marks = data.energy.size() <= 40;  // chosen: more marks would overlap
   return series;
 }
 
-// A function of the degree, at so many points that a curve looks like one.
+// Samples a function of the degree at enough points for a smooth curve.
 template <typename Function>
 Series law(const std::string& label, Ink ink, double x_max, const Function& function) {
   constexpr int kPoints = 100;
@@ -205,7 +205,7 @@ std::string map_caption(const Expansion& expansion, const Data& data, const Repo
   text += fmt::format(" The largest at the {} vertices of this picture is {}{}.",
                       html::count(pictures.vertices), html::length(largest, expansion.unit, 3),
                       part.empty() ? "" : " (" + part + ")");
-  // Else three figures that are all called the largest seem to contradict each other.
+  // Without this sentence, three figures called "the largest" seem to contradict each other.
   return text +
          " Errors of <i>r</i> go along rays instead; those of the tables are from more points.";
 }

@@ -1,4 +1,4 @@
-// The sections of a report that are looked at: pictures and plots.
+// Sections of a report with pictures and plots.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace rholm::report {
 
 std::string levels_section(const Expansion& expansion, const Data& data,
                            const ReportOptions& options, const Pictures& pictures);
-// Empty without a shape.
+// Returns an empty string without a shape.
 std::string error_map_section(const Expansion& expansion, const Data& data,
                               const ReportOptions& options, const Pictures& pictures);
 std::string spectrum_section(const Expansion& expansion, const Data& data,

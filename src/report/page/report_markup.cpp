@@ -13,7 +13,7 @@ namespace {
 
 // The style sheet of a report.
 
-// Light or dark as the reader's system is; black on white on paper.
+// Light or dark like the reader's system; black on white on paper.
 extern const char* const kStyle;
 
 const char* const kStyle = R"css(
@@ -115,7 +115,7 @@ footer { margin-top: 3rem; padding-top: 1rem; padding-bottom: 2rem; font-size: .
   pre { border: 1px solid var(--rule); } footer { margin-top: 8mm; } }
 )css";
 
-// Nothing may be loaded from elsewhere, and nothing may run but what the page itself brings.
+// Makes the head: nothing may be loaded from elsewhere, and only the page's own scripts run.
 std::string head(const ReportOptions& options, bool has_scripts) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -220,7 +220,7 @@ std::string part_of(const std::optional<double>& length, double diagonal) {
   return html::number(*length / diagonal, 3) + "&nbsp;<i>d</i>";
 }
 
-// In a box of its own, in which it can be scrolled with a finger or the keyboard.
+// Puts the table into a box that scrolls by finger or keyboard.
 std::string markup_of(const Table& table) {
   std::string html = fmt::format(
       "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">\n<table{}>\n",

@@ -1,4 +1,4 @@
-// Pieces of a report that all kinds of it have: the page, sections, facts, tables, figures.
+// Parts that all reports share: page, sections, facts, tables, figures.
 #pragma once
 
 #include <string>
@@ -10,34 +10,34 @@
 
 namespace rholm::report {
 
-// Arguments are markup unless they say text.
+// Arguments are markup, unless a comment says that they are text.
 std::string paragraph(const std::string& markup);
 std::string note(const std::string& markup);
 std::string section(const std::string& title, const std::string& content);
 std::string fact(const std::string& name, const std::string& value, const std::string& small);
 
-// The page around its content, with the header: title, lead (a sentence), notes, facts; scripts run
-// after it, and only if there are any.
+// Returns the page around its content, with a header: title, lead (a
+// sentence), notes, facts. Scripts run after the content; they may be empty.
 std::string page(const ReportOptions& options, const std::string& lead, const std::string& facts,
                  const std::string& sections, const std::string& scripts = {});
-// How to get it again; empty without commands.
+// Returns the commands that make the report again; empty without commands.
 std::string commands_section(const ReportOptions& options);
 
 // `alt` is text.
 std::string figure_of(const Picture& picture, const std::string& alt, const std::string& caption);
-// A map of distances seen from both sides, with its colours; `surface` is text: what is drawn.
+// Returns a map of distances from both sides with a colour bar; `surface` is its name, as text.
 std::string error_map(const ErrorMap& map, const std::string& surface, const std::string& caption,
                       const std::string& unit);
 
-// As people say sizes: powers of 1000.
+// Returns a size in powers of 1000, for example "2.5 MB".
 std::string size_text(double bytes);
-// Of its arrays.
+// Returns the bytes of the mesh's arrays.
 double bytes_of(const Mesh& mesh);
-// "rms error, km", as far as the unit is known; the unit is text.
+// Returns "rms error, km", or only the heading if the unit (text) is empty.
 std::string with_unit(const std::string& heading, const std::string& unit);
-// A value and, smaller, what may be said with it.
+// Returns a value with a smaller second line.
 std::string two_lines(const std::string& value, const std::string& part);
-// A length as a part of the diagonal: "2.31 x 10^-4 d"; empty if either is unknown.
+// Returns a length as a part of the diagonal: "2.31 x 10^-4 d"; empty if either is unknown.
 std::string part_of(const std::optional<double>& length, double diagonal);
 
 struct Column {
@@ -47,11 +47,11 @@ struct Column {
 
 struct Row {
   std::vector<std::string> cells;  // the first one names the row
-  bool own = false;                // the model's own degree: set off
+  bool own = false;                // true for the model's own degree, which is highlighted
 };
 
 struct Table {
-  std::string label;  // for those who do not see it: what scrolls
+  std::string label;  // name for screen readers
   std::vector<Column> columns;
   std::vector<Row> rows;
 };

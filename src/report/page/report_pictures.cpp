@@ -17,16 +17,17 @@
 namespace rholm::report {
 namespace {
 
-// The smallest icosphere with 16 vertices for each coefficient: its edges h cut off 1/9 of the
-// height of the shortest wave, (h L)^2 / 8 with h^2 = 8 pi / (sqrt 3 16 L^2). Coarser ones would
-// show facets, finer ones than 8 subdivisions (655 362 vertices) have several vertices in a pixel.
+// Returns the subdivisions of the smallest icosphere with 16 vertices per coefficient. Its edges h
+// cut off 1/9 of the height of the shortest wave: (h L)^2 / 8 with h^2 = 8 pi / (sqrt 3 16 L^2).
+// Coarser spheres would show facets; more than 8 subdivisions (655 362 vertices) have several
+// vertices per pixel.
 int subdivisions_for(int degree) {
   int n = 5;
   while (n < 8 && 10.0 * (1 << (2 * n)) + 2 < 16 * (degree + 1.0) * (degree + 1.0)) ++n;
   return n;
 }
 
-// The degree that is drawn in full, a quarter and a sixteenth of it: each is a step that is seen.
+// Returns a sixteenth, a quarter and all of the degree; each step is visible.
 std::vector<int> drawn_degrees(int degree) {
   std::vector<int> degrees;
   for (const int part : {16, 4, 1}) {
@@ -36,7 +37,7 @@ std::vector<int> drawn_degrees(int degree) {
   return degrees;
 }
 
-// Surfaces of the model at a few degrees; where there is none, the degree is missing.
+// Surface of the model at a degree; degrees without a surface are listed as missing.
 struct Level {
   int degree;
   Mesh mesh;
@@ -105,8 +106,8 @@ RenderOptions picture_options() {
   return options;
 }
 
-// A few points at sharp vertices err many times more than the rest, which would be all of one
-// colour: the scale ends where one point in 500 is beyond, unless that is nearly the largest.
+// Some points at sharp vertices have errors many times larger than all others, which would have
+// one colour. The scale ends where one point in 500 is beyond, unless that is nearly the largest.
 double scale_end(std::vector<double> distances, double largest) {
   if (!(largest > 0)) return 1;
   const std::size_t beyond = distances.size() / 500;
@@ -163,7 +164,7 @@ std::vector<Image> cut_apart(const Image& image, std::size_t panels) {
   std::size_t top = 0, bottom = rows;
   while (top < bottom && is_white(&image.rgb[top * row], row)) ++top;
   while (bottom > top && is_white(&image.rgb[(bottom - 1) * row], row)) --bottom;
-  const std::size_t margin = rows / 25;  // as much as render() leaves at the sides
+  const std::size_t margin = rows / 25;  // same margin as render() has at the sides
   top = top > margin ? top - margin : 0;
   bottom = std::min(rows, bottom + margin);
   std::vector<Image> parts(panels);

@@ -12,8 +12,8 @@
 namespace rholm::report {
 namespace {
 
-// Units of the drawing. Chosen: letters of 16 units are 16 pixels on a screen of 1280, where the
-// plot is about as wide as here, and 11 on a telephone of 400.
+// Units of the drawing. Chosen: letters of 16 units are 16 pixels on a screen of
+// 1280, where the plot is about as wide as here, and 11 pixels on a telephone of 400.
 constexpr double kWidth = 540, kHeight = 400;
 constexpr double kLeft = 62, kRight = 528, kTop = 34, kBottom = 346;
 constexpr double kClosest = 0.7;  // points of a line nearer to each other are left out
@@ -24,7 +24,7 @@ struct Axes {
 
   double x(double value) const { return kLeft + std::log10(value) / x_max * (kRight - kLeft); }
   double y(double value) const { return y_of_power(std::log10(value)); }
-  // Of 10^power, which may be beyond all numbers.
+  // Returns the position of 10^power, which may exceed the range of doubles.
   double y_of_power(double power) const {
     return kBottom - (power - y_min) / (y_max - y_min) * (kBottom - kTop);
   }
@@ -63,7 +63,7 @@ std::string text(double x, double y, const char* anchor, const std::string& mark
                      markup);
 }
 
-// 1, 2, 5 times powers of ten are named where there is room, else powers alone.
+// Labels 1, 2, 5 times powers of ten if there is room, otherwise only powers.
 std::string degree_axis(const Axes& axes) {
   std::string svg;
   const double last = std::pow(10.0, axes.x_max) * (1 + 1e-12);
@@ -80,7 +80,7 @@ std::string degree_axis(const Axes& axes) {
                     "class=\"it\">l</tspan>");
 }
 
-// A line per power of ten, at most about eight of them named.
+// Draws a line per power of ten, with at most about eight labels.
 std::string value_axis(const Axes& axes, const std::string& label) {
   std::string svg;
   const int low = static_cast<int>(axes.y_min), high = static_cast<int>(axes.y_max);
@@ -97,7 +97,7 @@ std::string value_axis(const Axes& axes, const std::string& label) {
   return svg + text(2, 16, "start", label);
 }
 
-// Round, square or triangular: told apart without colour.
+// Returns a round, square or triangular mark, so that marks differ without colour.
 std::string mark(Ink ink, double x, double y) {
   switch (ink) {
     case Ink::kLargest:
@@ -160,7 +160,7 @@ std::string log_log_plot(const Plot& plot) {
   svg += degree_axis(axes) + value_axis(axes, plot.y_label);
   for (const Series& series : plot.series) {
     if (!has_points(series)) continue;
-    // Marks at the edge of the axes may stand out of them, lines that leave them may not.
+    // Marks at the edge of the axes may protrude; lines that leave the axes are clipped.
     svg += series.sets_range ? curve(axes, series)
                              : fmt::format("<g clip-path=\"url(#{}-c)\">\n{}</g>\n", plot.id,
                                            curve(axes, series));
@@ -190,7 +190,7 @@ std::string plot_figure(const Plot& plot) {
 }
 
 std::string color_bar(const ColorScale& scale, const std::string& title) {
-  constexpr int kStops = 24;  // chosen: straight lines between them are not seen
+  constexpr int kStops = 24;  // chosen: the straight lines between them are not visible
   constexpr double kFrom = 20, kTo = 520, kBar = 16;
   std::string stops, ticks;
   for (int k = 0; k <= kStops; ++k) {

@@ -30,7 +30,7 @@ Row degree_row(const DegreeRow& row, const Data& data, bool own) {
           own};
 }
 
-// What a value is, and how it is known.
+// Name of a value, the value, and how it is known.
 struct Known {
   const char* what;
   std::optional<double> value;
@@ -52,7 +52,7 @@ std::vector<Known> known_errors(const TruncationErrors& e) {
 
 std::string yes_or_no(bool yes) { return yes ? "yes" : "no"; }
 
-// A value of the model, and how far it is from the shape's.
+// Returns a value of the model with its relative difference from the shape's value.
 std::string beside(const std::optional<double>& model, const std::optional<double>& shape) {
   if (!model) return kNotKnown;
   std::string text = html::number(*model, 6);
@@ -62,7 +62,7 @@ std::string beside(const std::optional<double>& model, const std::optional<doubl
   return two_lines(text, fmt::format("{}{}&nbsp;%", sign, html::number(std::abs(difference), 2)));
 }
 
-// The sign of a unit to a power, behind the unit.
+// Returns the exponent written after a unit.
 std::string exponent(int power) {
   return power == 1   ? ""
          : power == 2 ? "&#178;"
@@ -89,7 +89,7 @@ void add_measures(const Data& data, const std::string& unit, std::vector<Row>& r
                         : fmt::format("{}, {}{}", name, html::escaped(unit), exponent(power));
   };
   for (const Descriptor& one : descriptors()) {
-    if (one.length_power == 0) continue;  // the table is of figures with a unit
+    if (one.length_power == 0) continue;  // the table has only figures with a unit
     const std::optional<double> known = one.value(shape);
     row(of_unit(one.name, one.length_power), known ? html::number(*known, 6) : kDash,
         data.model ? beside(one.value(*data.model), known) : kDash);
@@ -113,7 +113,7 @@ std::string point_text(const Vec3& p, double size) {
   const int power =
       size > 0 && std::isfinite(size) ? static_cast<int>(std::floor(std::log10(size))) : 0;
   const auto coordinate = [&](double x) {
-    // As many decimals as six digits of the size have.
+    // Six digits of the size determine the number of decimals.
     if (power >= -4 && power < 7) return html::decimal(x, std::max(0, 5 - power));
     return html::number(std::abs(x) < 1e-12 * size ? 0 : x, 6);
   };

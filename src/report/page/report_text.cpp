@@ -25,7 +25,7 @@ std::string largest_fact(const Expansion& expansion, const Data& data) {
               html::length(value, expansion.unit, 3), of_diagonal(value, data));
 }
 
-// Which rms figures are what.
+// Explains which rms figures are exact.
 std::string rms_note(const Data& data) {
   const auto exact = std::count_if(data.rows.begin(), data.rows.end(), [](const DegreeRow& row) {
     return row.rms && row.rms_is_exact;

@@ -1,4 +1,4 @@
-// The words of a report.
+// Text of a report.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace rholm::report {
 
-// The sentence below the title, and what is to be seen first.
+// Return the sentence below the title, and the main facts.
 std::string lead(const Expansion& expansion, const ReportOptions& options);
 std::string facts(const Expansion& expansion, const Data& data);
 std::string degrees_section(const Expansion& expansion, const Data& data);

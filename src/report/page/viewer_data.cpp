@@ -54,18 +54,18 @@ void add_mesh(const Mesh& mesh, NamedArrays& arrays) {
 void add_shape(const Mesh& shape, const Context& context, NamedArrays& arrays) {
   if (shape.triangles.size() <= kMostFacesViewed) return add_mesh(shape, arrays);
   const Mesh simple = simplify(shape, {.triangles = kMostFacesViewed}, context).mesh;
-  // What cannot be made simpler stays away.
+  // A mesh that cannot be simplified enough is left out.
   if (simple.triangles.size() <= 2 * kMostFacesViewed) add_mesh(simple, arrays);
 }
 
-// But for large and small letters.
+// Compares without regard to case; `small` is in lower case.
 bool is_same_word(std::string_view text, std::string_view small) {
   return std::ranges::equal(text, small, [](char a, char b) {
     return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
   });
 }
 
-// Strings, templates and regular expressions of JavaScript mean the same by it.
+// Escapes text so that strings, templates and regular expressions of JavaScript keep their meaning.
 std::string inside_script(std::string_view script) {
   std::string text;
   text.reserve(script.size());

@@ -1,4 +1,4 @@
-// What the viewer of web/ shows on a page.
+// Data for the viewer of web/ on a page.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@
 
 namespace rholm::report {
 
-// Faces of the shape that goes along, at most, chosen: 5 MB of a page. Of more a simpler one does.
+// Most faces of the included shape, chosen: 5 MB of a page. Larger meshes are simplified.
 inline constexpr std::size_t kMostFacesViewed = 200'000;
 
-// The bytes of view_data(). No degree above kHighestDrawn.
+// Returns the bytes of view_data(). No degree is above kHighestDrawn.
 std::string view_bytes(const Expansion& expansion, const Mesh* shape, const std::string& title,
                        const Data& data, const Context& context);
 
-// A place for the viewer; what makes it one: its data, and the viewer itself, none of which ends
-// the element that it stands in.
+// Return a place for the viewer, and the scripts that fill it: its data,
+// and the viewer itself. Neither script contains the end of its element.
 std::string viewer_place();
 std::string viewer_scripts(std::string_view bytes, std::string_view viewer);
 

@@ -58,7 +58,7 @@ void draw_strokes(Canvas& canvas, const std::vector<Stroke>& strokes, double thi
       for (const Stroke& s : strokes) {
         nearest = std::min(nearest, distance_to_stroke(s, x + 0.5, y + 0.5));
       }
-      // The part of a pixel that a straight edge at this distance leaves covered.
+      // Share of a pixel that a straight edge at this distance covers.
       const auto cover = static_cast<float>(std::clamp(reach - nearest, 0.0, 1.0));
       Color& pixel = canvas.at(x, y);
       pixel = (1 - cover) * pixel + cover * color;

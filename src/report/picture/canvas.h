@@ -1,4 +1,4 @@
-// A picture in the making: linear light, with lines and text drawn over it.
+// Canvas in linear light, on which lines and text are drawn.
 #pragma once
 
 #include <string_view>
@@ -20,15 +20,15 @@ struct Canvas {
 Canvas make_canvas(int width, int height, const Color& background);
 Image to_image(const Canvas& canvas);
 
-// Pixel (i, j) covers [i, i+1) x [j, j+1); y points down. Antialiased; strokes of one call do not
-// darken each other where they overlap.
+// Pixel (i, j) covers [i, i+1) x [j, j+1); y points down. The drawing is
+// antialiased; overlapping strokes of one call do not darken each other.
 void draw_strokes(Canvas& canvas, const std::vector<Stroke>& strokes, double thickness,
                   const Color& color);
 
-// `size` is the height of capitals in pixels. UTF-8; what the font does not have (see font.h) is
-// drawn as an empty box.
+// `size` is the height of capitals in pixels; the text is UTF-8.
+// Characters missing in the font (see font.h) are drawn as an empty box.
 double text_width(std::string_view text, double size);
-// Centred at x, with its baseline at y.
+// Draws text centred at x, with its baseline at y.
 void draw_text(Canvas& canvas, std::string_view text, double x, double y, double size,
                const Color& color);
 

@@ -10,15 +10,15 @@
 namespace rholm {
 namespace {
 
-// Sequential: lightness and hue run linearly at constant chroma, a helix like that of Green 2011
-// ("cubehelix") but in Oklab, so that its speed is constant. From violet through teal to yellow;
-// chosen: the largest chroma that stays within sRGB all the way.
+// Sequential map: lightness and hue run linearly at constant chroma, a helix like
+// "cubehelix" (Green 2011), but in Oklab, so that its speed is constant. It runs from
+// violet through teal to yellow. Chosen: the largest chroma that stays within sRGB.
 constexpr double kDarkest = 0.34, kLightest = 0.92;
 constexpr double kFirstHue = 300, kLastHue = 105;
 constexpr double kHelixChroma = 0.095;
 
-// Diverging: two straight lines in Oklab from a near-white to blue and to red of equal lightness;
-// the ends chosen just within sRGB.
+// Diverging map: two straight lines in Oklab from a near-white to blue
+// and to red of equal lightness. The ends are chosen just within sRGB.
 constexpr double kMiddle = 0.95, kEnd = 0.50;
 constexpr double kBlueHue = 255, kRedHue = 28, kEndChroma = 0.155;
 
@@ -32,9 +32,9 @@ Color diverging(double t) {  // -1 ... 1
   return from_oklch(kMiddle + a * (kEnd - kMiddle), a * kEndChroma, t < 0 ? kBlueHue : kRedHue);
 }
 
-// A map at equal steps, straight between them: off by an eighth of a step's square times second
-// derivatives, which are below 8 in linear light (by differences), so by 2e-5: a twentieth of a
-// byte where these are densest.
+// Table of a map at equal steps, interpolated linearly. The error is an eighth of a
+// step's square times second derivatives. These are below 8 in linear light (by
+// differences), so the error is 2e-5: a twentieth of a byte where bytes are densest.
 class Steps {
  public:
   explicit Steps(Color (*map)(double)) {
@@ -56,7 +56,7 @@ class Steps {
 Color from_oklch(double lightness, double chroma, double hue_degrees) {
   const double hue = hue_degrees * (std::numbers::pi / 180);
   const double a = chroma * std::cos(hue), b = chroma * std::sin(hue);
-  // The matrices of the source.
+  // These matrices are from the source.
   const auto cube = [](double x) { return x * x * x; };
   const double l = cube(lightness + 0.3963377774 * a + 0.2158037573 * b);
   const double m = cube(lightness - 0.1055613458 * a - 0.0638541728 * b);
@@ -70,9 +70,9 @@ float from_srgb(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-// A table in place of powers, by the exponent and kBits of the mantissa: from 2^-kOctaves on, below
-// half of a byte, a step holds at most one place where the byte changes. The curve has at most
-// 255 * 1.055 / 2.4 = 112 bytes per factor of e, a step at most 2^-kBits of that.
+// Uses a table instead of powers, indexed by the exponent and kBits of the mantissa. From
+// 2^-kOctaves on, below half a byte, a step holds at most one change of the byte. The curve
+// has at most 255 * 1.055 / 2.4 = 112 bytes per factor of e, a step at most 2^-kBits of that.
 std::uint8_t to_srgb_byte(float linear) {
   constexpr int kBits = 8, kOctaves = 13, kShift = std::numeric_limits<float>::digits - 1 - kBits;
   constexpr std::uint32_t kFirst = std::bit_cast<std::uint32_t>(0x1p-13f) >> kShift;
@@ -91,7 +91,7 @@ std::uint8_t to_srgb_byte(float linear) {
     }
   };
   static const Table table;
-  if (linear >= 1) return 255;  // paper
+  if (linear >= 1) return 255;  // white paper
   if (!(linear >= 0x1p-13f)) return 0;
   const std::uint8_t byte = table.byte[(std::bit_cast<std::uint32_t>(linear) >> kShift) - kFirst];
   return static_cast<std::uint8_t>(byte + (linear >= table.least[byte + 1u]));

@@ -11,12 +11,12 @@
 namespace rholm {
 namespace {
 
-// A glyph is a width and a path on a grid. Coordinates are one base-36 digit each, x then y;
-// descenders reach down to 0, the baseline is 4, small letters reach C (12), capitals G (16).
+// A glyph is a width and a path on a grid. Coordinates are one base-36 digit each, x then y.
+// Descenders go down to 0; the baseline is 4, small letters reach C (12), capitals G (16).
 //   m xy     move            h xy   quarter of an ellipse that leaves horizontally
 //   l xy     line            v xy   quarter of an ellipse that leaves vertically
 //   q ab xy  parabola with control point ab (quadratic Bezier curve)
-// A line of no length is a dot.
+// A line of length 0 is a dot.
 struct Glyph {
   int width;
   std::string_view path;
@@ -132,9 +132,9 @@ constexpr std::array<Glyph, 7> kMarks = {{
     {4, "m2Ih0Gv2Eh4Gv2I"},
     {3, "m24l23q4331q2000"},
 }};
-constexpr int kRaised = 4;  // marks above capitals
+constexpr int kRaised = 4;  // shift of marks above capitals
 
-// Letters of Latin-1 that are others with a mark.
+// Latin-1 letters that consist of another letter and a mark.
 struct Marked {
   char32_t character;
   char base;
@@ -171,7 +171,7 @@ constexpr Marked kMarked[] = {
 };
 constexpr Glyph kDotlessI = {0, "m0Cl04"};
 
-// The other letters of Latin-1, some signs of it, dashes and the apostrophe.
+// Other letters and signs of Latin-1, dashes and the apostrophe.
 struct Other {
   char32_t character;
   Glyph glyph;
@@ -202,9 +202,9 @@ constexpr Other kOthers[] = {
 };
 
 constexpr double kUnit = 1.0 / 12;    // of the grid, in heights of a capital
-constexpr double kNarrow = 0.9 / 12;  // the same across: the letters look too wide without
+constexpr double kNarrow = 0.9 / 12;  // horizontal unit; with kUnit letters look too wide
 constexpr int kBaseline = 4;
-constexpr int kArcPieces = 8;  // straight pieces of a curve: off by 0.5 % of its radius
+constexpr int kArcPieces = 8;  // straight segments of a curve: the error is 0.5 % of its radius
 
 const Marked* marked_letter(char32_t c) {
   const auto* found = std::find_if(std::begin(kMarked), std::end(kMarked),
@@ -212,7 +212,7 @@ const Marked* marked_letter(char32_t c) {
   return found == std::end(kMarked) ? nullptr : found;
 }
 
-// Of a letter with a mark that without it.
+// Returns the glyph of a character; for a letter with a mark, the letter alone.
 const Glyph& glyph_of(char32_t c) {
   if (c >= U' ' && c <= U'~') return kGlyphs[c - U' '];
   if (const Marked* marked = marked_letter(c)) {
@@ -226,7 +226,7 @@ const Glyph& glyph_of(char32_t c) {
 
 const Glyph& mark_of(const Marked& marked) { return kMarks[static_cast<std::size_t>(marked.mark)]; }
 
-// Room for the mark too.
+// Returns the width with room for the mark.
 int width_of(char32_t c) {
   const Marked* marked = marked_letter(c);
   return std::max(glyph_of(c).width, marked ? mark_of(*marked).width : 0);
@@ -239,7 +239,7 @@ struct Point {
 
 double digit(char c) { return c <= '9' ? c - '0' : c - 'A' + 10; }
 
-// Reads a path and emits its straight pieces.
+// Reads a path and emits its straight segments.
 class PathReader {
  public:
   explicit PathReader(std::string_view path) : path_(path) {}
@@ -296,7 +296,7 @@ class PathReader {
   std::vector<Stroke> strokes_;
 };
 
-// The value of a character of `length` bytes.
+// Returns the code point of a character of `length` bytes.
 char32_t code_point(std::string_view text, std::size_t length) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   if (length == 1) return byte(0);

@@ -1,4 +1,4 @@
-// The lettering of the pictures: a stroke font of lines and arcs, drawn for this project.
+// Stroke font of lines and arcs for the pictures, drawn for this project.
 #pragma once
 
 #include <string_view>
@@ -6,18 +6,18 @@
 
 namespace rholm {
 
-// A line with round ends.
+// Line with round ends.
 struct Stroke {
   double x0, y0, x1, y1;
 };
 
-// Lengths in heights of a capital; y points up from the baseline.
+// Lengths are in heights of a capital; y points up from the baseline.
 inline constexpr double kGlyphThickness = 0.14;
-inline constexpr double kGlyphGap = 0.28;  // between neighbours' middle lines
+inline constexpr double kGlyphGap = 0.28;  // between the middle lines of neighbours
 
-// The characters of UTF-8 text; bytes that are not UTF-8 count one by one, as U+FFFD. There are
-// glyphs for ASCII, the letters and some signs of Latin-1, dashes and the apostrophe; all others
-// have that of an empty box.
+// Returns the characters of UTF-8 text; each byte that is not UTF-8 becomes
+// U+FFFD. There are glyphs for ASCII, letters and some signs of Latin-1, dashes
+// and the apostrophe. All other characters have the glyph of an empty box.
 std::vector<char32_t> characters(std::string_view text);
 
 double glyph_advance(char32_t character);  // width and gap

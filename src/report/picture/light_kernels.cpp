@@ -13,11 +13,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, kReadBeyond / kScouts>;
 using V = hn::Vec<D>;
 
-// Numbers of as many cells of a row as a vector has lanes.
+// Loads the values of consecutive cells of a row into a vector.
 struct NextCells {
   HWY_INLINE V operator()(const float* from) const { return hn::LoadU(D(), from); }
 };
-// Of every second one.
+// Loads the values of every second cell.
 struct NextScouts {
   HWY_INLINE V operator()(const float* from) const {
     static_assert(kScouts == 2);
@@ -40,7 +40,7 @@ HWY_INLINE V SumOfProducts(V a, V b, V c, V d, V e, V f) {
   return hn::Add(hn::Add(hn::Mul(a, b), hn::Mul(c, d)), hn::Mul(e, f));
 }
 
-// likeness()
+// Vector version of likeness().
 HWY_INLINE V Likeness(const Spots& a, const Spots& b, float per_half_depth) {
   const D d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1);

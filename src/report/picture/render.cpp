@@ -26,16 +26,16 @@
 namespace rholm {
 namespace {
 
-// How large points are drawn.
+// Size of drawn points.
 
-constexpr std::size_t kProbes = 1000;  // points that are asked; the median is good to some 2 %
-constexpr std::size_t kNeighbors = 8;  // of each, as a square on a grid has
+constexpr std::size_t kProbes = 1000;  // sampled points; the median is accurate to some 2 %
+constexpr std::size_t kNeighbors = 8;  // neighbours per point, as on a square grid
 
-// Of the diagonal: few points stay points. Chosen by eye.
+// Share of the diagonal, so that a small number of points stay points. Chosen by eye.
 constexpr double kLargest = 0.03;
 
-// The usual distance of neighbours, as if they lay on a square grid; the same bits for any number
-// of threads. Points of the order of 1 about the origin, at least one.
+// Returns the typical distance of neighbours, as on a square grid, with the same bits for any
+// number of threads. At least one point is needed; points are of the order of 1 about the origin.
 double ball_radius(const std::vector<Vec3>& points, const Context& context) {
   const double diagonal = bounds(points).diagonal();
   const double largest = diagonal > 0 ? kLargest * diagonal : kLargest;
@@ -46,26 +46,26 @@ double ball_radius(const std::vector<Vec3>& points, const Context& context) {
   std::vector<double> distances;
   std::vector<Neighbor> near;
   for (std::size_t i = 0; i < probes; ++i) {
-    tree.nearest_to(i * n / probes, k + 1, near);  // with itself
+    tree.nearest_to(i * n / probes, k + 1, near);  // includes the point itself
     distances.push_back(std::sqrt(static_cast<double>(near.back().distance2)));
   }
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(probes / 2);
   std::nth_element(distances.begin(), middle, distances.end());
-  // k points within a disc of that radius have pi r^2 / k each, the square of their distance.
-  // Balls of that radius leave exp(-pi), 4 %, of a surface uncovered by random points.
+  // k points within a disc of this radius have pi r^2 / k each, the square of their distance.
+  // Balls of this radius leave exp(-pi), 4 %, of a surface uncovered by random points.
   const double spacing = *middle * std::sqrt(std::numbers::pi / static_cast<double>(k));
   return spacing > 0 ? std::min(spacing, largest) : largest;
 }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMost = std::numeric_limits<double>::max();
-// Of a shape's size: some ten roundings of the ray tracer's floats, a hundredth of the finest
-// pixel.
+// Least ball radius as a share of a shape's size: some ten roundings
+// of the ray tracer's floats, a hundredth of the finest pixel.
 constexpr double kSmallestBall = 1e-6;
 const Color kPaper = {1, 1, 1};
 const Color kInk = {0.03f, 0.03f, 0.035f};
 
-// Vertices, or points.
+// Returns the vertices or the points.
 const std::vector<Vec3>& places(const Panel& panel) {
   return panel.points != nullptr ? panel.points->points : panel.mesh->vertices;
 }
@@ -118,8 +118,8 @@ void check(std::span<const Panel> panels, const RenderOptions& options) {
   }
 }
 
-// The wanted range, or that of all scalars; at a single value one that is not empty, by an end that
-// nobody chose. None without scalars.
+// Returns the requested range, or the range of all scalars. An empty range is
+// widened at an end that was not requested. Returns nullopt without scalars.
 std::optional<ColorScale> color_scale(std::span<const Panel> panels, const RenderOptions& options) {
   double min = kInfinity, max = -kInfinity;
   for (const Panel& panel : panels) {
@@ -142,8 +142,8 @@ std::optional<ColorScale> color_scale(std::span<const Panel> panels, const Rende
   return scale;
 }
 
-// All panels share one scale, a power of two, so that rounding does not depend on the unit; each
-// is moved to its own middle.
+// Returns one scale for all panels, a power of two, so that rounding
+// does not depend on the unit. Each panel is moved to its own middle.
 double common_scale(std::span<const Panel> panels) {
   Vec3 largest;
   for (const Panel& panel : panels) {
@@ -196,7 +196,7 @@ Subject make_subject(const Panel& panel, double scale, const Context& context) {
   return subject;
 }
 
-// Where things stand in the picture, in pixels.
+// Positions in the picture, in pixels.
 struct Layout {
   double panel_width = 0;
   double panel_height = 0;
@@ -209,7 +209,7 @@ Layout make_layout(std::span<const Panel> panels, const RenderOptions& options, 
   Layout layout;
   const double width = options.width, height = options.height;
   layout.panel_width = width / static_cast<double>(panels.size());
-  double size = 0.024 * std::min(height, width);  // chosen: reads well in a README's column
+  double size = 0.024 * std::min(height, width);  // chosen: readable in the column of a README
   bool labels = false;
   for (const Panel& panel : panels) {
     labels = labels || !panel.label.empty();
@@ -224,7 +224,7 @@ Layout make_layout(std::span<const Panel> panels, const RenderOptions& options, 
   return layout;
 }
 
-// The largest number of pixels per unit at which every panel's box fits, with a margin.
+// Returns the most pixels per unit at which every panel's box fits, with a margin.
 double pixels_per_unit(const std::vector<PlaneBox>& boxes, const Layout& layout) {
   constexpr double kFilled = 0.90;
   double scale = kInfinity;
@@ -246,7 +246,7 @@ std::vector<Subject> make_subjects(std::span<const Panel> panels, bool fit_each,
   return subjects;
 }
 
-// How a subject is seen.
+// View of a subject and its scale.
 struct Sight {
   View view;
   PlaneBox box;
@@ -295,18 +295,18 @@ Color pixel_color(const PanelPicture& p, const RayScene& scene, const LightSampl
   return (1.0f / static_cast<float>(side * side)) * sum;
 }
 
-// `scene` is made where it is not there yet.
+// `scene` is made if it does not exist yet.
 void draw_panel(Canvas& canvas, const PanelPicture& p, std::optional<RayScene>& scene,
                 const RenderOptions& options, const Context& context, const ParallelStage& stage) {
-  // Far below a pixel, beside something large, there is nothing to see; rays that start at the
-  // large thing's distance would overflow in units of the small one.
+  // A subject far below a pixel, next to a large one, is invisible. Rays that start
+  // at the large subject's distance would overflow in units of the small one.
   constexpr double kVisible = 1e-3;
   if (p.subject.radius * p.pixels_per_unit < kVisible) return;
   if (!scene) scene.emplace(p.subject.mesh, context, p.subject.ball_radius, RayTree::kQuick);
   if (!options.fine) return draw_shared(canvas, p, *scene, options, context, stage);
   const LightSamples lights =
       make_light_samples(options.samples * options.samples, options.occlusion_rays);
-  constexpr std::size_t kRows = 2;  // of a chunk: some 10 ms
+  constexpr std::size_t kRows = 2;  // rows per chunk: some 10 ms
   parallel_for(static_cast<std::size_t>(p.height), kRows, context, stage,
                [&](std::size_t begin, std::size_t end) {
                  for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
@@ -349,7 +349,7 @@ std::vector<Image> render_views(std::span<const Panel> panels, const RenderOptio
   const std::optional<ColorScale> scale = color_scale(panels, options);
   const Layout layout = make_layout(panels, options, scale && options.scale_bar);
   const std::vector<Subject> subjects = make_subjects(panels, options.fit_each, context);
-  std::vector<std::vector<Sight>> sights;  // by direction
+  std::vector<std::vector<Sight>> sights;  // sights for each direction
   for (const Vec3& direction : directions) {
     RenderOptions turned = options;
     turned.view = direction;

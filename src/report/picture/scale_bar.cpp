@@ -8,11 +8,11 @@
 namespace rholm {
 namespace {
 
-// Heights in capitals.
+// Heights in units of a capital's height.
 constexpr double kBar = 0.9, kTick = 0.4, kGap = 0.55, kTitleGap = 0.9;
 const Color kInk = {0.03f, 0.03f, 0.035f};
 
-// The smallest of 1, 2, 5 times a power of ten that is at least `least`.
+// Returns the smallest of 1, 2, 5 times a power of ten that is at least `least`.
 double round_step(double least) {
   const double power = std::pow(10.0, std::floor(std::log10(least)));
   for (const double factor : {1.0, 2.0, 5.0}) {
@@ -21,7 +21,7 @@ double round_step(double least) {
   return 10 * power;
 }
 
-// Decimals that show multiples of `step` fully, as 0.25 or 1.5e-3.
+// Returns a label with the decimals that multiples of `step` need, as 0.25 or 1.5e-3.
 std::string tick_label(double value, double step, double largest) {
   const int order = static_cast<int>(std::floor(std::log10(largest) + 1e-9));
   const int step_order = static_cast<int>(std::floor(std::log10(step) + 1e-9));
@@ -37,7 +37,7 @@ Ticks make_ticks(double min, double max, int wanted) {
   Ticks ticks;
   const double step = round_step((max / wanted - min / wanted));
   const double largest = std::max(std::abs(min), std::abs(max));
-  // Below this the numbers of neighbouring ticks are the same double.
+  // Below this bound neighbouring ticks are the same double.
   if (!(step > 4e-16 * largest) || !std::isfinite(step)) return ticks;
   const double first = std::ceil(min / step - 1e-9);
   for (int k = 0; k <= 2 * wanted; ++k) {

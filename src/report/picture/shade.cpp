@@ -1,5 +1,5 @@
-// A key light from the upper left with soft shadows, a fill light from the right, and the light of
-// a bright sky that reaches a point from all free directions (ambient occlusion).
+// The lights are a key light from the upper left with soft shadows and a fill light from
+// the right. A bright sky reaches a point from all free directions (ambient occlusion).
 #include "report/picture/shade.h"
 
 #include <algorithm>
@@ -17,19 +17,19 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // All chosen by eye; sky, key and fill together give 1.1 to 1.2 on a face turned to the key.
-constexpr double kSky = 0.48, kSkySlope = 0.26;  // more from above by that part
+constexpr double kSky = 0.48, kSkySlope = 0.26;  // relative increase of the sky's light from above
 constexpr double kKey = 0.70, kFill = 0.06;
-constexpr double kBounce = 0.05;  // reaches every nook: the inside of an open shape is not black
-// Part of the light that does not depend on the surface where colours stand for numbers.
+constexpr double kBounce = 0.05;  // reaches every point: the inside of an open shape is not black
+// Share of the light that is independent of the surface where colours show numbers.
 constexpr double kFlatLight = 0.45;
-constexpr double kKeyRadius = 0.18;  // of the key's disc at distance 1: 10 degrees
+constexpr double kKeyRadius = 0.18;  // radius of the key's disc at distance 1: 10 degrees
 
 // Rays start this far (in radii) off the surface: 1000 times the rounding of Embree's floats.
 constexpr double kRayOffset = 1e-4;
-// And off small balls not farther than this part of their radius.
+// On small balls the offset is at most this part of the ball's radius.
 constexpr double kBallOffset = 0.05;
 
-// Made once: they are asked for at every sample.
+// The colours are made once, because every sample uses them.
 Color plain_color() {
   static const Color color = from_oklch(0.83, 0.045, 75);  // sandstone
   return color;
@@ -42,14 +42,15 @@ Color back_color() {
 struct Frame {
   Vec3 x, y, z;
 };
-// An orthonormal frame about z without a jump but at z = -1 (Duff et al. 2017).
+// Returns an orthonormal frame about n, continuous except at n.z = 0 (Duff et al. 2017).
 Frame frame_about(const Vec3& n) {
   const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
   return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
 }
 
-// Of the interpolated surface: the mean of the projections onto the planes of the corners (Hanika
-// 2021, "Hacking the shadow terminator"), so that facets do not show in the shadow's border.
+// Returns a point of the interpolated surface: the mean of the
+// projections onto the planes of the corners (Hanika 2021, "Hacking
+// the shadow terminator"). Facets then do not show in shadow borders.
 Vec3 rounded_point(const Subject& subject, const Triangle& t, const double (&weights)[3],
                    const Vec3& point, double side) {
   Vec3 result;
@@ -61,13 +62,13 @@ Vec3 rounded_point(const Subject& subject, const Triangle& t, const double (&wei
   return result;
 }
 
-// Of a ball: where the ray enters it.
+// Returns the place where the ray enters a ball.
 Place place_on_ball(const Subject& subject, const Ray& ray, const RayHit& hit) {
   const Vec3& center = subject.mesh.vertices[hit.triangle];
   const Vec3 from_center = ray.origin - center;
   const Vec3 nearest = from_center - dot(from_center, ray.direction) * ray.direction;
   const double radius = subject.ball_radius;
-  // The hit is of floats: a ray that just touches may miss by their rounding.
+  // The hit is in floats: a ray that just touches the ball may miss it by rounding.
   const double half_chord = std::sqrt(std::max(0.0, radius * radius - dot(nearest, nearest)));
   Place place;
   place.face = place.normal = normalized(nearest - half_chord * ray.direction);
@@ -78,7 +79,7 @@ Place place_on_ball(const Subject& subject, const Ray& ray, const RayHit& hit) {
   return place;
 }
 
-// Of a face.
+// Returns the place where the ray meets a face.
 Place place_on_face(const Subject& subject, const Ray& ray, const RayHit& hit) {
   const Triangle& t = subject.mesh.triangles[hit.triangle];
   const double weights[3] = {1.0 - hit.u - hit.v, hit.u, hit.v};
@@ -95,7 +96,7 @@ Place place_on_face(const Subject& subject, const Ray& ray, const RayHit& hit) {
   place.normal = place.face;
   if (!subject.normals.empty()) {
     const Vec3 mixed = normalized(side * mix(subject.normals));
-    // Normals that contradict the face are not believed.
+    // Normals that contradict the face are ignored.
     if (dot(mixed, place.face) > 0) {
       place.normal = mixed;
       place.point = rounded_point(subject, t, weights, place.point, side);
@@ -122,7 +123,7 @@ Place place_of(const Subject& subject, const Ray& ray, const RayHit& hit) {
 }
 
 void look_ahead(const Subject& subject, std::span<const RayHit> hits, std::size_t k) {
-  // Chosen: some 400 ns of work, more than memory takes. A miss has a triangle, too: the first.
+  // Chosen: some 400 ns of work, more than memory takes. A miss has the first triangle.
   constexpr std::size_t kCorners = 8, kIndices = 2 * kCorners;
   if (k + kIndices >= hits.size() || subject.ball_radius > 0) return;
   hwy::Prefetch(&subject.mesh.triangles[hits[k + kIndices].triangle]);
@@ -136,14 +137,14 @@ namespace {
 
 double wrapped(double x) { return x - std::floor(x); }
 
-// The point of a set as this pixel sees it: turned by the pixel's angle, and shifted in squared
-// radius (Cranley, Patterson 1976). Both keep the set evenly spread over the disc.
+// Returns the point of a set for this pixel: turned by the pixel's angle, and shifted in
+// squared radius (Cranley, Patterson 1976). Both keep the set evenly spread over the disc.
 LightSamples::Polar shifted(const LightSamples::Polar& p, const PixelShift& pixel) {
   return {wrapped(p.radius2 + pixel.shift), p.cosine * pixel.cosine - p.sine * pixel.sine,
           p.sine * pixel.cosine + p.cosine * pixel.sine};
 }
 
-// Part of the sky that is free, weighted by the cosine.
+// Returns the free share of the sky, weighted by the cosine.
 double free_sky(const RayScene& scene, const Place& place, const LightSamples& lights,
                 const PixelShift& pixel, int sample) {
   if (lights.sky.empty()) return 1;
@@ -156,21 +157,21 @@ double free_sky(const RayScene& scene, const Place& place, const LightSamples& l
   return static_cast<double>(free) / static_cast<double>(rays);
 }
 
-// Lambert's cosine of the key light, 0 in its shadow.
+// Returns Lambert's cosine of the key light, 0 in its shadow.
 double key_light(const RayScene& scene, const Lamps& lamps, const Place& place,
                  const LightSamples& lights, const PixelShift& pixel, int sample) {
   if (dot(lamps.key, place.normal) < -kKeyRadius) return 0;
   const Vec3 direction = key_direction(lamps, lights.key[static_cast<std::size_t>(sample)], pixel);
   const double cosine = dot(direction, place.normal);
   if (cosine <= 0) return 0;
-  // A flat face that turns its back while the rounded surface does not (yet) would shadow itself.
+  // A flat face turned away from the key would shadow itself where the rounded surface is lit.
   const bool own_shadow = dot(direction, place.face) <= 0;
   return !own_shadow && scene.occluded(place.point, direction, 0, kInfinity) ? 0 : cosine;
 }
 
-// The mean over the key's disc of the cosine above the horizon. With t the distance of the horizon
-// from the disc's centre in its radius, that of max(0, t + x) over the unit disc; 1 / |direction|,
-// 0.984 ... 1, by its mean.
+// Returns the mean over the key's disc of the cosine above the horizon: the mean of
+// max(0, t + x) over the unit disc. Here t is the horizon's distance from the disc's
+// centre in its radius. The factor 1 / |direction|, 0.984 ... 1, is replaced by its mean.
 double key_cosine(double cosine) {
   constexpr double kRadius2 = kKeyRadius * kKeyRadius;
   const double shrink = 2 / kRadius2 * (std::sqrt(1 + kRadius2) - 1);
@@ -181,7 +182,7 @@ double key_cosine(double cosine) {
   return shrink * tilt * (t / 2 + (t * (t * s + std::asin(t)) + 2 * s * s * s / 3) / pi);
 }
 
-// The Hammersley set of n points on the disc. The angle follows the bits of k reversed.
+// Returns the Hammersley set of n points on the disc; the angle has the reversed bits of k.
 std::vector<LightSamples::Polar> hammersley_disc(std::uint32_t n) {
   std::vector<LightSamples::Polar> points;
   for (std::uint32_t k = 0; k < n; ++k) {
@@ -204,7 +205,7 @@ Vec3 sky_direction(const Place& place, const LightSamples::Polar& point, const P
   const double radius = std::sqrt(p.radius2);
   const Vec3 direction = (radius * p.cosine) * frame.x + (radius * p.sine) * frame.y +
                          std::sqrt(1 - p.radius2) * frame.z;
-  // Below the flat face but above the rounded surface: mirrored up again.
+  // A direction below the flat face but above the rounded surface is mirrored up.
   const double below = std::min(0.0, dot(direction, place.face));
   return direction - (2 * below) * place.face;
 }
@@ -220,7 +221,7 @@ LightSamples make_light_samples(int samples_per_pixel, int occlusion_rays) {
   const auto samples = static_cast<std::uint32_t>(samples_per_pixel);
   const auto rays = static_cast<std::uint32_t>(occlusion_rays);
   std::vector<LightSamples::Polar> spread = hammersley_disc(samples * rays);
-  // Sample s takes every samples-th point from s on, so that each sample sees the whole sky.
+  // Sample s takes every samples-th point from s on, so that each sample covers the whole sky.
   LightSamples lights = {{}, hammersley_disc(samples)};
   for (std::uint32_t s = 0; s < samples; ++s) {
     for (std::uint32_t r = 0; r < rays; ++r) lights.sky.push_back(spread[r * samples + s]);

@@ -1,13 +1,13 @@
-// A cell is what a pixel sees in its middle. It sends few rays to the sky and one to the key, other
-// ones than its neighbours: each window of 4 x 4 cells has all of a Hammersley set (Keller,
-// Heidrich 2001, "Interleaved sampling"), and the mean over a window, of places on one surface
-// only, is what each of its cells sees of the lights. First one of 2 x 2 cells, a scout, sends one
-// ray to the sky and another to the key; where all of a window of scouts are free, no cell sends
-// more: with a blocked part b of evenly spread directions, 16 of them are all free at a chance
-// below (1 - b)^16, so that at most max b (1 - b)^16 = 0.02 of a light is overlooked in the mean, a
-// level or two of 255. A cell whose surface none of the scouts about it see asks itself. Then
-// pixels that differ from their neighbours take the mean of several rays of sight, whose places are
-// lit as the pixel's middle is.
+// A cell is what a pixel shows at its middle. Each cell sends some rays to the sky and to
+// the key, different from its neighbours' rays. Each window of 4 x 4 cells has a whole
+// Hammersley set (Keller, Heidrich 2001, "Interleaved sampling"). The mean over the cells of
+// a window on the same surface is the light of each cell. First, one of 2 x 2 cells, a
+// scout, sends one ray to the sky and one to the key. Where all scouts of a window are free,
+// no cell sends more rays. If a part b of evenly spread directions is blocked, 16 of them
+// are all free with a probability below (1 - b)^16. At most max b (1 - b)^16 = 0.02 of a
+// light is thus overlooked on average, one or two of 255 levels. A cell sends its own rays
+// if no scout around it is on its surface. Finally, pixels that differ from their neighbours
+// take the mean of several rays of sight, whose places are lit like the pixel's middle.
 #include "report/picture/shared_light.h"
 
 #include <algorithm>
@@ -24,16 +24,16 @@ namespace rholm {
 namespace {
 
 constexpr int kBlock = 4;  // cells of a block along its side
-// Cells beyond those of the pixels: pixels that differ, windows of means, scouts, their windows.
+// Margins of cells around the pixels: for edge pixels, windows of means, scouts, their windows.
 constexpr int kAskMargin = 1 + kReach, kScoutMargin = kAskMargin + kScouts;
 constexpr int kMargin = kScoutMargin + kReach * kScouts;
-constexpr std::size_t kRows = 4;  // of a chunk: some 5 ms
+constexpr std::size_t kRows = 4;  // rows per chunk: some 5 ms
 
-// Pixels whose square roots of brightness differ by more are edges, some 15 of 255 grey levels;
-// measured by scripts/render-figures: at 0.08 Bennu is as far from many rays as fine pictures are.
+// Pixels whose square roots of brightness differ by more are edges: some 15 of 255 grey levels.
+// Measured by scripts/render-figures: at 0.08 Bennu is as far from many rays as fine pictures are.
 constexpr float kStep = 0.06f;
-// Of a cell in whose window some see the key, so 36 in 3 x 3 cells, as fine pictures have for both
-// lights; measured by scripts/render-figures: 9 bring 1 to 5 %.
+// Key rays of a cell whose window sees the key partly: 36 in 3 x 3 cells, as fine pictures
+// have for both lights. Measured by scripts/render-figures: 9 rays improve by 1 to 5 %.
 constexpr int kKeyRays = 4;
 const Color kPaper = {1, 1, 1};
 
@@ -43,20 +43,20 @@ struct Shared {
   float sky, key;  // free parts
 };
 
-// A strip of cells, one number beside the other.
+// Strip of cells, with one array per value.
 struct Cells {
   int left = 0, top = 0, width = 0;
   std::array<std::vector<float>, kCellNumbers> numbers;
   std::vector<Vec3> faces;
   std::vector<Finish> finishes;
   std::vector<Shared> shared;
-  // By all of a cell's own rays: the free part of the sky, and cosines of rays to the key, of all
-  // and of free ones.
+  // By all of a cell's own rays: the free part of the sky,
+  // and the sums of cosines of key rays, all and free ones.
   struct Own {
     float sky, key_all, key_free;
   };
   std::vector<Own> own;
-  std::vector<std::uint8_t> mixed_sky, mixed_key;  // some of the window see it, some do not
+  std::vector<std::uint8_t> mixed_sky, mixed_key;  // the window sees only a part of the light
   std::vector<Color> colors;
 
   std::size_t at(int x, int y) const {
@@ -99,7 +99,7 @@ Cells make_cells(int left, int right, int rows) {
   return cells;
 }
 
-// The first rows are those from row `first` on then.
+// Moves rows: the row `first` becomes the first one.
 void move_up(Cells& cells, int first, int rows) {
   const std::ptrdiff_t width = cells.width;
   for_each_array(cells, [&](auto& array) {
@@ -119,25 +119,25 @@ Spot spot_of(const Cells& cells, std::size_t k) {
 }
 
 bool is_scout(int k) { return k % kScouts == 0; }
-// The scout at a row or column, or before it.
+// Returns the scout at a row or column, or the one before it.
 int scout_before(int k) { return k - (k & (kScouts - 1)); }
 
-// Bits of x ^ y and y in turn, the lowest first: neighbours are far apart in the set.
+// Interleaves the bits of x ^ y and y, lowest first, so neighbours are far apart in the set.
 std::size_t place_in_block(int x, int y) {
   const unsigned a = static_cast<unsigned>(x ^ y), b = static_cast<unsigned>(y);
   return (a & 1) * 8 + (b & 1) * 4 + (a & 2) + (b & 2) / 2;
 }
 
-// Of a cell: as many as a pixel of its own light asks for, shared by the cells of a block.
+// Returns the rays of a cell: a pixel's own rays, shared by all cells of a block.
 int sky_rays(const RenderOptions& options) {
   if (options.occlusion_rays == 0) return 0;
   constexpr int kCells = kBlock * kBlock;
-  constexpr int kLeast = 3;  // chosen by eye: fewer than 48 directions leave bands
+  constexpr int kLeast = 3;  // chosen by eye: less than 48 directions leave bands
   const int rays = options.samples * options.samples * options.occlusion_rays;
   return std::max(kLeast, (rays + kCells - 1) / kCells);
 }
 
-// Each ray of a block's cells is a Hammersley set, all of them as many, shifted within its strata.
+// Ray r of all cells of a block is a Hammersley set, and so are all rays, shifted within strata.
 std::vector<LightSamples::Polar> sky_of_block(int rays) {
   std::vector<LightSamples::Polar> points;
   for (unsigned at = 0; at < kBlock * kBlock; ++at) {
@@ -150,8 +150,8 @@ std::vector<LightSamples::Polar> sky_of_block(int rays) {
   return points;
 }
 
-// A lattice of the golden ratio in the unit square, its middle in the square's. The same in all
-// pixels: an edge that runs through many is smooth.
+// Returns a golden-ratio lattice in the unit square, centred. It is the
+// same in all pixels, so that an edge through many pixels is smooth.
 std::vector<PlanePoint> places_in_pixel(int n) {
   std::vector<PlanePoint> places;
   double mean = 0;
@@ -203,7 +203,7 @@ class Drawing {
   LightSamples own_;
   std::vector<LightSamples::Polar> shared_sky_, more_key_;
   std::vector<Vec3> shared_key_;    // one for each cell of a block
-  std::vector<PlanePoint> places_;  // of a pixel that is an edge
+  std::vector<PlanePoint> places_;  // sample positions in an edge pixel
   float per_depth_;
 };
 
@@ -214,7 +214,7 @@ void set_roots(Cells& cells, std::size_t cell) {
   cells.numbers[kBlue][cell] = std::sqrt(color.b);
 }
 
-// Rays of sight, and those that are shared.
+// Casts the rays of sight and the shared rays.
 void Drawing::see(Cells& cells, int y) const {
   std::vector<Ray> sight, sky, key;
   std::vector<std::size_t> of_sky, of_key;
@@ -259,7 +259,7 @@ void Drawing::see(Cells& cells, int y) const {
   }
 }
 
-// Whether the windows of scouts see a light, or some of each do and some do not.
+// Determines for each scout's window whether it sees a light fully, partly, or not.
 void Drawing::scout(Cells& cells, int y) const {
   if (!is_scout(y)) return;
   const int before = kReach * kScouts, end = cells.left + cells.width - before;
@@ -275,8 +275,8 @@ void Drawing::scout(Cells& cells, int y) const {
   }
 }
 
-// Any other cell asks where a scout about it that sees the same surface does, where these do not
-// agree, and where there is none.
+// A cell that is no scout sends rays if a scout around it on the
+// same surface does, if these scouts disagree, or if there is none.
 void Drawing::hear_scouts(Cells& cells, int x, int y) const {
   const std::size_t cell = cells.at(x, y);
   const Spot spot = spot_of(cells, cell);
@@ -298,7 +298,7 @@ void Drawing::hear_scouts(Cells& cells, int x, int y) const {
   cells.shared[cell] = {1, lit > 0 ? 1.0f : 0.0f};
 }
 
-// Rays of cells in whose windows some see a light and some do not.
+// Casts the rays of cells whose windows see a light partly.
 void Drawing::ask(Cells& cells, int y) const {
   std::vector<Ray> sky, key;
   std::vector<std::size_t> of_sky, of_key;
@@ -341,7 +341,7 @@ void Drawing::ask(Cells& cells, int y) const {
   }
 }
 
-// Means over windows, of 3 x 3 cells for the key, whose shadows have edges; then colours.
+// Takes means over windows, 3 x 3 cells for the key with its sharp shadows; then sets colours.
 void Drawing::share(Cells& cells, int y) const {
   for (int x = cells.left + kMargin - 1; x < cells.left + cells.width - kMargin + 1; ++x) {
     const std::size_t cell = cells.at(x, y);
@@ -370,8 +370,8 @@ void Drawing::share(Cells& cells, int y) const {
   }
 }
 
-// The mean of what is seen at several places of a pixel. They are lit as its middle if all are
-// alike it, otherwise by rays of their own.
+// Takes the mean of several places of an edge pixel. They are lit like
+// its middle if all are on its surface, otherwise by their own rays.
 void Drawing::resolve(const Cells& cells, int y) const {
   std::vector<int> edges;
   std::vector<Ray> rays;
@@ -416,7 +416,7 @@ void draw_shared(Canvas& canvas, const PanelPicture& p, const RayScene& scene,
                  const RenderOptions& options, const Context& context, const ParallelStage& stage,
                  int strip_cells) {
   const Drawing drawing(canvas, p, scene, options);
-  // Pixels that the thing may touch.
+  // Range of pixels that the subject may touch.
   const double half_width = 0.5 * p.box.width() * p.pixels_per_unit + 1;
   const double half_height = 0.5 * p.box.height() * p.pixels_per_unit + 1;
   const int left = std::max(p.left, static_cast<int>(std::floor(p.center_x - half_width)));
@@ -433,7 +433,7 @@ void draw_shared(Canvas& canvas, const PanelPicture& p, const RayScene& scene,
     const int last = std::min(first + rows, bottom);
     const double strip = (stage.to - stage.from) * (last - first) / (bottom - top);
     double from = stage.from + (stage.to - stage.from) * (first - top) / (bottom - top);
-    // Each goes on where it ended in the strip above.
+    // Each pass continues where it ended in the strip above.
     const auto pass = [&](int margin, double part, const auto& work) {
       const double to = std::min(stage.to, from + part * strip);
       const int next = first > top ? first + margin : first - margin;

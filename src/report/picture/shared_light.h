@@ -1,4 +1,4 @@
-// A picture whose pixels share the rays of their light.
+// Draws a picture whose pixels share the rays of their light.
 #pragma once
 
 #include "base/parallel.h"
@@ -9,7 +9,7 @@
 
 namespace rholm {
 
-// A panel where it stands in the picture.
+// Panel with its position in the picture.
 struct PanelPicture {
   const Subject& subject;
   const View& view;
@@ -17,14 +17,14 @@ struct PanelPicture {
   const ColorScale& scale;
   PlaneBox box;
   double pixels_per_unit;
-  double center_x, center_y;  // pixels
-  int left, right, height;    // pixels
+  double center_x, center_y;  // position in pixels
+  int left, right, height;    // size in pixels
 
   Ray ray(double x, double y) const {
     return view.ray({0.5 * (box.min.x + box.max.x) + (x - center_x) / pixels_per_unit,
                      0.5 * (box.min.y + box.max.y) - (y - center_y) / pixels_per_unit});
   }
-  // Of those of a pixel, side x side, one at a random place in each of as many squares.
+  // Returns a sample ray of a pixel: side x side squares, one random position in each.
   Ray ray_of_sample(int x, int y, int sample, int side) const {
     const std::uint64_t seed = pixel_seed(x, y);
     const auto jitter = [&](int cell, int k) {
@@ -34,9 +34,9 @@ struct PanelPicture {
   }
 };
 
-// Draws the panel into its part of the canvas, a strip of some pixels after the other; chosen: with
-// some 130 bytes each they stay near the processor. The same bits for any number of threads, and
-// for any strips.
+// Draws the panel into its part of the canvas, strip by strip. Chosen: the
+// cells of a strip, some 130 bytes each, stay in the processor's cache.
+// The bits are the same for any number of threads, and for any strips.
 inline constexpr int kStripCells = 1 << 15;
 void draw_shared(Canvas& canvas, const PanelPicture& panel, const RayScene& scene,
                  const RenderOptions& options, const Context& context, const ParallelStage& stage,

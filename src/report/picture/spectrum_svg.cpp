@@ -1,5 +1,5 @@
-// A straight line of slope -4 on two logarithmic axes is what the tail S / (pi l^4) of a polyhedron
-// looks like: hence log-log.
+// The axes are logarithmic, because the tail S / (pi l^4)
+// of a polyhedron is then a straight line of slope -4.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,8 +21,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kWidth = 820, kHeight = 560;
 constexpr double kLeft = 92, kRight = 796, kTop = 64, kBottom = 486;
 
-// Rounding of a coefficient is about 2^-53 of the largest: energies below this part of the whole
-// (degree 0 included) say nothing about the surface.
+// Rounding of a coefficient is about 2^-53 of the largest one. Energies below this part
+// of the total (degree 0 included) therefore have no information about the surface.
 constexpr double kFloor = 0x1p-106;
 
 constexpr const char *kInk = "#222", *kGridInk = "#e3e3e3", *kFineInk = "#f3f3f3";
@@ -40,16 +40,16 @@ struct Axes {
   }
 };
 
-// What is drawn of the spectrum: log10 of the energies of degrees 1 ... L.
+// Drawn data of the spectrum: log10 of the energies of degrees 1 ... L.
 struct Curve {
   std::vector<double> log_energy;
-  std::vector<bool> clipped;  // the energy is below the floor, or zero: log_energy means nothing
+  std::vector<bool> clipped;  // true: the energy is zero or below the floor, log_energy is invalid
   double log_floor = 0;
   double log_strength = -kInfinity;  // log10(S / pi)
-  // With a tolerance: log10 of its energy, and of what the degrees beyond l hold, empty if unknown.
+  // With a tolerance: log10 of its energy, and of the energy beyond degree l; empty if unknown.
   double log_tolerance = -kInfinity;
   std::vector<double> log_beyond;
-  bool beyond_ends = false;  // before the last degree
+  bool beyond_ends = false;  // true if log_beyond ends before the last degree
   bool empty = true;         // no degree above 0 has energy above the floor
 };
 
@@ -74,7 +74,7 @@ Curve make_curve(const Expansion& expansion) {
   return curve;
 }
 
-// Where what lies beyond is not known, the curve ends.
+// The curve ends where the energy beyond is unknown.
 void add_tolerance(const Expansion& expansion, double tolerance, Curve& curve) {
   curve.log_tolerance = std::log10(4 * std::numbers::pi) + 2 * std::log10(tolerance);
   const RmsBeyond beyond = rms_beyond(expansion);
@@ -106,7 +106,7 @@ Axes make_axes(const Curve& curve) {
   return axes;
 }
 
-// XML text: markup escaped; control characters and bytes that are not UTF-8 replaced.
+// Returns XML text: escapes markup, replaces control characters and bytes that are not UTF-8.
 std::string escaped(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size();) {
@@ -141,7 +141,7 @@ std::string text(double x, double y, const char* anchor, double size, std::strin
       x, y, anchor, size, kInk, content);
 }
 
-// 1, 2, 5 times powers of ten where there is room, else powers alone; fine lines at each digit.
+// Labels 1, 2, 5 times powers of ten, or 1 and 2 where crowded; fine lines at each digit.
 std::string degree_axis(const Axes& axes) {
   std::string svg;
   const double top = std::pow(10.0, axes.x_max) * (1 + 1e-12);
@@ -157,7 +157,7 @@ std::string degree_axis(const Axes& axes) {
   return svg + text((kLeft + kRight) / 2, kBottom + 46, "middle", 15, "degree l");
 }
 
-// A line per power of ten, at most about ten of them named.
+// Draws a line per power of ten, with at most about ten labels.
 std::string energy_axis(const Axes& axes, const Expansion& expansion) {
   std::string svg;
   const int low = static_cast<int>(axes.y_min), high = static_cast<int>(axes.y_max);
@@ -183,10 +183,10 @@ std::string energy_axis(const Axes& axes, const Expansion& expansion) {
   return svg;
 }
 
-// A line through the degrees above the floor, dots where they are few, and open triangles at the
-// lower edge for those below it.
+// Draws a line through the degrees above the floor, with dots if there are not
+// too many. Degrees below the floor have open triangles at the lower edge.
 std::string data(const Axes& axes, const Curve& curve) {
-  constexpr std::size_t kDotted = 80;  // chosen: beyond, dots run into each other
+  constexpr std::size_t kDotted = 80;  // chosen: more dots would overlap
   std::string path, marks;
   for (std::size_t k = 0; k < curve.log_energy.size(); ++k) {
     const double x = axes.x(static_cast<double>(k + 1));
@@ -210,7 +210,7 @@ std::string data(const Axes& axes, const Curve& curve) {
          marks;
 }
 
-// S / (pi l^4) between the axes' ends.
+// Draws S / (pi l^4) between the ends of the axes.
 std::string tail(const Axes& axes, const Curve& curve) {
   const auto at = [&](double log_degree) { return curve.log_strength - 4 * log_degree; };
   const double from = std::max(axes.x_min, (curve.log_strength - axes.y_max) / 4);
@@ -246,7 +246,7 @@ std::string legend_line(double y, const char* ink, const char* dashes) {
       kLeft + 16, y, kLeft + 48, ink, dashes);
 }
 
-// In the lower left corner, which a falling spectrum leaves free.
+// Draws the legend in the lower left corner, which a falling spectrum leaves free.
 std::string legend(const Curve& curve, RadialFunction function) {
   const auto clipped = std::count(curve.clipped.begin(), curve.clipped.end(), true);
   double y = kBottom - 30;

@@ -1,4 +1,4 @@
-// Where one character of UTF-8 text ends.
+// Finds the end of a UTF-8 character.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 
 namespace rholm {
 
-// Bytes of the character that starts at the front of `text` (not empty); 0 if none does. Overlong
-// forms of three and four bytes pass: what they encode is not looked at.
+// Returns the bytes of the character at the front of `text` (not empty); 0 if there is none.
+// Overlong forms of three and four bytes pass, because the encoded value is not checked.
 inline std::size_t utf8_length(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
   if (lead < 0x80) return 1;

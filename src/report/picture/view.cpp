@@ -11,8 +11,8 @@
 namespace rholm {
 namespace {
 
-// The eye's distance in radii of the scene. Chosen: at 4 the scene fills 29 degrees, the angle of
-// a picture looked at from arm's length.
+// Distance of the eye in radii of the scene. Chosen: at 4 the scene
+// fills 29 degrees, the angle of a picture viewed at arm's length.
 constexpr double kEyeDistance = 4;
 
 Vec3 unit_direction(const Vec3& v, const char* what) {
@@ -32,7 +32,7 @@ void extend(PlaneBox& box, const PlanePoint& p) {
   box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y)};
 }
 
-// Any unit vector across `axis`.
+// Returns any unit vector across `axis`.
 Vec3 across(const Vec3& axis) {
   const Vec3 other = std::abs(axis.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   return normalized(cross(axis, other));
@@ -44,7 +44,7 @@ View make_view(const RenderOptions& options, double radius) {
   View view;
   view.forward = unit_direction(options.view, "the view direction");
   const Vec3 side = cross(view.forward, unit_direction(options.up, "the upward direction"));
-  // Looking along `up` there is no upright picture: any will do. 1e-9 is far above rounding.
+  // Along `up` no upright picture exists, so any will do. 1e-9 is far above rounding.
   view.right = norm(side) > 1e-9 ? normalized(side) : across(view.forward);
   view.up = cross(view.right, view.forward);
   view.distance = kEyeDistance * radius;
@@ -78,7 +78,7 @@ PlaneBox projected_box(const View& view, std::span<const Vec3> points, double ba
   CancelPoll poll;
   for (const Vec3& p : points) {
     poll();
-    // The eye sees the tangent cone: of a ball before it r / sqrt(1 - (r/d)^2) wide.
+    // The eye sees the tangent cone: a ball in front of it appears r / sqrt(1 - (r/d)^2) wide.
     const double part = view.perspective ? ball_radius / (view.distance + dot(p, view.forward)) : 0;
     const double radius = ball_radius / std::sqrt(1 - part * part);
     for (const Vec3& side : {radius * view.right, radius * view.up}) {

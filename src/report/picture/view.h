@@ -1,4 +1,4 @@
-// From where a picture is seen, and where a point falls in it.
+// View of a picture, and the position of points in it.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 namespace rholm {
 
 struct PlanePoint {
-  double x = 0;  // to the right
-  double y = 0;  // up
+  double x = 0;  // distance to the right
+  double y = 0;  // distance upwards
 };
 
 struct PlaneBox {
@@ -26,7 +26,7 @@ struct View {
   Vec3 right;
   Vec3 up;
   Vec3 forward;
-  double distance = 0;  // of the eye
+  double distance = 0;  // distance of the eye
   bool perspective = false;
 
   PlanePoint project(const Vec3& p) const;
@@ -38,13 +38,13 @@ struct View {
   }
 };
 
-// `radius`: of a ball about the origin that holds everything. Throws InvalidInput for a direction
-// that is zero or not finite.
+// `radius`: of a ball about the origin that contains everything.
+// Throws InvalidInput for a direction that is zero or not finite.
 View make_view(const RenderOptions& options, double radius);
 
-// Of all corners of triangles; a point at the origin for no triangle.
+// Returns the box of all corners of triangles; a point at the origin without triangles.
 PlaneBox projected_box(const View& view, const Mesh& mesh);
-// Of balls of that radius about points.
+// Returns the box of balls of this radius about points.
 PlaneBox projected_box(const View& view, std::span<const Vec3> points, double ball_radius);
 
 }  // namespace rholm

@@ -10,7 +10,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "arrays are sent as they lie");
 
-constexpr std::size_t kAligned = 8;  // a page may see doubles there
+constexpr std::size_t kAligned = 8;  // pages may view doubles at these addresses
 constexpr std::size_t kHead = 12;    // magic and length
 
 std::size_t padded(std::size_t n) { return (n + kAligned - 1) / kAligned * kAligned; }
@@ -41,8 +41,8 @@ void NamedArrays::add(const char* name, std::span<const std::uint8_t> values, Sh
 }
 
 std::string NamedArrays::bytes(std::string_view meta) const {
-  // Offsets have as many digits as they have, and the JSON is as long as that makes it: lengths are
-  // tried until they agree, and only grow.
+  // Offsets in the JSON depend on its length, and its length on their
+  // digits. Lengths are tried until they agree; they only grow.
   std::string text;
   std::size_t length = padded(kHead) - kHead;
   for (std::size_t tried = 0; tried != length;) {

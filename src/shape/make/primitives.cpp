@@ -41,7 +41,7 @@ void require_grid(int n, int least_n, int m, int least_m, const char* what) {
               " in all");
 }
 
-// Twelve vertices (0, +-1, +-golden ratio) and their cyclic permutations, on the unit sphere.
+// Makes the vertices (0, +-1, +-golden ratio) and their cyclic permutations, on the unit sphere.
 Mesh icosahedron() {
   const double length = std::sqrt(1 + std::numbers::phi * std::numbers::phi);
   const double a = 1 / length, b = std::numbers::phi / length;
@@ -55,7 +55,7 @@ Mesh icosahedron() {
   return mesh;
 }
 
-// Each triangle becomes four; the midpoint of every edge moves to the unit sphere. New vertices
+// Splits each triangle into four; the midpoint of every edge moves to the unit sphere. New vertices
 // are numbered in the order of the edges.
 Mesh subdivide_on_sphere(const Mesh& mesh) {
   const HalfEdges edges = sort_half_edges(mesh.vertices.size(), mesh.triangles);
@@ -63,7 +63,7 @@ Mesh subdivide_on_sphere(const Mesh& mesh) {
   fine.vertices = mesh.vertices;
   fine.vertices.reserve(mesh.vertices.size() + edges.sorted.size() / 2);
   std::vector<std::uint32_t> middle(3 *
-                                    mesh.triangles.size());  // per corner: on the edge it starts
+                                    mesh.triangles.size());  // per corner: of the edge it begins
   edges.for_each_edge([&](std::uint32_t smaller, std::span<const HalfEdge> group) {
     for (const HalfEdge& half_edge : group) {
       middle[half_edge.corner()] = static_cast<std::uint32_t>(fine.vertices.size());
@@ -82,19 +82,19 @@ Mesh subdivide_on_sphere(const Mesh& mesh) {
   return fine;
 }
 
-// The two triangles of the square a b c d, counter-clockwise.
+// Adds the two triangles of the square a b c d, counter-clockwise.
 void add_square(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
   mesh.triangles.push_back({a, b, c});
   mesh.triangles.push_back({a, c, d});
 }
 
-// The face of a box on which axis `k` has its largest value (side 1) or smallest (side 0), as n x n
-// squares with vertices of its own. Coordinates of one lattice point are the same bits on all
-// faces.
+// Adds the face of a box on which axis `k` has its largest value (side 1) or smallest
+// (side 0). It has n x n squares with their own vertices. Coordinates of a lattice point
+// have the same bits on all faces.
 void add_box_face(Mesh& mesh, const Vec3& size, int n, int k, int side) {
   const double lengths[3] = {size.x, size.y, size.z};
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  // Axes k + 1, k + 2 are counter-clockwise seen from the positive side.
+  // Seen from the positive side, axes k + 1, k + 2 are counter-clockwise.
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
       double x[3];
@@ -124,8 +124,8 @@ struct Wave {
   double weight = 0;
 };
 
-// Eight waves whose weights add up to 1, so that their sum is at most 1 in modulus; wave numbers
-// between 2 and 7 (chosen: several bumps per radian, resolved by a few hundred triangles).
+// Returns eight waves. Their weights add up to 1, so that the sum is at most 1 in modulus. Wave
+// numbers are 2 to 7 (chosen: several bumps per radian, resolved by a few hundred triangles).
 std::vector<Wave> random_waves(std::uint64_t seed) {
   constexpr int n = 8;
   std::vector<Wave> waves(n);

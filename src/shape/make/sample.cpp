@@ -1,5 +1,5 @@
-// Random points on a surface. Every point has a stream of random numbers of its own, so that the
-// points do not depend on threads, nor on how many numbers another one took.
+// Makes random points on a surface. Every point has its own stream of random numbers. So it depends
+// neither on threads nor on how many numbers other points use.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,22 +25,22 @@
 namespace rholm {
 namespace {
 
-// What scanners around a surface see of it.
+// A scanner that looks at a surface from outside.
 struct Scanner {
   Vec3 at;             // in the frame of the surface
-  RigidMotion motion;  // about the middle of the surface: what the scan is off by
-  double noise = 0;    // of its points, part of the diagonal
+  RigidMotion motion;  // about the surface's middle: error of the scan's pose
+  double noise = 0;    // of its points, relative to the diagonal
 };
 
-// Keeps references to the surface and the options.
+// Scanners around a surface. Keeps references to the surface and the options.
 class Scans {
  public:
   Scans(const SampledSurface& surface, const SampleOptions& options);
 
   const std::vector<Scanner>& scanners() const { return scanners_; }
-  // Random, as dense as the scanner's rays, of what it sees; nothing if it does not find any.
+  // Returns a random visible point, by the density of rays; nothing if no visible point is found.
   std::optional<SurfacePlace> draw(std::size_t scan, RandomStream& random) const;
-  // Of rays in lines, about options.points / options.scans.
+  // Returns hits of rays in lines, about options.points / options.scans of them.
   std::vector<SurfacePlace> lines(std::size_t scan, const Context& context) const;
 
  private:
@@ -48,7 +48,7 @@ class Scans {
 
   const SampledSurface& surface_;
   const SampleOptions& options_;
-  double radius_ = 0;  // of a ball about the middle that holds the surface
+  double radius_ = 0;  // of a ball around the middle that contains the surface
   Mesh local_;
   std::optional<RayScene> scene_;
   std::vector<Scanner> scanners_;
@@ -56,21 +56,21 @@ class Scans {
 
 using std::numbers::pi;
 
-// Chosen: as far as a scanner on a tripod, so that it sees most of a side.
-constexpr double kDistance = 3;  // of the radius
+// Chosen: like a scanner on a tripod, which sees most of one side.
+constexpr double kDistance = 3;  // relative to the radius
 
 constexpr std::uint64_t kScannerStream = std::uint64_t{1} << 63;
-constexpr int kMostTries = 1000;  // for a place that is seen
+constexpr int kMostTries = 1000;  // to find a visible place
 
-// Of the distance: a ray that ends so near before a place has met its surface.
+// Relative to the distance: a ray that ends so near before a place has met the place's surface.
 constexpr double kNear = 1e-5;
 
-// Of the field: what fills less gets fewer points rather than so many more rays.
+// Least share of the field: a smaller surface gets fewer points instead of more rays.
 constexpr double kLeastSeen = 0.005;
 
-constexpr std::size_t kProbes = 64;  // a side, to find how much of its field a scanner sees
+constexpr std::size_t kProbes = 64;  // rays per side that measure the visible share of the field
 
-// Spread evenly over the sphere, along a spiral.
+// Returns directions spread evenly over the sphere, along a spiral.
 Vec3 on_spiral(std::size_t i, std::size_t n) {
   const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(n);
   const double phi = static_cast<double>(i) * pi * (3 - std::sqrt(5.0));
@@ -96,7 +96,7 @@ Scans::Scans(const SampledSurface& surface, const SampleOptions& options)
   }
   local_.triangles = surface.mesh().triangles;
   scene_.emplace(local_);
-  // Half of the mean square by shifts, 3 s^2, half by turns, 2 s^2 |x|^2.
+  // Shifts contribute half of the mean square, 3 s^2, and turns the other half, 2 s^2 |x|^2.
   const double half = 0.5 * std::pow(options.misalignment * surface.diagonal(), 2);
   const double shift = std::sqrt(half / 3);
   const double turn = std::sqrt(half / (2 * mean_square_distance(surface)));
@@ -123,7 +123,7 @@ std::optional<SurfacePlace> Scans::draw(std::size_t scan, RandomStream& random) 
   const Scanner& scanner = scanners_[scan];
   for (int k = 0; k < kMostTries; ++k) {
     const SurfacePlace place = surface_.draw(random);
-    // So many rays meet an area at that angle.
+    // The number of rays that meet an area is proportional to this cosine.
     const double cosine = std::abs(dot(normalized(scanner.at - place.point), place.normal));
     if (random.uniform() < cosine && sees(scanner, place)) return place;
   }
@@ -180,7 +180,7 @@ using std::numbers::pi;
 constexpr std::size_t kGrain = 4096;                      // points per chunk; chosen: some 0.5 ms
 constexpr std::uint64_t kHoleStream = ~std::uint64_t{0};  // no point has this number
 
-// `normal` turned about a random axis perpendicular to it.
+// Returns `normal` turned about a random axis perpendicular to it.
 Vec3 turned(const Vec3& normal, double deviation_degrees, RandomStream& random) {
   const double angle = deviation_degrees * pi / 180 * random.gaussian_pair().first;
   const double phi = 2 * pi * random.uniform();
@@ -193,7 +193,7 @@ struct SampledPoint {
   std::size_t scan = 0;
 };
 
-// Where points come from: the surface at random, a pattern, or scanners.
+// Source of the points: random places on the surface, a pattern, or scanners.
 class Source {
  public:
   Source(const SampledSurface& surface, const SampleOptions& options, const Context& context)
@@ -214,8 +214,8 @@ class Source {
   std::size_t size() const { return size_; }
   const Scanner& scanner(std::size_t scan) const { return scans_->scanners()[scan]; }
 
-  // Every floor(share n)-th is an outlier. Nothing where a scanner finds no place, or the law of
-  // density leaves none of a pattern.
+  // Returns point k; about every (1 / outliers)-th is an outlier. Returns nothing if a scanner sees
+  // no place, or the law of density removes a place of a pattern.
   std::optional<SampledPoint> point(std::size_t k) const {
     RandomStream random(o_.seed, k);
     SampledPoint point;
@@ -275,7 +275,7 @@ void check(const SampleOptions& o) {
   }
 }
 
-// Those of a mesh that a sample has, too: normals and scanners it has of its own.
+// Returns the mesh's attributes that a sample takes over. Normals and scanners are its own.
 std::vector<const Attribute*> attributes_to_sample(const Mesh& mesh) {
   std::vector<const Attribute*> attributes;
   for (const Attribute& a : mesh.attributes) {
@@ -285,8 +285,8 @@ std::vector<const Attribute*> attributes_to_sample(const Mesh& mesh) {
   return attributes;
 }
 
-// The value at a place between three corners, of the attribute's type. Where a corner has no number
-// the others count alone.
+// Returns the value at a place between three corners, in the attribute's type. Corners
+// without a number are left out.
 double value_at(const Attribute& attribute, const Triangle& t, const SurfacePlace& place) {
   double value = 0, sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -301,7 +301,7 @@ double value_at(const Attribute& attribute, const Triangle& t, const SurfacePlac
   return std::round(value);
 }
 
-// Leaves the points that are marked, and says how many.
+// Keeps the marked points; returns their number.
 std::size_t keep(const std::vector<char>& marked, PointCloud& cloud) {
   const auto squeeze = [&](auto& values) {
     std::size_t n = 0;
@@ -318,7 +318,7 @@ std::size_t keep(const std::vector<char>& marked, PointCloud& cloud) {
   return cloud.points.size();
 }
 
-// Those that tell of the scanners.
+// Returns the attributes that describe the scanners.
 std::vector<std::pair<std::string, ScalarType>> own_attributes(const SampleOptions& o) {
   std::vector<std::pair<std::string, ScalarType>> own;
   if (o.scans > 0) own.emplace_back("scan", ScalarType::kInt32);

@@ -18,29 +18,29 @@
 namespace rholm {
 namespace {
 
-// Points along the curves in which planes cut a surface.
+// This part finds points along the curves in which planes cut a surface.
 
-// The points x with normal . x = height.
+// The plane of all points x with normal . x = height.
 struct Plane {
   Vec3 normal;  // unit
   double height = 0;
 };
 
-// Keeps a reference to the surface. Vertices at one place are one, whatever triangles say.
+// Cuts a surface. Keeps a reference to it. Vertices at one place count as one vertex.
 class PlaneCutter {
  public:
   explicit PlaneCutter(const SampledSurface& surface);
 
-  // Places at equal steps, about `step`, along each curve, at least one on each, from a random one
-  // on. In frames of the surface.
+  // Returns places at equal steps of about `step` along each curve, at least one per curve. The
+  // first place is random. Coordinates are in frames of the surface.
   std::vector<SurfacePlace> places(const Plane& plane, double step, RandomStream& random) const;
 
  private:
   const SampledSurface& surface_;
-  std::vector<std::uint32_t> vertex_;  // per vertex of the mesh: the first at its place
+  std::vector<std::uint32_t> vertex_;  // for each vertex of the mesh: the first at its place
 };
 
-// Where a triangle is cut: from one of its edges to another.
+// An end of a cut through a triangle, on one of its edges.
 struct End {
   std::uint64_t edge = 0;  // smaller vertex << 32 | larger
   std::array<double, 3> weights = {};
@@ -52,14 +52,14 @@ struct Segment {
   double length = 0;
 };
 
-// Ends sorted by edge, to find the segments that meet there.
+// An end, sorted by edge to find the segments that meet there.
 struct Meeting {
   std::uint64_t edge;
   std::uint32_t segment;
   int end;
 };
 
-// A segment that is gone through from one end to the other.
+// A segment that is traversed from one end to the other.
 struct Step {
   std::uint32_t segment;
   bool backwards;
@@ -77,7 +77,7 @@ class Curves {
     });
   }
 
-  // Calls visit(curve) for all, those with ends first.
+  // Calls visit(curve) for all curves, open ones first.
   template <typename Visit>
   void for_each(const Visit& visit) {
     for (const bool closed : {false, true}) {
@@ -159,7 +159,7 @@ std::vector<SurfacePlace> PlaneCutter::places(const Plane& plane, double step,
     double length = 0;
     for (const Step& s : curve) length += curves[s.segment].length;
     const double n = std::max(1.0, std::round(length / step));
-    double next = random.uniform() * length / n, passed = 0;  // along the curve
+    double next = random.uniform() * length / n, passed = 0;  // positions along the curve
     for (const Step& s : curve) {
       const Segment& segment = curves[s.segment];
       for (; next < passed + segment.length; next += length / n) {
@@ -179,12 +179,12 @@ std::vector<SurfacePlace> PlaneCutter::places(const Plane& plane, double step,
 
 using std::numbers::pi;
 
-// Streams of random numbers that no point has.
+// Streams of random numbers that differ from all streams of points.
 constexpr std::uint64_t kOffsetStream = ~std::uint64_t{1}, kCutStream = std::uint64_t{1} << 62;
-// Distances from the axis of rings below this part of the mean one count as that much.
+// Least distance of a place from the axis of rings, relative to the mean distance.
 constexpr double kOnAxis = 1e-3;
 
-// The sum of f(triangle) over the area.
+// Returns the integral of f(triangle, normal) over the area.
 template <typename F>
 double integrate(const SampledSurface& surface, const F& f) {
   double sum = 0;
@@ -203,7 +203,7 @@ Vec3 centroid(const SampledSurface& surface, std::size_t triangle) {
   return (a + b + c) / 3;
 }
 
-// Concatenates what `visit` finds at each plane.
+// Returns the places found at all planes, in their order.
 std::vector<SurfacePlace> cut_all(const SampledSurface& surface, const std::vector<Plane>& planes,
                                   double step, std::uint64_t seed, const Context& context) {
   const PlaneCutter cutter(surface);
@@ -220,20 +220,20 @@ std::vector<SurfacePlace> cut_all(const SampledSurface& surface, const std::vect
   return all;
 }
 
-// A number of planes, about `step` apart, on a way of `length`: no more than there are points.
+// Returns the number of planes about `step` apart on a `length`; at most one per point.
 std::size_t n_planes(double length, double step, std::size_t points) {
-  constexpr double kMost = 1e6;  // chosen: each is a pass over the triangles
+  constexpr double kMost = 1e6;  // chosen: each plane is a pass over the triangles
   const double most = std::min(kMost, static_cast<double>(points));
   return static_cast<std::size_t>(std::clamp(std::round(length / step), 1.0, most));
 }
 
-// Planes across the axis: where they cut the surface at an angle s, an area has s / H of curve.
+// Cuts by planes across the axis, H apart. At an angle with sine s, an area has s / H of curve.
 std::vector<SurfacePlace> slices(const SampledSurface& surface, const SampleOptions& options,
                                  const Context& context) {
   const Vec3 axis = pattern_frame(options).axis;
   const double curves =
       integrate(surface, [&](std::size_t, const Vec3& n) { return sine(dot(n, axis)); });
-  if (!(curves > 0)) return {};  // it lies across the axis everywhere
+  if (!(curves > 0)) return {};  // the surface is perpendicular to the axis everywhere
   const double along =
       std::sqrt(curves / (static_cast<double>(options.points) * options.pattern_ratio));
   double low = dot(surface.middle(), axis), high = low;
@@ -249,7 +249,7 @@ std::vector<SurfacePlace> slices(const SampledSurface& surface, const SampleOpti
   return cut_all(surface, planes, along, options.seed, context);
 }
 
-// Planes through the axis, at equal angles; the ratio is that at the mean distance from it.
+// Cuts by planes through the axis, at equal angles; the ratio holds at the mean distance from it.
 std::vector<SurfacePlace> rings(const SampledSurface& surface, const SampleOptions& options,
                                 const Context& context) {
   const PatternFrame frame = pattern_frame(options);
@@ -264,7 +264,7 @@ std::vector<SurfacePlace> rings(const SampledSurface& surface, const SampleOptio
     return length > 0 ? sine(dot(n, around) / length) : 1.0;
   };
   const double curves = integrate(surface, across);
-  if (!(curves > 0)) return {};  // it lies in planes through the axis
+  if (!(curves > 0)) return {};  // the surface lies in planes through the axis
   const double mean_distance =
       integrate(surface, [&](std::size_t t, const Vec3&) { return distance(t); }) / surface.area();
   const double per_distance = integrate(surface, [&](std::size_t t, const Vec3& n) {
@@ -285,14 +285,14 @@ std::vector<SurfacePlace> rings(const SampledSurface& surface, const SampleOptio
   return cut_all(surface, planes, along, options.seed, context);
 }
 
-// A grid of lines along `through`, in steps along `fine` and `coarse`.
+// A grid of lines along `through`, with steps along `fine` and `coarse`.
 struct LineGrid {
   Vec3 through, fine, coarse;
 };
 
 using Corners = std::array<std::array<double, 2>, 3>;
 
-// Where the line of constant y meets a triangle: the least and the largest x.
+// Returns the least and the largest x at which the line of constant y meets a triangle.
 std::pair<double, double> on_row(const Corners& p, double y) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (int k = 0; k < 3; ++k) {
@@ -306,7 +306,7 @@ std::pair<double, double> on_row(const Corners& p, double y) {
   return {low, high};
 }
 
-// Those of a grid's lines that meet a triangle which faces them more than other grids' ones.
+// Adds the places where lines of a grid meet a triangle that faces this grid most.
 void add_grid_places(const SampledSurface& surface, std::size_t triangle, const LineGrid& grid,
                      double fine, double coarse, const std::array<double, 2>& offset,
                      std::vector<SurfacePlace>& places) {
@@ -333,7 +333,7 @@ void add_grid_places(const SampledSurface& surface, std::size_t triangle, const 
   }
 }
 
-// Lines along three axes: of each, what faces it most.
+// Cuts by lines along three axes; each triangle uses the lines that it faces most.
 std::vector<SurfacePlace> grids(const SampledSurface& surface, const SampleOptions& options,
                                 const Context& context) {
   const PatternFrame frame = pattern_frame(options);

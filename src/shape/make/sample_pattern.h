@@ -1,4 +1,4 @@
-// Places on a surface in the patterns of measuring devices. Layer: shape.
+// Computes places on a surface in the patterns of measuring devices. Layer: shape.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace rholm {
 
-// About options.points places of kSlices, kRings or kGrid, before the law of density thins them.
+// Returns about options.points places of kSlices, kRings or kGrid, before thinning by density.
 std::vector<SurfacePlace> pattern_places(const SampledSurface& surface,
                                          const SampleOptions& options, const Context& context);
 
-// The axis of a pattern and two directions beside it: an orthonormal frame.
+// The axis of a pattern and two directions perpendicular to it: an orthonormal frame.
 struct PatternFrame {
   Vec3 axis, u, v;
 };

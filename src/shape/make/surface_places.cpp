@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kBoxGrowth = 1.1;  // of the box of outliers
+constexpr double kBoxGrowth = 1.1;  // factor of the box of outliers
 
 }  // namespace
 
@@ -22,7 +22,7 @@ RandomStream::RandomStream(std::uint64_t seed, std::uint64_t number)
 
 double RandomStream::uniform() { return random_uniform(seed_, counter_++); }
 
-// Two independent standard normal deviates (Box and Muller 1958).
+// Returns two independent standard normal deviates (Box and Muller 1958).
 std::pair<double, double> RandomStream::gaussian_pair() {
   const double radius = std::sqrt(-2 * std::log(1 - uniform()));  // 1 - u is never 0
   const double angle = 2 * pi * uniform();
@@ -80,11 +80,11 @@ SurfacePlace SampledSurface::place(std::size_t triangle, const std::array<double
 
 SurfacePlace SampledSurface::draw_uniform(RandomStream& random) const {
   const double target = random.uniform() * sums_.back();
-  // The first triangle whose sum exceeds the target has area. Rounding may lift the target to
-  // the total: that belongs to the last triangle with area.
+  // The first triangle whose sum exceeds the target has area. Rounding may raise the target to the
+  // total, which belongs to the last triangle with area.
   auto found = std::upper_bound(sums_.begin(), sums_.end(), target);
   if (found == sums_.end()) found = std::lower_bound(sums_.begin(), sums_.end(), sums_.back());
-  // With sqrt(u) the density grows like the width seen from corner 0.
+  // With sqrt(u), the density grows like the width seen from corner 0.
   const double root = std::sqrt(random.uniform()), v = random.uniform();
   return place(static_cast<std::size_t>(found - sums_.begin()),
                {1 - root, root * (1 - v), root * v});
@@ -105,7 +105,7 @@ SurfacePlace SampledSurface::draw_outlier(RandomStream& random) const {
   const auto spread = [](double size, double x) { return kBoxGrowth * size * (x - 0.5); };
   const Vec3 offset{spread(size_.x, u.x), spread(size_.y, u.y), spread(size_.z, u.z)};
   const Vec3 normal = random.direction();
-  // It lies nowhere on the surface: its attributes are of any place there.
+  // An outlier is not on the surface: it has the attributes of a random place.
   SurfacePlace place = draw_uniform(random);
   place.point = middle() + offset;
   place.normal = normal;

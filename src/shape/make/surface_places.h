@@ -1,4 +1,4 @@
-// Places on a surface, and the random numbers that choose them. Layer: shape.
+// Computes places on a surface, and the random numbers that choose them. Layer: shape.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace rholm {
 
-// The random numbers of one point, or of whatever has a number.
+// The random numbers of a point, or of another item with a number.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::uint64_t number);
@@ -26,15 +26,15 @@ class RandomStream {
   std::uint64_t counter_ = 0;
 };
 
-// A point of a surface, in its unit frame.
+// A point of a surface, in the surface's unit frame.
 struct SurfacePlace {
   Vec3 point;
-  Vec3 normal;                         // unit, of the triangle
-  std::size_t triangle = 0;            // whose attributes it has
-  std::array<double, 3> weights = {};  // of its corners
+  Vec3 normal;                         // unit normal of the triangle
+  std::size_t triangle = 0;            // triangle that determines the attributes
+  std::array<double, 3> weights = {};  // weights of the triangle's corners
 };
 
-// A mesh in its unit frame, ready to be drawn from.
+// A mesh in its unit frame, prepared for random draws.
 class SampledSurface {
  public:
   // The density falls along the longest axis, to 1 / density_ratio. Keeps a reference to the mesh.
@@ -48,17 +48,17 @@ class SampledSurface {
   double area() const { return sums_.back() / 2; }
 
   std::array<Vec3, 3> corners(std::size_t triangle) const;
-  // Zero where the triangle has no direction, and therefore no points.
+  // Returns zero where the triangle has no direction, and therefore no points.
   Vec3 twice_area(std::size_t triangle) const;
   SurfacePlace place(std::size_t triangle, const std::array<double, 3>& weights) const;
 
-  // Uniform by area.
+  // Draws a place, uniform by area.
   SurfacePlace draw_uniform(RandomStream& random) const;
-  // Uniform by area, thinned by the law of density: on average at most density_ratio tries.
+  // Draws a place, thinned by the law of density: on average at most density_ratio tries.
   SurfacePlace draw(RandomStream& random) const;
-  // Whether the law of density keeps a place.
+  // Returns true if the law of density keeps a place.
   bool keeps(const SurfacePlace& place, RandomStream& random) const;
-  // Uniform in the box, grown by a tenth, with a random normal.
+  // Draws a place uniformly in the box, grown by a tenth, with a random normal.
   SurfacePlace draw_outlier(RandomStream& random) const;
 
  private:
@@ -66,7 +66,7 @@ class SampledSurface {
   UnitFrame frame_;
   Vec3 low_, size_;
   Vec3 falloff_;
-  std::vector<double> sums_;  // twice the area of all triangles up to and with each
+  std::vector<double> sums_;  // for each triangle: twice the area of all triangles up to it
 };
 
 }  // namespace rholm

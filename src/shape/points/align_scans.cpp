@@ -1,4 +1,4 @@
-// Scans of one surface brought together (method 7.13). Layer: shape.
+// Aligns scans of one surface (method 7.13). Layer: shape.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -20,35 +20,35 @@
 namespace rholm {
 namespace {
 
-// Points of a scan that are met by others, and of those the ones that look for others. Chosen: the
-// error of six unknowns from a thousand distances is a thirtieth of theirs.
+// Number of points of a scan that nearest points are sought in, and number that seek. Chosen: the
+// error of six unknowns from a thousand distances is a thirtieth of the distances' error.
 constexpr std::size_t kMet = 8000;
 constexpr std::size_t kLooking = 2000;
-// Fewer have no normals to speak of: such scans stay where they are.
+// Scans with fewer points have no reliable normals and stay where they are.
 constexpr std::size_t kFewest = 50;
-// Spacings of all points: scans that are off by three, rms, lie up to three times that from each
-// other.
+// First reach of pairs, in spacings of all points: scans that are off by three spacings, rms, are
+// up to three times this apart.
 constexpr double kFirstReach = 9;
-// Of the points that are met, in spacings: a nearest one farther along the surface is at the end of
-// its scan.
+// Largest offset along the surface, in spacings of the scan of b: a nearest point farther away
+// is at the end of its scan.
 constexpr double kAside = 2;
 constexpr double kSameSide = 0.8;  // cosine of the normals; chosen: 37 degrees
-// Confidence of the side of a normal: fewer than one in ten thousand are wrong (method 7.12).
+// Confidence of a normal's sign: fewer than one in ten thousand are wrong (method 7.12).
 constexpr double kSure = 0.99;
-// Tukey's biweight, of 95 % efficiency, and the deviation of a Gaussian over its median.
+// Tukey's biweight with 95 % efficiency, and standard deviation of a Gaussian over its median.
 constexpr double kTukey = 4.685, kOfMedian = 1.4826;
-// Rounds end when the distances change by less than this part of their deviation: pairs that are
-// found anew change them by sqrt(6 scans / pairs) of it, some hundredths.
+// Rounds end when the distances change by less than this part of their deviation. New pairs alone
+// change them by sqrt(6 scans / pairs) of it, some hundredths.
 constexpr double kStill = 0.1;
-constexpr int kMostRounds = 60;  // chosen: five do
+constexpr int kMostRounds = 60;  // chosen: five rounds are usual
 
 // One scan: some of its points, with normals.
 struct Scan {
-  std::vector<std::uint32_t> members;  // of the cloud
+  std::vector<std::uint32_t> members;  // indices in the cloud
   std::vector<Vec3> points, normals;   // in the order of the tree
   std::optional<PointTree> tree;
-  double spacing = 0;  // of these points
-  double height = 0;   // of the points over their planes, median
+  double spacing = 0;  // spacing of these points
+  double height = 0;   // median distance of the points from their planes
 };
 
 double spacing_of(const PointTree& tree) {
@@ -63,7 +63,7 @@ double spacing_of(const PointTree& tree) {
   return all[seeds / 2];
 }
 
-// Some of the scan's points, evenly, with normals: its own, or of planes; these face the sensors.
+// Chooses even points of the scan, with given normals or normals of planes that face the sensors.
 void choose_points(const PointCloud& cloud, std::span<const Vec3> sensors, Scan& scan,
                    const Context& context) {
   std::vector<Vec3> all(scan.members.size());
@@ -112,14 +112,14 @@ void plant(Scan& scan, const Context& context) {
   scan.spacing = spacing_of(*scan.tree);
 }
 
-// The scans that can be moved, in their present places.
+// All scans, in their present poses; scans that cannot be moved have no points.
 struct Scans {
   std::vector<Scan> scans;
   std::vector<ScanPose> poses;
   Vec3 middle;
   double radius = 0;
   double spacing = 0;  // of all points
-  bool sided = false;  // normals know outside
+  bool sided = false;  // normals have the right sign
 
   void move(std::span<const RigidMotion> motions, const Context& context);
   std::vector<ScanPair> pairs(double reach, const Context& context) const;
@@ -137,8 +137,8 @@ void Scans::move(std::span<const RigidMotion> motions, const Context& context) {
   }
 }
 
-// Along n_a + n_b a and b have a distance of zero if they lie on one sphere: unlike that from
-// a plane it does not grow with how far they are apart along the surface.
+// Pairs use the normal n_a + n_b, along which the distance of a and b is zero if both lie on one
+// sphere. Unlike the distance from a plane, it does not grow with their distance along the surface.
 void Scans::add_pairs(std::size_t from, std::size_t to, double reach, std::size_t begin,
                       std::size_t end, std::vector<ScanPair>& found) const {
   const Scan &looking = scans[from], &met = scans[to];
@@ -168,7 +168,7 @@ bool near(const Bounds& a, const Bounds& b, double reach) {
 }
 
 std::vector<ScanPair> Scans::pairs(double reach, const Context& context) const {
-  // Chunks of points of one scan that look for another.
+  // Chunk of points of one scan that seek nearest points of another scan.
   struct Chunk {
     std::size_t from, to, begin, end;
   };
@@ -197,7 +197,7 @@ std::vector<ScanPair> Scans::pairs(double reach, const Context& context) const {
   return all;
 }
 
-// The standard deviation of the distances, if most are Gaussian.
+// Returns the standard deviation of the distances, assuming that most are Gaussian.
 double deviation(std::span<const ScanPair> pairs) {
   if (pairs.empty()) return 0;
   std::vector<double> all;
@@ -214,7 +214,7 @@ void weigh(std::vector<ScanPair>& pairs, double sigma) {
   }
 }
 
-// Root mean square, weighted.
+// Returns the weighted root mean square of the changes.
 double change_of_distances(std::span<const ScanPair> pairs, std::span<const RigidMotion> motions) {
   double squares = 0, weights = 0;
   for (const ScanPair& pair : pairs) {
@@ -227,7 +227,7 @@ double change_of_distances(std::span<const ScanPair> pairs, std::span<const Rigi
   return weights > 0 ? std::sqrt(squares / weights) : 0;
 }
 
-// Moves the scans until nothing changes.
+// Moves the scans until the distances no longer change.
 void bring_together(Scans& scans, ScanAlignment& result, const Context& context) {
   double reach = kFirstReach * scans.spacing;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -251,8 +251,9 @@ void bring_together(Scans& scans, ScanAlignment& result, const Context& context)
   }
 }
 
-// Sides by all scans together where neither normals nor sensors tell them: a thin part has another
-// sheet within reach. Some points of each scan get them, the others have those of the nearest.
+// Finds signs of normals from all scans together if neither normals nor sensors give them, because
+// a thin part has another sheet within reach. Some points of each scan are oriented; the others
+// take the sign of the nearest one.
 void find_sides(Scans& scans, const Context& context) {
   PointCloud some;
   for (const Scan& scan : scans.scans) {
@@ -275,7 +276,7 @@ void find_sides(Scans& scans, const Context& context) {
       known.nearest(scan.points[i], 1, near);
       const std::size_t of = first + known.order()[near[0].index];
       if (dot(scan.normals[i], some.normals[of]) < 0) scan.normals[i] = -scan.normals[i];
-      // Pairs ask for a cosine: a normal of zero has none.
+      // A pair requires a cosine above kSameSide, which a zero normal never reaches.
       if (sure[of] < kSure) scan.normals[i] = {};
     }
     first += n;

@@ -20,7 +20,7 @@ void check_sizes(const PointCloud& cloud) {
   for (const Attribute& a : cloud.attributes) check(a.values.size(), "values of '" + a.name + "'");
 }
 
-// Keeps the points that are marked, in their order.
+// Keeps the marked points, in their order.
 void keep_only(const std::vector<char>& kept, PointCloud& cloud) {
   const auto squeeze = [&](auto& values) {
     std::size_t n = 0;

@@ -17,50 +17,50 @@
 namespace rholm {
 namespace {
 
-// All lengths are in radii of the neighbourhood, unless said otherwise.
+// All lengths are in radii of the neighbourhood, unless stated otherwise.
 
-// Points that are looked at, in square roots of the number of points (chosen: 4 of them near the
-// shortest crossing that is refused).
+// Number of points looked at, over the square root of the number of all points. Chosen: 4 of them
+// are near the shortest crossing that is refused.
 constexpr double kSeeds = 10;
-// Balls are local up to this part of the diagonal, as in local_shape.cpp.
+// Largest radius of a local ball, relative to the diagonal, as in local_shape.cpp.
 constexpr double kLocal = 0.2;
-// Standard deviations of the noise: those between a sheet and 99 % of its points, to either side,
-// and the radius of a ball. Sheets that cross at 42 degrees and more are then apart (kApart).
+// In standard deviations of noise: distance of 99 % of the points from their sheet, to either side,
+// and radius of a ball. Sheets crossing at 42 degrees and more are then separated (kApart).
 constexpr double kNoise = 2.5, kReach = 14;
-// How far points lie from their sheet, at most, and from the planes that it is looked for with
-// (chosen).
+// Largest distance of a point from its sheet, and from the planes with which sheets
+// are first sought (chosen).
 constexpr double kTolerance = 0.1, kFirstTolerance = 0.15;
-// Triples of points that are tried for a plane: of points of two sheets one in four triples or more
-// is of the larger one, so that 48 have one but for 1 in a million.
+// Number of random triples of points tried for a plane. At least one triple in four is from the
+// larger of two sheets, so 48 triples fail once in a million times.
 constexpr std::size_t kTriples = 48;
-constexpr int kRounds = 4;              // of fits of both sheets (chosen)
+constexpr int kRounds = 4;              // number of fits of both sheets (chosen)
 constexpr std::size_t kFewest = 8;      // points of a sheet, which has six coefficients
-constexpr double kFlatter = 1e-3;       // of the weight of a point: for curvatures near zero
-constexpr std::size_t kMostTaken = 96;  // points of a ball that are compared
-// Share of points on a sheet. With 0.95 real shapes of 2000 to 8000 points have crossing lengths of
-// up to 0.17 diagonals where walls are nearer than their points, with 0.98 of 0.07 (chosen).
+constexpr double kFlatter = 1e-3;       // of the weight of a point: pulls curvatures to zero
+constexpr std::size_t kMostTaken = 96;  // largest number of points of a ball that are compared
+// Least share of points that lie on a sheet (chosen). Real shapes of 2000 to 8000 points, with
+// walls nearer than points, have crossings of up to 0.17 diagonals with 0.95, of 0.07 with 0.98.
 constexpr double kExplained = 0.98;
-constexpr double kHalf = 0.1;             // share of points of one sheet to one side of the other
+constexpr double kHalf = 0.1;             // least share of points on each half of each sheet
 constexpr double kLeastAngle = 0.258819;  // sine of half of 30 degrees (chosen)
-// The middles of sheets are 2 r sin(angle / 2) apart at a distance of r from their line. At half of
-// the radius, and from there on, the points of the two are to be apart, on average.
+// At a distance r from their line, sheets are 2 r sin(angle / 2) apart. At half of the radius, this
+// is at least the sum of both tolerances.
 constexpr double kApart = 2;
-// The height of a sheet at the rim above its plane: with more than that the two walls of a thin
-// plate and its rim are one sheet, and what noise leaves between them is the other
+// Largest height of a sheet at the rim over its plane. With a larger limit, the two walls of a thin
+// plate and its rim count as one sheet, and noise between them as the other
 // (tests/cli/clouds_test.py --crossings).
 constexpr double kBend = 0.4;
-// Standard deviations along the third principal axis over the second, of two halves that meet at 30
-// degrees: 0.27; half of it.
+// Least ratio of the standard deviations along the third and the second principal axis: half the
+// ratio 0.27 of two halves that meet at 30 degrees.
 constexpr double kFlat = 0.15;
-// Where two planes cross at a right angle, a ball around a point of one of them that is farther
-// from the line than this has less than kHalf of its points in the smaller half sheet: the share
-// (acos(t) - t sqrt(1 - t^2)) / (2 pi - pi t^2) is 0.1 at t = 0.54; less, of what lies within
-// kTolerance of the other.
+// Largest distance from the line of a point that is recognised. Two planes cross at a right angle,
+// and a ball is around a point of one plane at a distance t from the line. The smaller half of the
+// other sheet has the share (acos(t) - t sqrt(1 - t^2)) / (2 pi - pi t^2) of the points. This is
+// kHalf at t = 0.54; points within kTolerance of the other sheet reduce t.
 constexpr double kBand = 0.47;
 
 struct Sheet {
   Vec3 u, v, normal;
-  Vector6 c{};  // of 1, x, y, x^2, x y, y^2
+  Vector6 c{};  // coefficients of 1, x, y, x^2, x y, y^2
 
   static Sheet across(const Vec3& normal, double offset) {
     Sheet sheet{.u = perpendicular(normal), .v = {}, .normal = normal};
@@ -80,7 +80,7 @@ struct Sheet {
   }
 };
 
-// The plane through three of the points that most points are near to; false if none has enough.
+// Finds the plane through three points that most points are near to; false if none has enough.
 bool find_plane(std::span<const Vec3> points, double tolerance, std::uint64_t seed, Sheet& sheet) {
   std::size_t most = kFewest - 1;
   Vec3 best;
@@ -101,7 +101,7 @@ bool find_plane(std::span<const Vec3> points, double tolerance, std::uint64_t se
   return true;
 }
 
-// The paraboloid of the points that are `whose`; false if they do not determine one.
+// Fits the paraboloid to the points with of[i] == whose; false if they do not determine one.
 bool fit(std::span<const Vec3> points, std::span<const std::uint8_t> of, std::uint8_t whose,
          Sheet& sheet) {
   sheet = Sheet::across(sheet.direction(), 0);
@@ -124,7 +124,7 @@ bool fit(std::span<const Vec3> points, std::span<const std::uint8_t> of, std::ui
   return true;
 }
 
-// Two sheets for the points around a point; false if there are none.
+// Finds two sheets for the points around a point; returns false if there are none.
 bool find_sheets(std::span<const Vec3> points, double tolerance, std::array<Sheet, 2>& sheets) {
   const double first = std::max(kFirstTolerance, tolerance);
   if (!find_plane(points, first, 0, sheets[0])) return false;
@@ -165,12 +165,12 @@ bool have_crossing(std::span<const Vec3> points, double tolerance) {
   return static_cast<double>(explained) >= kExplained * n && least >= kHalf * n;
 }
 
-// What lies around a point, relative to it.
+// The points around a point, relative to it.
 struct Surroundings {
   Neighborhood near;
   std::vector<Neighbor> within;
   std::vector<double> weights;
-  double n = 0;  // points, of which some are taken
+  double n = 0;  // number of points, of which some are taken
 
   void gather(const PointTree& tree, std::span<const Vec3> points, std::uint32_t i,
               std::size_t stride, double reach) {
@@ -187,7 +187,7 @@ struct Surroundings {
   }
 
  private:
-  // Some of the points of a ball, evenly spread over their distances.
+  // Takes some points of a ball, evenly spread over their distances.
   void gather_ball(const PointTree& tree, std::span<const Vec3> points, std::uint32_t i,
                    double reach) {
     tree.within(points[i], reach, within);
@@ -207,7 +207,7 @@ struct Surroundings {
 struct Seed {
   std::uint32_t point = 0;
   std::uint64_t rank = 0;
-  double length = 0;  // that it stands for
+  double length = 0;  // length of crossing that the seed stands for
 };
 
 }  // namespace
@@ -253,8 +253,8 @@ Crossings find_crossings(const PointTree& tree, std::span<const Vec3> points,
       if (!(radius > 0) || radius > kLocal * search.diagonal || around.are_flat()) continue;
       const double tolerance = std::max(kTolerance, kNoise * search.noise / radius);
       if (!have_crossing(around.near.points, tolerance)) continue;
-      // The ball has two discs of pi radius^2 and n points; two sheets have points such as this one
-      // within kBand radii of the line, to both sides.
+      // The ball has n points on two discs of area pi radius^2. On both sheets, points within kBand
+      // radii of the line, on both sides, find the crossing.
       seeds[s].length = 2 * std::numbers::pi * radius / (4 * kBand * around.n * share);
     }
   });

@@ -11,8 +11,8 @@ namespace {
 
 constexpr float kOpening = 2;
 constexpr std::size_t kGrain = 16;  // leaves of some 16 points
-// Squared: patches are wider than single precision tells places apart, and cubes of widths stay
-// within it.
+// Least squared width of a patch. Single precision still separates places at this distance, and
+// cubes of widths do not underflow.
 constexpr float kLeastWidth2 = 1e-12f;
 constexpr double kFourPi = 4 * std::numbers::pi;
 
@@ -35,7 +35,7 @@ struct GaussField::Strengths {
 
 struct GaussField::List {
   std::vector<float> column[7];
-  std::vector<std::uint32_t> open;  // nodes still to look at, with their levels
+  std::vector<std::uint32_t> open;  // nodes still to be looked at, with their levels
   std::vector<std::uint8_t> level;
 
   void clear() {
@@ -48,7 +48,7 @@ struct GaussField::List {
     }
     column[6].push_back(width2);
   }
-  // What is this far away, and without strength, adds nothing.
+  // Pads with a far source of strength zero, which adds nothing.
   void pad() {
     while (column[0].size() % kGaussLanes != 0) add({8, 8, 8}, {0, 0, 0}, 1);
   }
@@ -64,7 +64,7 @@ GaussField::GaussField(const PointTree& tree, std::span<const Vec3> points,
     : tree_(tree), areas_(areas.begin(), areas.end()), width2_(points.size(), kLeastWidth2) {
   points_.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) points_[i] = single(points[i]);
-  // The tree is complete: sets of 1, 2, 4, ... leaves.
+  // The tree is complete: nodes are sets of 1, 2, 4, ... leaves.
   for (std::size_t n = tree.n_leaves();; n = (n + 1) / 2) {
     level_begin_.push_back(nodes_.size());
     nodes_.resize(nodes_.size() + n);

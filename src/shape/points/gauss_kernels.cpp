@@ -26,7 +26,7 @@ HWY_INLINE Offset OffsetOf(D d, const GaussSources& s, std::size_t i, const V (&
   return r;
 }
 
-// Three sums at once.
+// The three components of a vector sum.
 struct Sum3 {
   V x, y, z;
   explicit Sum3(D d) : x(hn::Zero(d)), y(hn::Zero(d)), z(hn::Zero(d)) {}

@@ -11,21 +11,21 @@
 namespace rholm {
 namespace {
 
-// All measured by tests/cli/clouds_test.py --thresholds: surfaces with noise of up to 2.5 % of the
-// diagonal, and points of no surface. Median thickness of the flattest neighbourhoods: 0.3 of the
-// noisiest ball, 0.5 of points that fill a slab a fifth as thick as wide, 0.68 of a full ball.
-constexpr double kFlat = 0.4;    // surely
-constexpr double kThick = 0.63;  // surely not
-constexpr double kFilled = 2.4;  // kurtosis below which what is between the two is a volume
-// Median width of a curve's neighbourhoods at one scale at least; of random points of a surface it
-// is 0.7 and more.
+// Limits of the flattest neighbourhoods' median thickness. Measured by tests/cli/clouds_test.py
+// --thresholds on surfaces with noise of up to 2.5 % of the diagonal, and on points of no surface.
+// The noisiest ball has 0.3, a filled slab five times as wide as thick 0.5, a filled ball 0.68.
+constexpr double kFlat = 0.4;    // below: surely a surface
+constexpr double kThick = 0.63;  // above: surely no surface
+constexpr double kFilled = 2.4;  // between the two limits: a volume if the kurtosis is below this
+// Median width of neighbourhoods: a curve has less than kLong at one scale at least. Below kWide
+// they count as no surface. Random points of a surface have 0.7 and more.
 constexpr double kLong = 0.25, kWide = 0.4;
 constexpr std::size_t kSeeds = 200, kFewest = 100;
 constexpr std::size_t kFirst = 12, kMost = 16384;
-// Of the diagonal: larger neighbourhoods are no longer local.
+// Largest radius of a local neighbourhood, relative to the diagonal.
 constexpr double kLocal = 0.2;
-constexpr double kSameSide = 0;       // cosine of two normals
-constexpr double kCrooked = 0.70711;  // cosine of normal and plane
+constexpr double kSameSide = 0;       // least cosine of two normals on one sheet
+constexpr double kCrooked = 0.70711;  // least cosine between plane normal and given normal
 
 struct Seed {
   double radius = 0, thickness = 1, width = 0, kurtosis = 3;
@@ -53,7 +53,7 @@ Seed look(const PointTree& tree, std::span<const Vec3> points, std::span<const V
   const std::vector<double> weights(around.size(), 1.0);
   const PlaneFit plane = fit_plane(around, weights);
   if (!(plane.length > 0)) return seed;
-  // The width is the sum of the products of two eigenvalues over the largest.
+  // plane.width is the sum of the products of two eigenvalues each, over the largest eigenvalue.
   const double second = (plane.width - plane.height) / (1 + plane.height / plane.length);
   seed.width = std::sqrt(std::max(0.0, second) / plane.length);
   seed.thickness = second > 0 ? std::sqrt(plane.height / second) : 1;

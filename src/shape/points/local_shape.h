@@ -1,10 +1,10 @@
-// What points look like in the neighbourhoods of some of them: curve, surface, volume. Layer:
-// shape.
+// Decides whether the neighbourhoods of some points look like a curve, a surface or a
+// volume. Layer: shape.
 //
-// Neighbourhoods grow until most of them are flat: their third principal axis is short against the
-// second, and the second is not short against the first. Those of a clean surface are flat at once,
-// those of a noisy one as soon as they are wider than the noise, and those of points that fill a
-// volume never. Points on a curve have neighbourhoods that are long, as have the rows of a scanner,
+// Neighbourhoods grow until most of them are flat: the third principal axis is short against
+// the second, and the second is not short against the first. On a clean surface they are flat
+// at once, on a noisy one as soon as they are wider than the noise. In a volume they are
+// never flat. Neighbourhoods on a curve are long. So are neighbourhoods in rows of a scanner
 // until they reach other rows.
 #pragma once
 
@@ -18,7 +18,7 @@
 namespace rholm {
 
 enum class LocalKind {
-  kUnknown,  // too few points to say
+  kUnknown,  // too few points to decide
   kSurface,
   kCurve,
   kVolume
@@ -26,18 +26,18 @@ enum class LocalKind {
 
 struct LocalShape {
   LocalKind kind = LocalKind::kUnknown;
-  std::size_t neighbors = 0;  // of the flattest neighbourhoods
-  // Medians over these: the ratio of the standard deviations along the third and the second axis,
-  // and along the second and the first.
+  std::size_t neighbors = 0;  // size of the flattest neighbourhoods
+  // Medians over the flattest neighbourhoods. `thickness` is the ratio of the standard deviations
+  // along the third and the second axis, `width` along the second and the first.
   double thickness = 0, width = 0;
-  // Fourth moment of the heights over the square of the second: 3 of Gaussian noise, 1.8 of points
-  // spread evenly between two sheets.
+  // Fourth moment of the heights over the square of the second moment: 3 for Gaussian noise, 1.8
+  // for points spread evenly between two sheets.
   double kurtosis = 0;
-  double crooked = 0;  // share of the flat ones whose plane is not across the point's normal
+  double crooked = 0;  // share of flat neighbourhoods tilted more than 45 degrees from the normal
 };
 
-// Points in the order of the tree, and unit normals, or none. Where there are normals only
-// neighbours on the same side count, so that the other wall of a thin body does not.
+// Takes points in the order of the tree, with unit normals or none. With normals, only neighbours
+// on the same sheet count; points of the opposite wall of a thin body do not.
 LocalShape look_at_shape(const PointTree& tree, std::span<const Vec3> points,
                          std::span<const Vec3> normals, const Context& context);
 

@@ -1,4 +1,4 @@
-// Points by the parts they belong to. Layer: shape.
+// Groups points by the parts that they belong to. Layer: shape.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace rholm {
 
-// The points of each part, in order; `part`: of every point, 0 ... n_parts - 1.
+// The points of each part, in order. `part` has the part, 0 ... n_parts - 1, of every point.
 struct Members {
   std::vector<std::uint32_t> begin;  // n_parts + 1
   std::vector<std::uint32_t> points;

@@ -10,21 +10,22 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kGrain = 1024;  // points per chunk; chosen: a few milliseconds
+constexpr std::size_t kGrain = 1024;  // number of points of a chunk; chosen: a few milliseconds
 
-// Numbers of neighbours to choose from; measured on clean samples of meshes: below 10 the error
-// grows again, as 6 unknowns need more points, and every factor 1.5 changes it by 10 %.
+// Numbers of neighbours to choose from, measured on clean samples of meshes. Below 10 the error
+// grows, as 6 unknowns need more points; every factor 1.5 changes the error by 10 %.
 constexpr int kLadder[] = {10, 15, 22, 33, 50, 75, 112, 168, 252};
 constexpr std::size_t kRungs = std::size(kLadder);
 constexpr double kCleanFall = 3.3;    // see choose_neighbors
 constexpr double kCalmShare = 0.9;    // see choose_neighbors
 constexpr std::size_t kSeeds = 1000;  // chosen: the error of the mean is 3 %
 
-// Neighbours on nearly a line (ten times as long as wide), as on the lines of a scanner: more are
-// asked, twice as many each time up to this number (chosen: a millisecond for ten points).
+// Neighbours ten times as long as wide (squares in PlaneFit) are nearly on a line, such as a
+// scanner's. Then twice as many are asked for each time, up to kMostNeighbors (chosen: a
+// millisecond for ten points).
 constexpr double kLine = 0.01;
 constexpr std::size_t kMostNeighbors = 640;
-// Narrower than that there is no plane: the width is rounding.
+// Below this ratio there is no plane: the width is rounding.
 constexpr double kNoPlane = 1e-10;
 
 struct FitOfPoint {
@@ -61,7 +62,7 @@ FitOfPoint fit_point(const PointTree& tree, std::span<const Vec3> points, std::s
   return fit;
 }
 
-// Into the row of point i; `found` has the nearest points, and gets more if these are too few.
+// Fills the row of point i. `found` has the nearest points; more are added if they are too few.
 void keep_neighbors(const PointTree& tree, std::size_t i, std::size_t stride,
                     std::vector<Neighbor>& found, std::span<std::uint32_t> rows) {
   const std::size_t reach = stride * kGraphNeighbors + 1;
@@ -69,7 +70,7 @@ void keep_neighbors(const PointTree& tree, std::size_t i, std::size_t stride,
   keep_graph_neighbors(i, stride, found, rows);
 }
 
-// Normals of the fits at one seed: of all k neighbours' odd and even halves.
+// Normals of fits at one seed, to the odd and the even halves of its k neighbours.
 struct Halves {
   Vec3 odd[kRungs], even[kRungs];
 };
@@ -124,7 +125,7 @@ int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const 
   const std::size_t n = points.size();
   const std::size_t n_seeds = std::min(n, kSeeds);
   const std::size_t stride = gaps.typical_stride();
-  std::size_t rungs = 0;  // those that are at most a tenth of the points
+  std::size_t rungs = 0;  // number of rungs with at most a tenth of the points
   while (rungs < kRungs && stride * static_cast<std::size_t>(kLadder[rungs]) * 10 <= n) ++rungs;
   if (rungs < 3) return kLadder[0];
   const std::size_t most_stride = n / static_cast<std::size_t>(kLadder[rungs - 1] + 2);
@@ -140,16 +141,16 @@ int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const 
       }
     }
   });
-  // Mean of sin^2 between half fits of rungs a and b. For a = b the bias cancels and twice the
-  // variance of a half is left, four times that of the whole.
+  // Mean of sin^2 between half fits of rungs a and b. For a = b the bias cancels, and twice the
+  // variance of a half remains, four times the variance of the whole.
   const auto difference = [&](std::size_t a, std::size_t b) {
     double sum = 0;
     for (const Halves& h : halves) sum += sine2(h.odd[a], h.even[b]) + sine2(h.even[a], h.odd[b]);
     return sum / static_cast<double>(2 * n_seeds);
   };
-  // The same of one rung without its tenth of largest ones. Few points in a half may lie on nearly
-  // a line, where its plane may be any: a handful of seeds that would be half of the mean
-  // (measured).
+  // Computes difference(r, r) without its largest tenth. The points of a half may
+  // lie nearly on a line, where the plane is arbitrary. Measured: a few such seeds
+  // would be half of the mean.
   const auto calm_difference = [&](std::size_t r) {
     std::vector<double> each(n_seeds);
     for (std::size_t s = 0; s < n_seeds; ++s) each[s] = sine2(halves[s].odd[r], halves[s].even[r]);
@@ -157,15 +158,15 @@ int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const 
     const auto calm = static_cast<std::size_t>(kCalmShare * static_cast<double>(n_seeds));
     return std::accumulate(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(calm), 0.0);
   };
-  // A random direction has sin^2 = 2/3 on average: a rung says something well below that (chosen:
-  // a deviation of 25 degrees).
+  // A random direction has a mean sin^2 of 2/3. The base is the first rung well below this value
+  // (chosen: a deviation of 25 degrees).
   std::size_t base = 0;
   while (base + 1 < rungs && difference(base, base) > 0.18) ++base;
-  // Noise makes half fits differ by a variance that falls as 1 / k^2, curvature and edges more
-  // slowly. Measured (scripts/constants) from 10 to 22 neighbours, where noise alone gives 4.8 or
-  // more: clean samples of meshes have 0.7 (of flat faces) to 3, with noise a twentieth of the
-  // spacing it is 3.4 or more, 3.1 of the most detailed. Clean points want the smallest
-  // neighbourhood.
+  // Noise makes half fits differ by a variance that falls as 1 / k^2; for curvature and edges it
+  // falls more slowly. Measured (scripts/constants) from 10 to 22 neighbours, the fall is 4.8 or
+  // more for noise alone. Clean samples of meshes have 0.7 (flat faces) to 3. Noise of a
+  // twentieth of the spacing gives 3.4 or more, and 3.1 on the most detailed mesh. Clean points
+  // get the smallest neighbourhood.
   if (base == 0 && calm_difference(0) < kCleanFall * calm_difference(2)) return kLadder[0];
   std::size_t best = base;
   double least = 1;

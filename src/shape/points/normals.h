@@ -1,4 +1,4 @@
-// Directions of normals by local fits. Layer: shape.
+// Computes directions of normals by local fits. Layer: shape.
 #pragma once
 
 #include <cstddef>
@@ -13,71 +13,71 @@
 
 namespace rholm {
 
-inline constexpr int kGraphNeighbors = 10;  // chosen: Hoppe's graph holds together, and is small
+inline constexpr int kGraphNeighbors = 10;  // chosen: Hoppe's graph stays connected and small
 
-// Where noise asks for more than that, planes are as good as paraboloids and edges cannot be told
-// (scripts/constants, noise of 0.2 % of the diagonal: no gain, half the time).
+// Largest number of neighbours for paraboloids. With more noise they gain nothing over planes and
+// take twice the time (scripts/constants, noise of 0.2 % of the diagonal); edges are not resolved.
 inline constexpr int kMostForCurvature = 50;
 
-// Everything is in the order of the tree; points are distinct.
+// Results of the fits, in the order of the tree. All points are distinct.
 struct LocalFits {
-  std::vector<Vec3> normals;    // unit, of either sign; zero where the neighbours have no plane
+  std::vector<Vec3> normals;    // unit, of either sign; zero if the neighbours define no plane
   std::vector<float> radius;    // distance to the last neighbour of the fit
   std::vector<float> residual;  // rms distance of the neighbours to their plane, over the radius
-  std::vector<std::uint32_t> neighbors;  // kGraphNeighbors nearest of each, itself where fewer
-  int n_neighbors = 0;                   // of a fit
-  double typical_residual = 0;           // median
-  bool noisy = false;  // the residual is that of the points, not of the shape's curvature
+  std::vector<std::uint32_t> neighbors;  // kGraphNeighbors nearest of each point; itself as filling
+  int n_neighbors = 0;                   // number of neighbours of a fit
+  double typical_residual = 0;           // median of the residuals
+  bool noisy = false;                    // true if noise, not curvature, causes the residual
 };
 
-// Weighted planes, then paraboloids, over the `n_neighbors` nearest points, or as many as the data
-// ask for if that is 0; where two smooth parts meet, planes through one of them (see
-// refine_at_edges). Keeps `given` normals that are not zero, if there are any. Points that are
-// `skipped`, if there are any, get no fit: for neighbourhoods beyond kMostForCurvature, where none
-// is needed by others.
+// Fits weighted planes, then paraboloids, to the `n_neighbors` nearest points, or for 0 to a number
+// derived from the data. Where two smooth parts meet, it fits planes to one of them (see
+// refine_at_edges()). Normals in `given` (may be empty) that are not zero are kept. Points flagged
+// in `skipped` (may be empty) get no fit. Flags are for neighbourhoods beyond kMostForCurvature,
+// where no other point needs the fit.
 LocalFits fit_normals(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
                       std::span<const Vec3> given, int n_neighbors, const Context& context,
                       std::span<const std::uint8_t> skipped = {});
 
-// Whether a fit of so many neighbours is one of noisy points (LocalFits::noisy).
+// Returns LocalFits::noisy for a fit of n_neighbors points.
 bool are_noisy(int n_neighbors);
 
-// LocalFits::neighbors alone: in rows half of them are the nearest, the others of the disc that
-// reaches other rows.
+// Computes LocalFits::neighbors alone. In rows of a scan, half of them are the nearest points; the
+// others are spread over the disc that reaches other rows.
 std::vector<std::uint32_t> graph_neighbors(const PointTree& tree, const SamplingGaps& gaps,
                                            const Context& context);
-// The row of one point: `found` has itself and its stride * kGraphNeighbors nearest points, or all.
+// Fills row i. `found`: point i and its stride * kGraphNeighbors nearest points, or all points.
 void keep_graph_neighbors(std::size_t i, std::size_t stride, std::span<const Neighbor> found,
                           std::span<std::uint32_t> rows);
 
-// Fits once more, to the neighbours on the same side of `sheet` only: unit vectors that point out
-// of what the points bound, which tell two close sheets apart. Where a fit has nothing to do with
-// its own the vector's direction is taken. The normals point out. Returns the residuals of the
-// fits, of their radius; 1 where they have nothing to do with the vectors.
+// Fits again to neighbours on the same sheet. `sheet`: unit vectors that point outwards
+// and distinguish two close sheets. Where a fit disagrees with the vector, the normal is
+// the vector. Normals point outwards. Returns residuals relative to the radius, 1 where a
+// fit and its vector disagree.
 std::vector<float> refit_on_sheets(const PointTree& tree, std::span<const Vec3> points,
                                    const SamplingGaps& gaps, std::span<const Vec3> sheet,
                                    LocalFits& fits, const Context& context);
 
-// The number of neighbours that makes the error of normals least: the sum of a variance, from two
-// disjoint halves of the neighbours, and of a bias, from the change against smaller
-// neighbourhoods.
+// Returns the number of neighbours with the least error of normals. The error is the sum of
+// a variance, from two disjoint halves of the neighbours, and a bias, from the change
+// against smaller neighbourhoods.
 int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
                      const Context& context);
 
-// Points near an edge have neighbours on both sides, and a fit across. They take the plane through
-// themselves and one side, if there is one: that of a neighbour's normal which most neighbours lie
-// in closely.
+// Improves fits of points near an edge, which have neighbours on both of its sides. Planes through
+// the point are proposed by its neighbours' normals. The point takes the plane that most neighbours
+// are close to, if it is good enough.
 void refine_at_edges(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
                      LocalFits& fits, const Context& context);
 
-// The neighbours of a point, relative to it, in units of the distance of the last.
+// Neighbours of a point, relative to it, in units of the distance to the last neighbour.
 struct Neighborhood {
   std::vector<Neighbor> found;
   std::vector<Vec3> points;
   std::vector<double> weights;
   double radius = 0;
 
-  // Of the k * stride nearest one in `stride`, by distance.
+  // Takes every `stride`-th of the k * stride nearest points, by distance.
   void gather(const PointTree& tree, std::span<const Vec3> all, std::size_t i, std::size_t k,
               std::size_t stride = 1);
 };

@@ -1,6 +1,6 @@
-// Normals beside sharp edges: of all planes through a point that its neighbours' normals propose,
-// the one that most neighbours lie in (the consensus of Li, Schnabel, Klein, Cheng, Dang, Jin
-// 2010, with the neighbours' own normals instead of random triples).
+// Computes normals beside sharp edges. Neighbours' normals propose planes through the point, and
+// the plane wins that most neighbours lie in. This is the consensus of Li, Schnabel, Klein, Cheng,
+// Dang, Jin (2010), with normals instead of random triples.
 #include <algorithm>
 #include <cmath>
 
@@ -11,23 +11,23 @@
 namespace rholm {
 namespace {
 
-// Measured (scripts/constants) on samples of a body with edges and three without, clean: the mean
-// angle to the true normals falls from 2.4 to 0.5 degrees on the first and stays within 1 % on the
-// others.
-constexpr double kEdgeResidual = 3;      // times the typical one: the point may be beside an edge
-constexpr double kLeastResidual = 0.02;  // of the radius; what is flatter needs nothing
+// Measured (scripts/constants) on clean samples of a body with edges and of three bodies
+// without. The mean angle to the true normals falls from 2.4 to 0.5 degrees on the first and
+// stays within 1 % on the others.
+constexpr double kEdgeResidual = 3;      // times the typical residual: a point may be at an edge
+constexpr double kLeastResidual = 0.02;  // of the radius; a flatter fit is kept
 constexpr double kMoreNeighbors = 2.7;   // times those of a fit, so that one side has enough
-constexpr double kClose = 0.012;         // of the radius: a neighbour that lies in a plane
-constexpr double kLeastShare = 0.35;     // of the weights that lie in the plane that is taken
-constexpr int kSteps = 3;                // of fitting to what lies close
+constexpr double kClose = 0.012;         // of the radius: distance of a neighbour in the plane
+constexpr double kLeastShare = 0.35;     // least share of the weights in the accepted plane
+constexpr int kSteps = 3;                // number of fits to points close to the plane
 
-// 1 in the plane, 0 from the distance `scale` on.
+// Returns 1 in the plane, and 0 from the distance `scale` on.
 double closeness(double distance, double scale) {
   const double t = 1 - distance * distance / (scale * scale);
   return t > 0 ? t * t : 0;
 }
 
-// The share of the neighbours' weights in the plane through the origin.
+// Returns the share of the neighbours' weights in the plane through the origin.
 double share_in(const Neighborhood& near, const Vec3& normal, double scale) {
   double sum = 0, total = 0;
   for (std::size_t j = 1; j < near.points.size(); ++j) {  // 0 is the point itself
@@ -44,7 +44,7 @@ Vec3 best_proposal(const Neighborhood& near, const LocalFits& fits, double thres
   for (const Neighbor& neighbor : near.found) {
     const Vec3& normal = fits.normals[neighbor.index];
     double share = share_in(near, normal, scale);
-    // A neighbour beside an edge has no normal to go by; chosen, it matters little.
+    // A neighbour beside an edge has an unreliable normal; the factor is chosen and matters little.
     if (fits.residual[neighbor.index] > threshold) share *= 0.9;
     if (share > most) {
       most = share;
@@ -54,7 +54,7 @@ Vec3 best_proposal(const Neighborhood& near, const LocalFits& fits, double thres
   return best;
 }
 
-// The point's plane, or the zero vector if there is none that is good enough.
+// Returns the normal of the point's plane, or the zero vector if no plane is good enough.
 Vec3 plane_of_one_side(const Neighborhood& near, const LocalFits& fits, double threshold,
                        double scale, std::vector<double>& weights) {
   Vec3 normal = best_proposal(near, fits, threshold, scale);
@@ -64,7 +64,7 @@ Vec3 plane_of_one_side(const Neighborhood& near, const LocalFits& fits, double t
       weights[j] *= closeness(dot(near.points[j], normal), scale);
     }
     const PlaneFit plane = fit_plane(near.points, weights);
-    if (plane.width < 0.01) break;  // of the radius squared: what lies close is a line
+    if (plane.width < 0.01) break;  // of the squared radius: close points form a line
     normal = plane.normal;
   }
   return share_in(near, normal, scale) > kLeastShare ? normal : Vec3{};

@@ -1,4 +1,4 @@
-// Normals where two sheets are close: fits to the neighbours on one of them.
+// Computes normals where two sheets are close, by fits to the neighbours on one sheet.
 #include <algorithm>
 #include <cmath>
 
@@ -9,21 +9,21 @@
 namespace rholm {
 namespace {
 
-// Neighbours are on one sheet where the field's directions agree within 53 degrees. Of 0, 0.3, 0.6,
-// 0.7 and 0.8 this does best on twelve bodies of 1000 points.
+// Neighbours are on one sheet if their directions in the field agree within 53 degrees. Among 0,
+// 0.3, 0.6, 0.7 and 0.8, this cosine is best on twelve bodies of 1000 points.
 constexpr double kSameSheet = 0.6;
-// Residual of clean points, of the radius, below which the fit and not the field has the direction
-// (0.02 ... 0.1: the less the better on 1000 points, all are alike on more), and the cosine between
-// them.
+// Largest residual, relative to the radius, of a fit that replaces the field's direction. From 0.02
+// to 0.1, smaller is better on 1000 points, and all values are equal on more points. kAgree is the
+// least cosine between the two directions.
 constexpr double kGoodFit = 0.02;
 constexpr double kAgree = 0.5;
-// Times those of a fit: the most that are asked for, and the share of a fit that is enough.
+// Largest and sufficient number of neighbours, relative to the number of a fit.
 constexpr std::size_t kMost = 4;
 constexpr double kEnough = 0.7;
-constexpr std::size_t kFewest = 6;  // as many as a paraboloid has coefficients
-constexpr double kWidth = 0.01;     // of the length squared: less is a line
+constexpr std::size_t kFewest = 6;  // number of coefficients of a paraboloid
+constexpr double kWidth = 0.01;     // of the squared length: a narrower set is a line
 
-// The nearest k on the sheet of point i; fewer where there are.
+// Finds the nearest k neighbours on the sheet of point i, or fewer if there are not enough.
 void gather_sheet(const PointTree& tree, std::span<const Vec3> points, std::span<const Vec3> sheet,
                   std::size_t i, std::size_t k, Neighborhood& near) {
   for (std::size_t asked = k;; asked *= 2) {
@@ -59,7 +59,7 @@ std::vector<float> refit_on_sheets(const PointTree& tree, std::span<const Vec3> 
       if (!curved) fit.normal = plane.normal;
       const double cosine = dot(fit.normal, sheet[i]);
       if (std::abs(cosine) < kAgree) continue;
-      // Six points have a paraboloid through them.
+      // Six points always have a paraboloid through them.
       const auto m = static_cast<double>(near.points.size());
       residuals[i] = static_cast<float>(fit.residual * std::sqrt(m / (m - 5.9)));
       if (curved && fit.residual > kGoodFit) continue;

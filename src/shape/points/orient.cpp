@@ -1,4 +1,4 @@
-// Normals of points: directions, signs, and what is known of both (method 7.12).
+// Computes normals of points: directions, signs and their confidence (method 7.12).
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -40,7 +40,7 @@ std::vector<Vec3> given_directions(const PointCloud& cloud, const OrientScene& s
   return given;
 }
 
-// Where each point of the scene has been seen from; empty if nothing is known of it.
+// Returns the sensor of each point of the scene; empty if no sensors are known.
 std::vector<Vec3> sensors_of(const PointCloud& cloud, const OrientScene& scene,
                              const OrientOptions& options) {
   const std::size_t n = scene.points.size();
@@ -55,7 +55,7 @@ std::vector<Vec3> sensors_of(const PointCloud& cloud, const OrientScene& scene,
   return sensors;
 }
 
-// Writes the normals to the points of the input and counts what has become of them.
+// Writes the normals to the points of the input, and counts changes in the report.
 void hand_back(const OrientScene& scene, const OrientSigns& signs, const OrientOptions& options,
                PointCloud& cloud, OrientReport& report) {
   const std::vector<Vec3> old = std::move(cloud.normals);

@@ -14,14 +14,14 @@
 namespace rholm {
 namespace {
 
-// The first sample has at most so many points, a finer one at most four times as many. Chosen: a
-// second.
+// Largest number of points of the first sample; a finer sample has up to four times
+// as many. Chosen: a second.
 constexpr std::size_t kFirst = 6000;
-// What lies closer is one place to single precision; and samples become smaller from one to the
-// next.
+// Least spacing: nearer points are one place in single precision, and each coarser sample must
+// be smaller than the last.
 constexpr double kLeastSpacing = 1e-5;
-// Steps and widths of patches, in spacings, from the first to the last. Of twice as many steps
-// nothing is seen; from 4 spacings thin sheets are lost, to 0.3 the pattern of the points is seen.
+// Numbers of steps, and first and last widths of patches in spacings. Twice as many steps change
+// nothing visible. From 4 spacings, thin sheets are lost; down to 0.3, the points' pattern shows.
 constexpr int kSteps = 40, kStepsFiner = 10;
 constexpr double kWidest = 2, kWidestFiner = 1, kNarrowest = 0.4;
 
@@ -33,7 +33,7 @@ double length2(std::span<const double> v) {
 
 }  // namespace
 
-// Points of one level with their area normals.
+// The points of one level with their area normals.
 class FieldSample {
  public:
   FieldSample(const std::vector<Vec3>& points, const Context& context)
@@ -54,7 +54,7 @@ class FieldSample {
   FieldSample(const FieldSample&) = delete;
   FieldSample& operator=(const FieldSample&) = delete;
 
-  // Directions of a coarser sample.
+  // Starts with the directions of a coarser sample.
   void begin_with(const FieldSample& coarser, const Context& context) {
     area_normals_ = coarser.fall_at(tree_, points_, spacing_, context);
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -79,7 +79,7 @@ class FieldSample {
   }
 
  private:
-  // A step of steepest descent of sum (w - 1/2)^2 over the points.
+  // Makes a step of steepest descent of sum (w - 1/2)^2 over the points.
   void descend(const Context& context) {
     std::vector<double> rest = field_->winding(area_normals_, context);
     for (double& r : rest) r = 0.5 - r;
@@ -92,7 +92,7 @@ class FieldSample {
     for (std::size_t i = 0; i < rest.size(); ++i) area_normals_[i] += gain / size * step[i];
   }
 
-  // Every normal takes the direction of the gradient.
+  // Turns every normal into the direction of the gradient.
   void follow(const Context& context) {
     const std::vector<Vec3> fall = field_->fall(area_normals_, context);
     for (std::size_t i = 0; i < fall.size(); ++i) {

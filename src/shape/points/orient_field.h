@@ -1,4 +1,4 @@
-// Normals from the field of all points at once. Layer: shape.
+// Computes normals from the winding-number field of all points. Layer: shape.
 #pragma once
 
 #include <cstddef>
@@ -13,34 +13,34 @@
 
 namespace rholm {
 
-// Vectors that point out of what the points bound, one for each, of any length: minus the gradient
-// of a winding number that is 1/2 at the points. Area normals are found as the least ones that make
-// it so (the parametric Gauss reconstruction of Lin, Xiao, Shi, Wang 2022), by steps of steepest
-// descent, between which every normal takes the direction of the gradient there (the fixed point of
-// Lin, Shi, Liu 2024), while the widths of the patches fall. No normal has to be known.
+// Returns outward vectors of any length, one per point: minus the gradient of a winding number
+// that is 1/2 at the points. The least area normals with this property are found (parametric
+// Gauss reconstruction of Lin, Xiao, Shi, Wang 2022) by steepest descent. Between its steps
+// every normal takes the direction of the gradient (fixed point of Lin, Shi, Liu 2024), while
+// the patches' widths fall.
 //
-// The first solution is that of an even sample; finer ones begin with it. Points of order 1 in the
-// order of the tree; `spacing`: the side of the square that a point would have if they were even,
-// between rows where they lie in rows. The gradient is that of patches of `width` times that, which
-// is to be more where points are noisy.
+// The first solution is for an even sample; finer samples start from it. `points`: of order 1,
+// in the order of the tree. `spacing`: side of the square of a point in an even sampling, or
+// the distance between rows. The gradient is computed for patches of `width` * spacing; noisy
+// points need a larger width.
 std::vector<Vec3> field_normals(const PointTree& tree, std::span<const Vec3> points,
                                 std::span<const double> spacing, double width,
                                 const Context& context);
 
-// The field of a sample of points, solved once, asked at any places.
+// Solves the field of a sample of points once, and evaluates it at any places.
 class FieldSample;
 class SolvedField {
  public:
-  // Of points of which none is nearer to another than `part` of its spacing, or that are thinned
-  // out so far; at most kMostOfField of them. Otherwise as field_normals() does.
+  // Solves as field_normals() does, for at most kMostOfField points. Points closer to another than
+  // `part` of the spacing are thinned out.
   SolvedField(const PointTree& tree, std::span<const Vec3> points, std::span<const double> spacing,
               double part, const Context& context);
   ~SolvedField();
   SolvedField(SolvedField&&) noexcept;
   SolvedField& operator=(SolvedField&&) noexcept;
 
-  // At points in the order of another tree, which may be another frame's; patches are `width` times
-  // their spacing.
+  // Returns vectors as field_normals(), at points of another tree, possibly in another frame.
+  // Patches have the width `width` * spacing.
   std::vector<Vec3> normals_at(const PointTree& tree, std::span<const Vec3> points,
                                std::span<const double> spacing, double width,
                                const Context& context) const;
@@ -49,16 +49,16 @@ class SolvedField {
   std::unique_ptr<FieldSample> sample_;
 };
 
-// A finer sample has at most so many points; beyond the field of one is asked at all (chosen: half
-// a minute).
+// Largest number of points of a finer sample. For more points, only the field of a sample is
+// evaluated (chosen: half a minute).
 inline constexpr std::size_t kMostOfField = 200000;
-// Points nearer than this part of the spacing say nothing new: points of one row. Of 0, 0.3, 0.5
-// and 0.7 this has most signs right.
+// Points closer than this part of the spacing, for example in a row, add no information. Among 0,
+// 0.3, 0.5 and 0.7, this value gives the most correct signs.
 inline constexpr double kThinned = 0.3;
-inline constexpr double kFiner = 2;  // times as far apart in a coarser sample
+inline constexpr double kFiner = 2;  // ratio of the distances in a coarser and a finer sample
 
-// Indices of points, rising, none of which is nearer to another than `reach` of the one that
-// comes first, and all others are.
+// Returns ascending indices of kept points. No kept point is within the `reach` of an earlier kept
+// point, and every removed point is within the reach of one.
 std::vector<std::uint32_t> thin_out(const PointTree& tree, std::span<const Vec3> points,
                                     std::span<const double> reach);
 

@@ -9,17 +9,17 @@
 namespace rholm {
 namespace {
 
-// An edge of the graph is the i-th neighbour of a point: its place in fits.neighbors.
+// Identifies an edge, point to i-th neighbour, by its place in fits.neighbors.
 using EdgeIndex = std::uint32_t;
 
-// Steps in which weights are sorted: finer ones change nothing that is known about a normal.
+// Number of sorting steps of weights; normals are not known well enough for finer steps.
 constexpr std::size_t kSteps = 4096;
-// Between ends that lie one above the other the sheets may be two: such an edge waits for one
-// within the sheet. Chosen: at most half as much as a normal at a right angle.
+// Extra weight of an edge along the normals: its ends may be on two sheets, so edges within a sheet
+// come first. Chosen: at most half the weight of normals at a right angle.
 constexpr double kAcross = 0.5;
-// Weight up to which an edge leaves no doubt: normals that agree within about 45 degrees.
+// Largest weight of a sure edge: its normals agree within about 45 degrees.
 constexpr double kDoubt = 0.3;
-constexpr double kSlack = 3;  // standard deviations of the points about their surface
+constexpr double kSlack = 3;  // standard deviations of the points from their surface
 
 class Graph {
  public:
@@ -31,19 +31,19 @@ class Graph {
   std::uint32_t to(EdgeIndex e) const { return fits_.neighbors[e]; }
   double agreement_of(EdgeIndex e) const {
     const std::uint32_t i = from(e), j = to(e);
-    // What lies within the scatter is one sheet. On clean points the scatter that the fits see
-    // is the curvature's, which grows with the distance.
+    // Points within the scatter are one sheet. On clean points, the scatter of the fits is caused
+    // by curvature, which grows with the distance.
     const double scatter = fits_.noisy ? noise_ : fits_.typical_residual * fits_.radius[i];
     return agreement(points_[i], normals_[i], points_[j], normals_[j], kSlack * scatter);
   }
-  // 0 ... 1 + kAcross.
+  // Returns the weight of an edge, 0 ... 1 + kAcross.
   double weight(EdgeIndex e, double agreed) const {
     const Vec3 edge = normalized(points_[to(e)] - points_[from(e)]);
     const double across =
         std::max(std::abs(dot(edge, normals_[from(e)])), std::abs(dot(edge, normals_[to(e)])));
     return 1 - std::abs(agreed) + (fits_.noisy ? 0 : kAcross * across * across);
   }
-  // An edge that joins two different points, both with a normal.
+  // Returns true if the edge joins two different points that both have a normal.
   bool exists(EdgeIndex e) const {
     const std::uint32_t i = from(e), j = to(e);
     return i != j && norm(normals_[i]) > 0 && norm(normals_[j]) > 0;
@@ -68,11 +68,11 @@ class Graph {
 
 struct SortedEdges {
   std::vector<EdgeIndex> edges;  // by weight, then by place
-  std::vector<char> opposite;    // per edge of that order
-  std::size_t n_sure = 0;        // the first so many are without doubt
+  std::vector<char> opposite;    // true if the ends have opposite signs; in the order of `edges`
+  std::size_t n_sure = 0;        // number of sure edges, which come first
 };
 
-// One counting sort over steps of weight.
+// Sorts the edges in one counting sort over steps of weight.
 SortedEdges sort_edges(const Graph& graph) {
   const std::size_t n = graph.n_places();
   std::vector<std::uint16_t> step(n);  // kSteps: no edge
@@ -104,13 +104,13 @@ SortedEdges sort_edges(const Graph& graph) {
   return sorted;
 }
 
-// The votes of all edges between two pieces.
+// The sum of the votes of all edges between two pieces.
 struct Votes {
-  std::uint32_t a = 0, b = 0;  // points: the pieces' smallest, a < b
-  double sum = 0;              // positive: the pieces' first points have the same sign
+  std::uint32_t a = 0, b = 0;  // smallest point of each piece, a < b
+  double sum = 0;              // positive: both points need the same sign
 };
 
-// counts(e): whether the edge has a vote. By pieces.
+// Sums votes by pieces; counts(e) tells whether an edge has a vote.
 template <typename Counts>
 std::vector<Votes> sum_votes(const Graph& graph, const SortedEdges& sorted, const Counts& counts,
                              SignedSets& sets) {
@@ -142,7 +142,7 @@ std::vector<Votes> sum_votes(const Graph& graph, const SortedEdges& sorted, cons
   return votes;
 }
 
-// The most decided ones first.
+// Returns the votes, with the largest absolute sum first.
 std::vector<Votes> count_votes(const Graph& graph, const SortedEdges& sorted, SignedSets& sets) {
   std::vector<Votes> votes = sum_votes(
       graph, sorted, [](EdgeIndex) { return true; }, sets);
@@ -173,7 +173,7 @@ void unite_small(const Graph& graph, const SortedEdges& sorted, std::size_t leas
   }
 }
 
-// The sets numbered by their first points.
+// Numbers the sets in the order of their first points.
 std::size_t number_sets(SignedSets& sets, std::vector<std::uint32_t>& number) {
   std::size_t count = 0;
   CancelPoll poll;

@@ -14,17 +14,17 @@
 namespace rholm {
 namespace {
 
-// Of the extent: fits see points in single precision, ten roundings of which are no width.
+// Width of a line relative to the extent: ten roundings of the single precision of fits.
 constexpr double kLine = 1e-6;
-constexpr std::size_t kFewest = 3;  // points of a plane
+constexpr std::size_t kFewest = 3;  // least number of points with a plane
 
-// Input points that are kept, moved to the scene and put in order.
+// Moves the kept input points to the frame of the scene and sorts them by the tree.
 void put_in_order(const PointCloud& cloud, const std::vector<std::uint32_t>& kept,
                   OrientScene& scene, const Context& context) {
   std::vector<Vec3> local;
   local.reserve(kept.size());
   for (const std::uint32_t i : kept) local.push_back(scene.frame.to_local(cloud.points[i]));
-  // Told from the points at once; fits of millions of them would take a minute to find no plane.
+  // Checks the points first; fits of millions of them would take a minute to find no plane.
   if (lie_on_line(local, kLine)) refuse_line(cloud.points.size());
   scene.tree.emplace(local, context);
   scene.place.resize(kept.size());
@@ -36,7 +36,7 @@ void put_in_order(const PointCloud& cloud, const std::vector<std::uint32_t>& kep
   scene.gaps = find_gaps(*scene.tree, scene.points, {}, context);
 }
 
-// The box of the points that are no strays.
+// Returns the bounding box of the points that are not isolated.
 Bounds bounds_of_kept(const PointCloud& cloud, const std::vector<std::uint8_t>& stray) {
   std::vector<Vec3> kept;
   for (std::size_t i = 0; i < stray.size(); ++i) {
@@ -97,7 +97,7 @@ OrientScene make_orient_scene(const PointCloud& cloud, bool leave_out_strays,
     for (std::size_t i = 0; i < flags.size(); ++i) scene.stray[scene.place[i]] |= flags[i];
     put_in_order(cloud, kept(), scene, context);
   }
-  // What lies at the place of a stray is one.
+  // Every point at the place of an isolated point is isolated too.
   for (std::uint32_t i = 0; i < first.size(); ++i) scene.stray[i] = scene.stray[first[i]];
   find_taken(cloud, first, scene);
   return scene;

@@ -1,4 +1,4 @@
-// The points that normals are found for, put in order. Layer: shape.
+// Prepares the points whose normals are computed. Layer: shape.
 #pragma once
 
 #include <cstdint>
@@ -13,21 +13,21 @@
 
 namespace rholm {
 
-// The distinct points in the order of a tree over them, moved and scaled to the size of 1.
+// The distinct points in the order of a tree over them, moved and scaled to the size 1.
 struct OrientScene {
   UnitFrame frame;
-  std::vector<std::uint32_t> place = {};  // per point of the scene: its input point
+  std::vector<std::uint32_t> place = {};  // input point of each scene point
   std::vector<Vec3> points = {};
   std::optional<PointTree> tree = {};
   SamplingGaps gaps = {};
-  // Per input point: the point of the scene whose normal it takes, its own, or that of the first at
-  // its place, or the nearest one if it is a stray.
+  // Scene point whose normal each input point takes: its own, the one of the first point at its
+  // place, or for an isolated point the nearest one.
   std::vector<std::uint32_t> taken = {};
-  std::vector<std::uint8_t> stray = {};  // per input point
-  std::size_t duplicates = 0;            // input points at the place of an earlier one
+  std::vector<std::uint8_t> stray = {};  // isolated points; per input point
+  std::size_t duplicates = 0;            // number of input points at the place of an earlier one
 };
 
-// Throws InvalidInput for points on one line. Strays are left out on demand.
+// Builds the scene, optionally without isolated points. Throws InvalidInput for points on a line.
 OrientScene make_orient_scene(const PointCloud& cloud, bool leave_out_strays,
                               const Context& context);
 

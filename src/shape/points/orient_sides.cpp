@@ -1,10 +1,10 @@
-// Signs of parts by volume and winding number.
+// Chooses signs of whole parts by their volume and the winding number.
 //
-// The dipole layer of the other parts has the winding number w at a part. If all are turned right,
-// w continues without a jump where one part ends and another begins, so it rises towards the
-// inside, against the part's normals, from its border on (the fixed point of Lin, Shi, Liu 2024,
-// for whole parts instead of points: a part decides by the sum over its points). Where the others
-// are closed, w is constant and says whether the part lies inside them.
+// The dipole layer of the other parts has the winding number w at a part. If all signs are right, w
+// continues without a jump where one part ends and another begins. So w rises towards the inside,
+// against the part's normals, from the border on. This is the fixed point of Lin, Shi, Liu (2024)
+// for whole parts instead of points: a part decides by the sum over its points. If the other parts
+// are closed, w is constant and tells whether the part lies inside them.
 #include "shape/points/orient_sides.h"
 
 #include <algorithm>
@@ -18,20 +18,20 @@
 namespace rholm {
 namespace {
 
-// All chosen. Smaller parts have no say of their own; the time for one part is a pass over all
-// points.
+// All values are chosen. Smaller parts do not decide for themselves. The time for each part
+// is a pass over all points.
 constexpr std::size_t kLeastPart = 30;
 constexpr std::size_t kMostParts = 64;
-constexpr std::size_t kSamples = 2000;  // points of a part at which the winding number is asked
+constexpr std::size_t kSamples = 2000;  // points of a part with computed winding numbers
 constexpr int kRounds = 3;
 constexpr double kDoubtful = 0.5;
-// A part of which volume over area and size is less is open: 1/3 for a sphere, 0.05 for a closed
-// box that is fifteen times as wide as thick.
+// A part whose volume over area and size is below this is open. A sphere has 1/3, a closed box
+// fifteen times as wide as thick has 0.05.
 constexpr double kOpen = 0.02;
 constexpr double kNoChange =
-    0.02;  // of the winding number across a part: the rest is far or closed
+    0.02;  // change of the winding number across a part; the others are far or closed below it
 
-// The largest parts that have a say, largest first.
+// Returns the largest parts that decide for themselves, largest first.
 std::vector<std::uint32_t> largest_of(const Members& members) {
   std::vector<std::uint32_t> parts;
   for (std::uint32_t p = 0; p + 1 < members.begin.size(); ++p) {
@@ -45,12 +45,12 @@ std::vector<std::uint32_t> largest_of(const Members& members) {
 
 struct Sample {
   double area = 0;
-  double behind = 0, before = 0;  // the winding number there
+  double behind = 0, before = 0;  // the winding number on either side
 
   double trust() const { return std::clamp(1 - std::abs(1 - behind) - std::abs(before), 0.0, 1.0); }
 };
 
-// At some points, as many radii of a patch behind and before them.
+// Computes winding numbers `radii` radii of a patch behind and before the chosen points.
 std::vector<Sample> ask_both_sides(const WindingNumbers& winding, std::span<const Vec3> points,
                                    const Patches& patches, std::span<const Vec3> normals,
                                    std::span<const std::uint32_t> chosen, double radii) {
@@ -92,13 +92,13 @@ class Sides {
       const std::span<const std::uint32_t> part = components_.of(c);
       double volume = relative_volume(part, centroid(part));
       if (std::abs(volume) < kOpen) volume = relative_volume(part, middle_);
-      // What is flat, and alone, has no inside.
+      // A single flat part has no inside.
       if (std::abs(volume) < kOpen) volume = largest_coordinate(area_normal(part));
       if (volume < 0) turn(part);
     }
   }
 
-  // Pieces one by one against all the others, until none wants to turn.
+  // Flips pieces one by one against all other pieces, until no piece changes.
   void agree_on_winding() {
     const std::vector<std::uint32_t> pieces = largest_of(pieces_);
     if (pieces.size() < 2) return;
@@ -116,7 +116,7 @@ class Sides {
     }
   }
 
-  // 1 where the winding number is 1 behind and 0 before every point, 0 for a plane.
+  // Returns trust 1 where winding numbers are 1 behind and 0 before every point, 0 for a plane.
   SideTrust trust() {
     SideTrust result{.of_component = std::vector<double>(parts_.n_components, 0.0)};
     const WindingTree tree(points_, area_normals({}));
@@ -144,7 +144,7 @@ class Sides {
     return area > 0 ? sum / area : points_[part[0]];
   }
 
-  // The volume enclosed with `apex`, over area times rms distance from it.
+  // Returns the volume enclosed with `apex`, over the area times the rms distance from `apex`.
   double relative_volume(std::span<const std::uint32_t> part, const Vec3& apex) const {
     double volume = 0, area = 0, moment = 0;
     for (const std::uint32_t i : part) {
@@ -172,7 +172,7 @@ class Sides {
     for (const std::uint32_t i : part) normals_[i] = -normals_[i];
   }
 
-  // Of all points but some.
+  // Returns the area normals of all points, with zeros at the points in `without`.
   std::vector<Vec3> area_normals(std::span<const std::uint32_t> without) const {
     std::vector<Vec3> result(points_.size());
     for (std::size_t i = 0; i < result.size(); ++i) result[i] = patches_.areas[i] * normals_[i];
@@ -188,7 +188,7 @@ class Sides {
                           kClearOfPatches);
   }
 
-  // `others` is the field of all but the piece.
+  // Returns true if the piece should be flipped. `others`: the field of all other pieces.
   bool wants_to_turn(const WindingTree& others, std::span<const std::uint32_t> piece) const {
     double fall = 0, mean = 0, area = 0;
     for (const Sample& s : sample(others, piece)) {
@@ -201,7 +201,7 @@ class Sides {
     const bool alone = piece.size() == components_.of(parts_.component[piece[0]]).size();
     const double volume = relative_volume(piece, centroid(piece));
     if (!alone || std::abs(volume) < kOpen) return false;
-    return (mean > 0.5 * area) == (volume > 0);  // inside the others it bounds a cavity
+    return (mean > 0.5 * area) == (volume > 0);  // a piece inside the others bounds a cavity
   }
 
   std::span<const Vec3> points_;

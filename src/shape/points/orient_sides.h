@@ -1,4 +1,4 @@
-// Which side of oriented parts is the outer one. Layer: shape.
+// Finds the outer side of consistently oriented parts. Layer: shape.
 #pragma once
 
 #include <cstddef>
@@ -13,39 +13,39 @@
 
 namespace rholm {
 
-// How nearly the winding number of all is 1 behind and 0 before the points, 0 ... 1.
+// How close winding numbers are to 1 behind the points and 0 before them: trust 0 ... 1.
 struct SideTrust {
   std::vector<double> of_component;
-  double doubtful = 0;  // share of the points where it is less than a half
+  double doubtful = 0;  // share of the points with a trust below a half
 };
 
-// The surface that each point stands for.
+// The surface area that each point stands for.
 struct Patches {
   std::vector<double> areas;
-  // The side of a square patch of even points; of rows, the way across.
+  // Side of a square patch in an even sampling; in rows, its length across the rows.
   std::vector<double> spacing;
 };
 
-// Turns components, and pieces of them that were joined in doubt, as a whole: to enclose a
-// positive volume, and so that the winding number of all falls from 1 to 0 along the normals.
+// Flips whole components so that they enclose a positive volume. Flips pieces, joined by uncertain
+// votes, so that the winding number of all points falls from 1 to 0 along the normals.
 SideTrust turn_outwards(std::span<const Vec3> points, const Patches& patches,
                         const OrientedParts& parts, std::vector<Vec3>& normals,
                         const Context& context);
 
-// The same share for any normals, asked nearer to the points, where thin parts are seen too, and
-// the pattern of the points a little. To compare.
+// Returns SideTrust::doubtful for any normals, for comparisons. It is evaluated nearer to the
+// points, where thin parts count, and the pattern of the points has a little influence.
 double doubtful_share(std::span<const Vec3> points, const Patches& patches,
                       std::span<const Vec3> normals, const Context& context);
 
-// Radii of a patch behind and before points: turn_outwards() asks where the field of a patch is
-// clear of jumps, doubtful_share() nearer.
+// Distance of places behind and before points, in radii of a patch. In turn_outwards() the field of
+// a patch has no jumps at this distance; doubtful_share() uses a smaller one.
 inline constexpr double kClearOfPatches = 2, kNearPatches = 1.5;
-// Of the `chosen` points, how many are doubtful: asked so many radii away.
+// Counts the `chosen` points with a trust below a half, evaluated `radii` radii of a patch away.
 std::size_t count_doubtful(const WindingNumbers& winding, std::span<const Vec3> points,
                            const Patches& patches, std::span<const Vec3> normals,
                            std::span<const std::uint32_t> chosen, double radii);
 
-// The same trust at every point.
+// Returns the trust at every point, evaluated at kNearPatches.
 std::vector<double> trust_in_sides(std::span<const Vec3> points, const Patches& patches,
                                    std::span<const Vec3> normals, const Context& context);
 

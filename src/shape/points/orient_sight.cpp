@@ -10,8 +10,8 @@
 namespace rholm {
 namespace {
 
-// Cosine of the angle between a normal and the line of sight below which the sign is that of
-// others: normals of exact points are off by less than these six degrees, of noisy ones most are.
+// Cosine of the angle between a normal and the line of sight, below which neighbours decide the
+// sign. Normals of exact points are off by less than these six degrees, most of noisy points too.
 constexpr float kGlancing = 0.1f;
 
 }  // namespace

@@ -14,9 +14,9 @@
 namespace rholm {
 namespace {
 
-// Of so few points sheets are asked for before noise is believed; more are seldom so thin all over.
+// Up to this many points, thin sheets are tried before noise; larger clouds are seldom so thin.
 constexpr std::size_t kMostForSheets = 20000;
-// By the neighbours and the winding number, and the share of the points where the two disagree.
+// Computes signs by neighbours and winding number, and the share of points where these disagree.
 OrientSigns turn_by_graph(const OrientScene& scene, const Patches& patches, const LocalFits& fits,
                           double& doubtful, OrientReport& report, const Context& context) {
   OrientSigns signs{.normals = fits.normals};
@@ -32,14 +32,14 @@ OrientSigns turn_by_graph(const OrientScene& scene, const Patches& patches, cons
   return signs;
 }
 
-// By the field of all points; `residual` is that of the fits then.
+// Computes signs by the field of all points; `residual` is the median residual of the new fits.
 OrientSigns turn_by_field(const OrientScene& scene, const Patches& patches,
                           std::span<const Vec3> given, double width, LocalFits fits,
                           double& residual, const Context& context) {
   std::vector<Vec3> sheet =
       field_normals(*scene.tree, scene.points, patches.spacing, width, context);
   for (Vec3& n : sheet) n = normalized(n);
-  // Where there are rows, the field tells those of other sheets from the next ones of this.
+  // In rows, the field distinguishes rows of other sheets from the next rows of the same sheet.
   SamplingGaps gaps;
   if (!scene.gaps.ratio.empty()) {
     gaps = find_gaps(*scene.tree, scene.points, sheet, context, RowsThatTurn::kCount);
@@ -61,7 +61,7 @@ OrientSigns turn_by_field(const OrientScene& scene, const Patches& patches,
   return signs;
 }
 
-// The field's, if they have to do with the fits and fewer of them are in doubt.
+// Returns the field's signs if they fit the points and fewer of them are contradicted.
 OrientSigns better(const OrientScene& scene, const Patches& patches, OrientSigns by_graph,
                    const OrientSigns& by_field, double residual, const Context& context) {
   const auto doubtful = [&](const OrientSigns& signs) {
@@ -93,9 +93,9 @@ double spread_of_graph(int n_neighbors) {
   return n_neighbors > kMostForCurvature ? spread_of(n_neighbors) : 1;
 }
 
-// Of 2.4 million points of sixty inputs (scripts/scan-figures) with an agreement of 0.15, 0.25,
-// 0.35, 0.45, 0.55, 0.65 are wrong 0.034, 0.032, 0.009, 0.003, 0.001, 0.0008; this says 0.11, 0.04,
-// 0.015, 0.006, 0.002, 0.0008.
+// Agreements of 0.15, 0.25, 0.35, 0.45, 0.55, 0.65 have 0.034, 0.032, 0.009, 0.003, 0.001, 0.0008
+// wrong signs, of 2.4 million points of sixty inputs (scripts/scan-figures). The formula gives
+// shares of 0.11, 0.04, 0.015, 0.006, 0.002, 0.0008.
 double confidence_of(double agreement) { return 1 - std::exp(-10 * agreement); }
 
 OrientSigns find_signs(const OrientScene& scene, std::span<const Vec3> given, LocalFits& fits,
@@ -106,9 +106,9 @@ OrientSigns find_signs(const OrientScene& scene, std::span<const Vec3> given, Lo
   double in_doubt = 0;
   OrientSigns by_graph =
       turn_by_graph(scene, much_noise ? coarse : fine, fits, in_doubt, report, context);
-  // The graph is right where the surface is sampled well and evenly.
+  // The graph is right if the surface is sampled well and evenly.
   const bool sure = in_doubt <= kDoubtfulGraph && scene.gaps.ratio.empty();
-  // Two sheets as near as the points of each look like noise, until the field tells them apart.
+  // Two sheets as near as the points of each look like noise, until the field separates them.
   const bool few = scene.points.size() <= kMostForSheets;
   double residual = 0;
   if (much_noise ? few : !sure) {

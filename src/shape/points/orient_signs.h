@@ -1,4 +1,4 @@
-// Signs of normals, and what is known of them (method 7.12). Layer: shape.
+// Computes signs of normals and their confidence (method 7.12). Layer: shape.
 #pragma once
 
 #include <span>
@@ -13,28 +13,28 @@
 
 namespace rholm {
 
-// Normals, and how far what is known of each agrees with it, 0 ... 1; in the order of the scene.
+// Normals, and how far the known facts agree with each, 0 ... 1; in the order of the scene.
 struct OrientSigns {
   std::vector<Vec3> normals;
   std::vector<float> agreement = {};
 };
 
-// By the graph of neighbours where the winding number agrees with it, else by the field of all
-// points. Directions that are not zero in `given` are kept; others may become those of fits to one
-// sheet. Counts components in the report, and the neighbours of fits.
+// Uses the graph of neighbours if the winding number agrees with it, otherwise the field of all
+// points. Directions in `given` that are not zero are kept; others may be replaced by fits to one
+// sheet. Writes the number of components, and the neighbours of fits, to the report.
 OrientSigns find_signs(const OrientScene& scene, std::span<const Vec3> given, LocalFits& fits,
                        OrientReport& report, const Context& context);
 
-// So many points share the disc of a fit. Noise is seen through by patches that are `spread` times
-// as coarse.
+// Returns patches for fits whose disc is shared by fits.n_neighbors points. Patches wider by the
+// factor `spread` smooth noise.
 Patches patches_of(const LocalFits& fits, const SamplingGaps& gaps, double spread);
-// For so many neighbours of a fit, and for signs along the graph with them: 1 unless there is much
-// noise.
+// Return the spread for fits of n_neighbors points, and for signs along the graph with them. The
+// latter is 1 unless there is much noise.
 double spread_of(int n_neighbors);
 double spread_of_graph(int n_neighbors);
 
-// Of how far what is known of a normal agrees with it: its sign is right with a probability of
-// (1 + confidence) / 2, or a larger one.
+// Returns the confidence for an agreement: the sign is right with a probability of at
+// least (1 + confidence) / 2.
 double confidence_of(double agreement);
 
 }  // namespace rholm

@@ -11,25 +11,26 @@ namespace rholm {
 namespace {
 
 constexpr std::size_t kNeighbours = 16;
-// Normals agree within 45 degrees; among 16 random ones 2.3 do, so that fewer than 5 are chance
-// (95 %), while a point on a sharp corner of three faces still has about 5 of its own face.
+// Cosine of 45 degrees, within which normals agree. Among 16 random normals 2.3 agree, so fewer
+// than 5 are chance (95 %). A point on a corner of three faces still has about 5 of its own face.
 constexpr double kAgree = 0.7;
 constexpr std::size_t kFewest = 5;
-// Off the planes of its agreeing neighbours by more than this part of their distance, in the mean.
+// Largest mean distance from planes of agreeing neighbours, relative to the neighbours' distance.
 constexpr double kOff = 0.5;
-// The distance to the 8th neighbour against that of the neighbours: a tenth of it between points of
-// a surface however uneven.
+// The distance to the 8th neighbour, over the neighbours' own distance, that makes an outlier. On a
+// surface it varies by a tenth, however uneven.
 constexpr std::size_t kEighth = 8;
 constexpr double kIsolated = 3;
-// Points asked for wrong normals, and the length of the mean of those around from which on they are
-// of one mind: on a flat surface 0.9 where a tenth of them is random, 0.8 where a fifth is.
+// Number of points tested for wrong normals, and length of the mean of the normals around
+// from which on these agree with each other. On a flat surface with a tenth of random normals
+// it is 0.9, with a fifth 0.8.
 constexpr std::size_t kSeeds = 2000;
 constexpr double kOneMind = 0.8;
 struct Scan {
   const PointTree& tree;
   std::span<const Vec3> points, normals;
   double noise;
-  std::vector<float> spacing;  // distance to the eighth neighbour that is left
+  std::vector<float> spacing;  // distance to the eighth neighbour
 };
 
 bool is_outlier(const Scan& scan, std::size_t i, const std::vector<Neighbor>& near,
@@ -122,7 +123,7 @@ void for_links_of_groups(const PointTree& tree, std::span<const Vec3> normals,
   });
   for (std::uint32_t i = 0; i < n; ++i) {
     for (const std::uint32_t j : links[i]) {
-      // As near as both have others: a point alone is far from where its neighbours are at home.
+      // Compares with both spacings: a single point is far from neighbours that are close together.
       const bool close = spacing[i] < kIsolated * spacing[j] && spacing[j] < kIsolated * spacing[i];
       if (close && dot(normals[i], normals[j]) > 0.5) visit(i, j);
     }

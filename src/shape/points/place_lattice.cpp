@@ -10,18 +10,18 @@
 namespace rholm {
 namespace {
 
-// Distances between neighbours are those of single precision (point_tree.h): what is closer than
-// this part of the extent is at one place.
+// Points closer than this part of the extent are at one place: distances between neighbours have
+// single precision (point_tree.h).
 constexpr double kPlace = 0x1p-23;
 
-// Scaled first: normals in a file have any length.
+// Scales before it normalises, because normals in a file have any length.
 Vec3 unit_or_zero(const Vec3& v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (!(largest > 0) || !is_finite(v)) return {};
   return normalized({v.x / largest, v.y / largest, v.z / largest});
 }
 
-// Whole numbers in the order of the numbers.
+// Maps numbers to integers in the same order.
 std::int64_t rank_of(double x) {
   const auto bits = std::bit_cast<std::int64_t>(x + 0.0);
   return bits < 0 ? std::numeric_limits<std::int64_t>::min() - bits : bits;
@@ -41,7 +41,7 @@ double PlaceLattice::begin_of_cell(double coordinate, double Vec3::*axis) const 
   if (!has_cells()) return coordinate;
   const double cell = cell_of(coordinate, axis);
   if (!(cell > 0)) return origin_.*axis;
-  // By bisection: near 0, far from the origin, most numbers differ by less than the cells know.
+  // Bisects: near 0, far from the origin, neighbouring numbers are closer than cells can tell.
   std::int64_t below = rank_of(origin_.*axis), at = rank_of(coordinate);
   for (;;) {
     const std::uint64_t apart = static_cast<std::uint64_t>(at) - static_cast<std::uint64_t>(below);

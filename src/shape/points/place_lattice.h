@@ -1,4 +1,4 @@
-// What counts as one place, for points that are merged. Layer: shape, private.
+// Defines which points count as one place when points are merged. Layer: shape, private.
 #pragma once
 
 #include <cmath>
@@ -13,24 +13,24 @@
 
 namespace rholm {
 
-// Cells of 2^-23 of the diagonal of a box. Of two points that are closer, but in two cells, both
-// stay.
+// Cells of 2^-23 times the diagonal of a box. Two points that are closer than a cell, but lie in
+// different cells, both stay.
 class PlaceLattice {
  public:
   PlaceLattice() = default;  // no cells
-  // Of points within the box. A box without an extent has none, nor has one that is too large or
-  // too small for numbers: what is identical is at one place then.
+  // Makes cells for points in the box. There are no cells if the extent is zero, or too large or
+  // too small for numbers; then only identical points are at one place.
   explicit PlaceLattice(const Bounds& box);
 
   bool has_cells() const { return per_length_ > 0; }
-  // Of a coordinate along that axis; whole numbers, that do not fall as it grows.
+  // Returns the cell of a coordinate along an axis: a whole number that never falls as it grows.
   double cell_of(double coordinate, double Vec3::*axis) const {
     return std::floor(per_length_ * (coordinate - origin_.*axis));
   }
   Vec3 cell_of(const Vec3& p) const {
     return {cell_of(p.x, &Vec3::x), cell_of(p.y, &Vec3::y), cell_of(p.z, &Vec3::z)};
   }
-  // The smallest coordinate in the cell of this one; itself where there are no cells.
+  // Returns the smallest coordinate in the cell of a coordinate, or itself if there are no cells.
   double begin_of_cell(double coordinate, double Vec3::*axis) const;
 
  private:
@@ -38,13 +38,13 @@ class PlaceLattice {
   double per_length_ = 0;
 };
 
-// For each point the first one at its place. Fewer than 2^32 points, finite.
+// Returns for each point the first point at its place. Points are finite and fewer than 2^32.
 std::vector<std::uint32_t> first_in_place(std::span<const Vec3> points, const PlaceLattice& lattice,
                                           const Context& context);
 
-// Gives each point that is the first at its place the mean direction of the normals of all there,
-// in their order, but for those at more than 90 degrees to what is summed up already. Returns how
-// many these are.
+// Gives the first point at each place the mean direction of all normals there, summed
+// up in order. Normals at more than 90 degrees to the sum so far are left out.
+// Returns the number of these.
 std::size_t merge_normals(std::span<const std::uint32_t> first, std::vector<Vec3>& normals);
 
 }  // namespace rholm

@@ -31,13 +31,13 @@ Symmetric3 covariance(std::span<const Vec3> points, std::span<const double> weig
   return c;
 }
 
-// The sum of the products of two eigenvalues each; unlike these exact to an ulp of the largest
-// one's square.
+// Returns the sum of the products of two eigenvalues each. Unlike eigenvalues, it is exact to an
+// ulp of the largest eigenvalue's square.
 double sum_of_minors(const Symmetric3& m) {
   return (m.xx * m.yy - m.xy * m.xy) + (m.xx * m.zz - m.xz * m.xz) + (m.yy * m.zz - m.yz * m.yz);
 }
 
-// The direction that M - value leaves at 0: the longest cross product of two of its rows.
+// Returns the null direction of M - value: the longest cross product of two of its rows.
 Vec3 eigenvector(const Symmetric3& m, double value) {
   const Vec3 rows[3] = {
       {m.xx - value, m.xy, m.xz}, {m.xy, m.yy - value, m.yz}, {m.xz, m.yz, m.zz - value}};
@@ -47,7 +47,7 @@ Vec3 eigenvector(const Symmetric3& m, double value) {
       products, products + 3, [](const Vec3& a, const Vec3& b) { return dot(a, a) < dot(b, b); }));
 }
 
-constexpr int kTerms = kSix;  // 1, x, y, x^2, x y, y^2
+constexpr int kTerms = kSix;  // terms 1, x, y, x^2, x y, y^2
 
 }  // namespace
 
@@ -87,7 +87,7 @@ ParaboloidFit fit_paraboloid(std::span<const Vec3> points, std::span<const doubl
 }
 
 Vec3 perpendicular(const Vec3& n) {
-  // The coordinate axis farther from n makes a well-conditioned cross product.
+  // The coordinate axis farther from n makes the cross product well-conditioned.
   return normalized(cross(n, std::abs(n.x) <= 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
 }
 

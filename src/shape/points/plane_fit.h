@@ -1,4 +1,4 @@
-// Planes and paraboloids fitted to a few points. Layer: shape.
+// Fits planes and paraboloids to a few points. Layer: shape.
 #pragma once
 
 #include <cstddef>
@@ -9,29 +9,29 @@
 namespace rholm {
 
 struct PlaneFit {
-  Vec3 normal;  // unit, of either sign; zero if the points have no plane
-  // Of the covariance: about the sum of its two smaller eigenvalues, and its largest one. How wide
-  // and how long the points are, squared.
+  Vec3 normal;  // unit, of either sign; zero if the points define no plane
+  // Squared extents from the covariance: `width` is about the sum of its two smaller eigenvalues,
+  // `length` is the largest eigenvalue.
   double width = 0;
   double length = 0;
-  double height = 0;  // the least eigenvalue: how thick
+  double height = 0;  // the least eigenvalue: squared thickness
 };
 
-// The plane of least weighted squared distances, through the weighted mean. Coordinates of order 1;
-// the sum of the weights is positive.
+// Returns the plane through the weighted mean with the least weighted sum of squared distances.
+// Coordinates are of order 1; the sum of the weights is positive.
 PlaneFit fit_plane(std::span<const Vec3> points, std::span<const double> weights);
 
 struct ParaboloidFit {
   Vec3 normal;          // at the origin
-  double residual = 0;  // rms of the heights over it, weighted
+  double residual = 0;  // weighted rms height of the points above it
 };
 
-// The paraboloid over the plane across `normal` that fits best; the plane through the origin if the
-// points do not determine one.
+// Returns the best paraboloid over the plane across `normal`. If the points do not determine one,
+// the result is the plane through the origin.
 ParaboloidFit fit_paraboloid(std::span<const Vec3> points, std::span<const double> weights,
                              const Vec3& normal);
 
-// A unit vector perpendicular to the unit vector n.
+// Returns a unit vector perpendicular to the unit vector n.
 Vec3 perpendicular(const Vec3& n);
 
 }  // namespace rholm

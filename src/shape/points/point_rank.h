@@ -1,5 +1,5 @@
-// Random numbers of points by their coordinates: points chosen by them are the same in any order,
-// and in any tiles. Layer: shape.
+// Computes random numbers of points from their coordinates. Points chosen by them are the same in
+// any order and any tiles. Layer: shape.
 #pragma once
 
 #include <bit>
@@ -16,7 +16,7 @@ inline std::uint64_t rank_of(const Vec3& p) {
   return bits;
 }
 
-// Whether the point of this rank is among the chosen share of all points.
+// Returns true if the point of this rank is among the chosen share of all points.
 inline bool is_chosen(std::uint64_t rank, double share) {
   return static_cast<double>(rank >> 11) * 0x1p-53 < share;
 }

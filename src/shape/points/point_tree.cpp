@@ -18,9 +18,9 @@
 namespace rholm {
 namespace {
 
-// By distance, then by index.
+// Orders by distance, then by index.
 bool nearer(const Neighbor& a, const Neighbor& b);
-// Of n points the k nearest come first; the square of the distance to the last of them.
+// Moves the k nearest of n points to the front; returns the squared distance of the k-th.
 float keep_nearest(Neighbor* found, std::size_t n, std::size_t k);
 
 }  // namespace
@@ -34,7 +34,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, 16>;
 using V = hn::Vec<D>;
 
-// Squared distances of the points from the i-th on.
+// Returns squared distances of the points from the i-th on.
 HWY_INLINE V SquareTo(const PointTree::View& tree, std::size_t i, const V (&at)[3]) {
   const D d;
   const V dx = hn::Sub(hn::LoadU(d, tree.x + i), at[0]);
@@ -43,8 +43,8 @@ HWY_INLINE V SquareTo(const PointTree::View& tree, std::size_t i, const V (&at)[
   return hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
 }
 
-// Appends the points of a leaf within radius2 of `at`; `out` has room for one more vector than the
-// leaf has.
+// Appends the points of a leaf within radius2 of `at`. `out` has room for the leaf's
+// points and one vector more.
 HWY_INLINE std::size_t ScanLeaf(const PointTree::View& tree, std::uint32_t leaf, const V (&at)[3],
                                 float radius2, Neighbor* out) {
   const D d;
@@ -55,7 +55,7 @@ HWY_INLINE std::size_t ScanLeaf(const PointTree::View& tree, std::uint32_t leaf,
     const V square = SquareTo(tree, i, at);
     const auto near = hn::And(hn::Le(square, hn::Set(d, radius2)), hn::FirstN(d, end - i));
     const auto index = hn::BitCast(d, hn::Iota(du, static_cast<std::uint32_t>(i)));
-    // What is not near lies behind and is written over.
+    // Points that are not near end up behind the near ones and are overwritten.
     hn::StoreInterleaved2(hn::Compress(square, near), hn::Compress(index, near), d,
                           reinterpret_cast<float*>(out + n));
     n += hn::CountTrue(d, near);
@@ -63,7 +63,7 @@ HWY_INLINE std::size_t ScanLeaf(const PointTree::View& tree, std::uint32_t leaf,
   return n;
 }
 
-// How far the boxes of children `first` on of a wide node are, squared.
+// Returns squared distances to the boxes of a wide node's children, from `first` on.
 HWY_INLINE V BoxDistances(const float* boxes, const V (&at)[3], std::size_t first) {
   const D d;
   V square = hn::Zero(d);
@@ -76,7 +76,7 @@ HWY_INLINE V BoxDistances(const float* boxes, const V (&at)[3], std::size_t firs
   return square;
 }
 
-// The children of a wide node whose boxes come within radius2 of `at`, as bits.
+// Returns the children of a wide node whose boxes come within radius2 of `at`, as bits.
 HWY_INLINE unsigned NearChildren(const float* boxes, const V (&at)[3], float radius2) {
   const D d;
   unsigned bits = 0;
@@ -89,20 +89,20 @@ HWY_INLINE unsigned NearChildren(const float* boxes, const V (&at)[3], float rad
   return bits;
 }
 
-// Every point within radius2 of `at`, in the order of the tree; with k > 0 at least the k nearest
-// of them, in any order.
+// Finds every point within radius2 of `at`, in the order of the tree. For k > 0 it finds at least
+// the k nearest of them, in any order.
 void Gather(const PointTree::View& tree, const float* at, float radius2, std::size_t k,
             std::vector<Neighbor>& found) {
-  // A radius that is far too large is cut as soon as so many points tell.
+  // Number of found points at which a radius that is far too large is reduced.
   const std::size_t many = k > 0 ? std::max<std::size_t>(64, 4 * k) : ~std::size_t{0};
   const D d;
   const V x[3] = {hn::Set(d, at[0]), hn::Set(d, at[1]), hn::Set(d, at[2])};
-  // One frame a level: the children still to visit.
+  // One frame per level: the children still to visit.
   struct Frame {
     std::uint32_t node;
     unsigned bits;
   } stack[9];
-  // A vector sets all that it grows by: most of what is found needs none.
+  // A vector initialises all elements that it grows by; most results fit into this array.
   constexpr std::size_t kFew = 256;
   Neighbor few[kFew];
   Neighbor* to = few;
@@ -146,9 +146,9 @@ void Gather(const PointTree::View& tree, const float* at, float radius2, std::si
   }
 }
 
-// Sorts n <= View::kMostRanked neighbours: the place of each is the number of those nearer than it.
-// Numbers above zero are in the order of their bits, so that bits of the square and the index
-// behind them are one number to compare.
+// Sorts n <= View::kMostRanked neighbours: the place of each is the number of nearer ones. Bits of
+// positive numbers are in the order of the numbers, so the bits of the square, followed by the
+// index, form one number to compare.
 void SortByRank(Neighbor* found, std::size_t n) {
   const hn::CappedTag<std::int64_t, 8> d;
   alignas(64) std::int64_t keys[PointTree::View::kMostRanked], ranks[PointTree::View::kMostRanked];
@@ -170,7 +170,7 @@ void SortByRank(Neighbor* found, std::size_t n) {
   }
 }
 
-// The place of the least of 16 numbers, the first of them.
+// Returns the place of the least of 16 numbers, and the first if several are least.
 HWY_INLINE std::size_t LeastOf(const float* values, float& least) {
   const D d;
   V all = hn::Load(d, values);
@@ -186,7 +186,7 @@ HWY_INLINE std::size_t LeastOf(const float* values, float& least) {
   return 0;
 }
 
-// Squared distances of the points begin ... end - 1, 16 at most; infinity behind the last.
+// Computes squared distances of points begin ... end - 1, at most 16; infinity behind the last.
 HWY_INLINE void DistancesOf(const PointTree::View& tree, std::size_t begin, std::size_t end,
                             const V (&at)[3], float* squares) {
   const D d;
@@ -201,11 +201,11 @@ HWY_INLINE void DistancesOf(const PointTree::View& tree, std::size_t begin, std:
   }
 }
 
-// The nearest point, if it is nearer than `best`: nearest boxes first.
+// Finds the nearest point if it is nearer than `best`; visits the nearest boxes first.
 void Nearest(const PointTree::View& tree, const float* at, Neighbor& best) {
   const D d;
   const V x[3] = {hn::Set(d, at[0]), hn::Set(d, at[1]), hn::Set(d, at[2])};
-  // Of a wide node on each level the squared distances of boxes, infinity once they are visited.
+  // Squared distances of boxes of a wide node on each level; infinity once a box is visited.
   alignas(64) float squares[10][16];
   std::uint32_t nodes[9] = {0};
   const auto enter = [&](int depth) HWY_ATTR {
@@ -218,7 +218,7 @@ void Nearest(const PointTree::View& tree, const float* at, Neighbor& best) {
   for (int depth = 0; depth >= 0;) {
     float least = 0;
     const std::size_t first = LeastOf(squares[depth], least);
-    // Not even an infinite one, which is what has been visited.
+    // Excludes infinity, which marks visited boxes, even if `best` is infinite.
     if (!(least <= best.distance2 && least < std::numeric_limits<float>::infinity())) {
       --depth;
       continue;
@@ -230,7 +230,7 @@ void Nearest(const PointTree::View& tree, const float* at, Neighbor& best) {
       enter(depth);
       continue;
     }
-    // Leaves may have one point more.
+    // Leaves may have one point more than 16.
     const std::size_t end = tree.leaf_begin[child + 1];
     for (std::size_t begin = tree.leaf_begin[child]; begin < end; begin += 16) {
       DistancesOf(tree, begin, end, x, squares[9]);
@@ -252,16 +252,17 @@ HWY_EXPORT(Gather);
 HWY_EXPORT(SortByRank);
 HWY_EXPORT(Nearest);
 
-// Points of a leaf, at most: a vector of the widest machines.
+// Largest mean number of points of a leaf: a vector of the widest machines.
 constexpr std::size_t kLeafSize = 16;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// How many circles of area A hold k points of density n / A: radius squared.
+// Returns the squared radius of a circle that holds k points at a density of points per area.
 float radius2_for(double k, double density) {
   return static_cast<float>(k / (density * std::numbers::pi));
 }
 
-// nearer(); a type, as sorting calls it inline. Bits of numbers above zero are in their order.
+// Compares as nearer(); a type, so that sorting inlines it. Bits of
+// numbers >= 0 keep their order.
 struct Nearer {
   static std::uint64_t key(const Neighbor& near) {
     return std::uint64_t{std::bit_cast<std::uint32_t>(near.distance2)} << 32 | near.index;
@@ -307,7 +308,7 @@ PointTree::PointTree(std::span<const Vec3> points, const Context& context) : ord
     upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
   }
   if (!points.empty()) middle_ = 0.5 * (lower + upper);
-  // Coordinates of order 1: their squares stay within single precision at every scale.
+  // Coordinates are of order 1: their squares stay within single precision at every scale.
   const double extent = points.empty() ? 0 : norm(upper - lower);
   scale_ = extent > 0 ? 1 / extent : 1;
   std::vector<Item> items(points.size());
@@ -320,8 +321,8 @@ PointTree::PointTree(std::span<const Vec3> points, const Context& context) : ord
   store(items, context);
 }
 
-// Halves ranges along their widest extent until leaves are small; the tree is complete, so that a
-// leaf's place says its parents.
+// Halves ranges along their widest extent until leaves are small. The tree is complete, so that a
+// leaf's number determines its parents.
 void PointTree::split(std::vector<Item>& items, const Context& context) {
   int depth = 0;
   while ((items.size() >> depth) > kLeafSize) ++depth;
@@ -379,7 +380,7 @@ void PointTree::store(const std::vector<Item>& items, const Context& context) {
         flat[6 * j + a + 3] = box.upper[a];
       }
       std::sort(extent.begin(), extent.end());
-      const float least = 1e-6f;  // of the whole: a line or a point has no area
+      const float least = 1e-6f;  // of the whole extent: a line or a point has no area
       const float area = std::max(extent[2], least) * std::max(extent[1], least);
       leaf_density_[j] = static_cast<float>(leaf_begin_[j + 1] - leaf_begin_[j]) / area;
     }
@@ -387,7 +388,7 @@ void PointTree::store(const std::vector<Item>& items, const Context& context) {
   make_boxes(std::move(flat));
 }
 
-// From the leaves up: 16 boxes become the sides of one wide node and one box above.
+// Builds from the leaves up: 16 boxes form a wide node, and their hull is one box above.
 void PointTree::make_boxes(std::vector<float> below) {
   const auto levels = static_cast<std::size_t>(levels_);
   std::size_t n_nodes = 0;
@@ -432,7 +433,7 @@ PointTree::View PointTree::view() const {
           level_begin_.data()};
 }
 
-// Circles around `at` are widened until they hold k points, then cut to the k nearest.
+// Widens a circle around `at` until it holds k points, then cuts to the k nearest.
 void PointTree::search(const std::array<float, 3>& at, float radius2, std::size_t k,
                        std::vector<Neighbor>& found) const {
   k = std::min(k, size());
@@ -458,7 +459,7 @@ void PointTree::search(const std::array<float, 3>& at, float radius2, std::size_
 }
 
 void PointTree::nearest_to(std::size_t i, std::size_t k, std::vector<Neighbor>& found) const {
-  // A third more than the density asks for: rarely too few, not many too many.
+  // Asks for a third more than the density suggests: rarely too few, not many too many.
   const float radius2 = radius2_for(1.35 * static_cast<double>(k), leaf_density_[leaf_of_[i]]);
   search({coordinates_[i], coordinates_[stride_ + i], coordinates_[2 * stride_ + i]}, radius2, k,
          found);
@@ -472,21 +473,21 @@ std::array<float, 3> PointTree::local(const Vec3& x) const {
 void PointTree::nearest(const Vec3& x, std::size_t k, std::vector<Neighbor>& found) const {
   found.clear();
   if (size() == 0) return;
-  // Places beyond kFarthest extents are taken as the one there in the same direction: their squares
-  // leave single precision, which sees all points equally far from them.
+  // Places farther than kFarthest extents are moved to that distance in the same direction. Their
+  // squares leave single precision, in which all points are equally far from them.
   constexpr double kFarthest = 1e6;
   const auto largest = [](const Vec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   };
   Vec3 place = x;
   if (!(scale_ * largest(0.5 * x - 0.5 * middle_) < kFarthest / 2)) {
-    // Scaled down first: differences of huge coordinates are infinite.
+    // Scales down first, because differences of huge coordinates are infinite.
     const double unit = std::max(largest(x), largest(middle_));
     const Vec3 far = x / unit - middle_ / unit;
     place = middle_ + kFarthest / scale_ / largest(far) * far;
   }
   const std::array<float, 3> at = local(place);
-  // The distance to the whole, and a circle of mean density around it.
+  // The radius is the distance to the whole cloud, plus a circle of mean density.
   double outside2 = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     const double out = std::max(0.0, std::abs(static_cast<double>(at[a])) - 0.5);

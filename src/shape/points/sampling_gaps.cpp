@@ -13,25 +13,25 @@ namespace rholm {
 namespace {
 
 constexpr std::size_t kFirst =
-    24;  // neighbours among which gaps are looked for, then twice as many
+    24;  // neighbours among which gaps are sought at first, then twice as many
 constexpr std::size_t kMost = 384;
-// Points over which gaps are averaged, and those with the smaller gaps, which count.
+// Number of points over which gaps are averaged, and number of those with smaller gaps that count.
 constexpr std::size_t kAround = 24, kCounted = 12;
 constexpr std::size_t kSeeds = 64;
 constexpr std::size_t kGrain = 512;
-// Random points have ratios of 1.2 ... 1.5 in nine of ten places (the bodies of
-// scripts/scan-figures, 1000 to 100 000 points), rows of twice their steps 2.
+// Ratios of random points are 1.2 ... 1.5 at nine of ten places (bodies of scripts/scan-figures,
+// 1000 to 100 000 points). Rows at twice their steps have 2.
 constexpr double kEven = 1.8;
 constexpr double kShareInRows = 0.1;
-// Ratios of lengths of random points (the same) are 1.2 ... 2.1, and more than 3 once in 100 000:
-// from there on there are rows.
+// Ratios of lengths of random points on the same bodies are 1.2 ... 2.1, and above 3 once in 100
+// 000 times. From this ratio on, the points lie in rows.
 constexpr double kSurelyRows = 3;
-// A point at r hides one at q if r . q > between r . r. With 1, Gabriel's, a point of the own row
-// hides the next row where rows are bent across, just so; with more, a row that bends along itself,
-// at an edge, seems to surround its points (along a straight one it is 2). Either makes the ratio
-// too small: the larger one is taken.
+// A point at r hides a point at q if r . q > between r . r. With 1 (Gabriel), a point of the own
+// row just hides the next row where rows bend sideways. With more, a row that bends along itself,
+// at an edge, seems to surround its points; along a straight row the limit is 2. Both errors make
+// the ratio too small, so the larger ratio is taken.
 constexpr std::array<double, 2> kBetween = {1, 1.2};
-// Directions to neighbours that leave a gap of more than this are those of one row. Radians.
+// Directions to neighbours that leave a wider gap than this belong to one row. Radians.
 constexpr double kOneSided = 2.6;
 
 void add(Symmetric3& sum, const Vec3& d) {
@@ -48,7 +48,7 @@ struct Scratch {
   std::vector<double> angles;
 };
 
-// Whether the gaps surround the point in the plane they span.
+// Returns true if the gaps surround the point in the plane they span.
 bool surround(Scratch& scratch) {
   if (scratch.gaps.size() < 3) return false;
   scratch.directions.clear();
@@ -68,9 +68,9 @@ bool surround(Scratch& scratch) {
   return widest < kOneSided;
 }
 
-// Of one point: sums of products of its gaps, and whether they surround it. Those at an edge look
-// across to another sheet, and say little. If it is in a row, the mean squares of the steps along,
-// which are its two nearest gaps, and of those across; 0 if it has no others.
+// Gaps of one point: sums of products, and whether the gaps surround it. Gaps at an edge point
+// across to another sheet and are less reliable. In a row, along2 is the mean square of the two
+// nearest gaps, which are steps along the row, and across2 of the others; 0 if there are no others.
 struct GapsOfPoint {
   Symmetric3 sum;
   bool surround = false;
@@ -78,7 +78,7 @@ struct GapsOfPoint {
 };
 using BothGaps = std::array<GapsOfPoint, kBetween.size()>;
 
-// The gaps among the neighbours found, nearest first: whoever lies between is nearer.
+// Finds the gaps among the neighbours, nearest first, because only a nearer point can hide another.
 void take_gaps(double between, Scratch& scratch) {
   scratch.gaps.clear();
   for (std::size_t j = 0; j < scratch.offsets.size(); ++j) {
@@ -97,7 +97,7 @@ void add_up(std::span<const Vec3> gaps, GapsOfPoint& own) {
   own.across2 = eigenvalues(own.sum).largest / static_cast<double>(gaps.size() - 2);
 }
 
-// By each of kBetween; more neighbours until they surround the point.
+// Finds the gaps for each of kBetween, with more neighbours until they surround the point.
 BothGaps gaps_of(const PointTree& tree, std::span<const Vec3> points, std::span<const Vec3> normals,
                  std::size_t i, Scratch& scratch) {
   BothGaps result;
@@ -141,9 +141,9 @@ double ratio_of(std::vector<GapsOfPoint>& around) {
   return std::clamp(std::sqrt(values.largest / values.middle), 1.0, kMostGapRatio);
 }
 
-// By lengths alone, whatever their directions: rows that turn from one point to the next, as rings
-// around a pole, have none in common, and their ratio seems to be small. 1 if there may be no rows.
-// The smaller half counts, as above.
+// Compares lengths regardless of directions. Rows that turn from point to point, such as rings
+// around a pole, have no common direction, and their ratio by directions seems small. Returns 1 if
+// there may be no rows. Only the smaller half counts, as in ratio_of().
 double ratio_of_lengths(std::span<const GapsOfPoint> around) {
   std::vector<double> along, across;
   for (const GapsOfPoint& own : around) {
@@ -198,7 +198,7 @@ std::vector<double> gap_ratios(const PointTree& tree, std::span<const Vec3> poin
 
 double spacing_around(const PointTree& tree, const SamplingGaps& gaps, const Vec3& place,
                       std::vector<Neighbor>& near) {
-  // Of one place: the radius of 24 random points scatters by a tenth, that of 8 by a fifth.
+  // The radius of 24 random points around a place varies by a tenth, the radius of 8 by a fifth.
   constexpr std::size_t kCircles = 3;
   tree.nearest(place, 1, near);
   tree.nearest(place, kCircles * gaps.scaled(near.front().index, kCircle), near);

@@ -5,10 +5,10 @@
 namespace rholm {
 namespace {
 
-// Of the weight of a scan's pairs: a motion that less than this part of them resists, a slide of
-// a plane or a turn of a ball, is left alone. It slows others by as much.
+// Share of the weight of a scan's pairs that resists any motion. So motions that pairs resist less,
+// such as a slide of a plane or a turn of a ball, are suppressed; others are slowed by this share.
 constexpr double kRest = 1e-3;
-// Of the right-hand side: the pairs are found anew anyway.
+// Tolerance relative to the right-hand side; pairs are searched anew in any case.
 constexpr double kSolved = 1e-8;
 
 Vector6 jacobian(const Vec3& at, const Vec3& normal, const Vec3& middle, double radius) {
@@ -50,14 +50,14 @@ void add(Unknowns& sum, double factor, const Unknowns& x) {
   }
 }
 
-// The normal equations in blocks.
+// The normal equations in blocks of six.
 struct Blocks {
   struct OfTwo {
     std::uint32_t a = 0, b = 0;
     Matrix6 block{};
   };
   std::vector<Matrix6> diagonal, factors;
-  std::vector<OfTwo> others;  // pairs of one scan with another stand together
+  std::vector<OfTwo> others;  // pairs of one scan with another are in succession
   Unknowns right;
 
   Unknowns times(const Unknowns& x) const {
@@ -109,20 +109,20 @@ Blocks blocks_of(std::span<const ScanPair> pairs, std::span<const ScanBody> bodi
   blocks.factors = blocks.diagonal;
   for (Matrix6& factor : blocks.factors) {
     if (factorize(factor)) continue;
-    // Points on a line do not know of turns about it: no preconditioner then.
+    // Points on a line do not determine turns about it; then this scan has no preconditioner.
     factor = {};
     for (int i = 0; i < kSix; ++i) factor[i][i] = 1;
   }
   return blocks;
 }
 
-// Conjugate gradients, preconditioned by the blocks of each scan.
+// Solves by conjugate gradients, preconditioned by the block of each scan.
 Unknowns solve(const Blocks& blocks) {
   Unknowns x(blocks.right.size()), rest = blocks.right;
   const double enough = kSolved * kSolved * dot(rest, rest);
   Unknowns better = blocks.preconditioned(rest), way = better;
   double slope = dot(rest, better);
-  // As many steps as unknowns solve it exactly.
+  // The method is exact after as many steps as there are unknowns.
   for (std::size_t step = 0; step < kSix * x.size() && dot(rest, rest) > enough; ++step) {
     const Unknowns image = blocks.times(way);
     const double length = slope / dot(way, image);

@@ -1,4 +1,4 @@
-// Rigid motions of several scans from pairs of places that shall meet. Layer: shape.
+// Computes rigid motions of several scans from pairs of places that should coincide. Layer: shape.
 #pragma once
 
 #include <cstddef>
@@ -12,27 +12,27 @@
 
 namespace rholm {
 
-// A place of one scan and the place of another that it shall lie in a plane with.
+// A place of one scan, and the place of another scan whose tangent plane should contain it.
 struct ScanPair {
   std::uint32_t from = 0, to = 0;  // scans
-  Vec3 a, b;                       // their places
-  Vec3 normal;                     // of the plane, unit
+  Vec3 a, b;                       // the places
+  Vec3 normal;                     // normal of the plane, unit
   double weight = 1;
 
   double distance() const { return dot(a - b, normal); }
 };
 
-// How points of one scan lie about the common middle: what its motions move.
+// Describes how points of one scan lie about the common middle, which its motions turn around.
 struct ScanBody {
-  Matrix6 inertia{};  // mean of J^T J, the displacement of a point being J (turn radius, shift)
-  double points = 0;  // its share in the mean motion, which stays zero
+  Matrix6 inertia{};  // mean of J^T J; a point's displacement is J (turn radius, shift)
+  double points = 0;  // weight of the scan in the mean motion, which stays zero
 };
 
-// About `middle`, with lengths of `radius` for turns.
+// Computes a body about `middle`; `radius` is the length that makes turns comparable to shifts.
 ScanBody body_of(std::span<const Vec3> points, const Vec3& middle, double radius);
 
-// The motions that make the sum of weight * distance^2 least, to first order; what no pair knows of
-// stays. All points together do not move, in the mean, nor turn.
+// Returns the motions with the least sum of weight * distance^2, to first order. Motions that no
+// pair determines stay zero. The mean motion of all points, in shift and turn, is zero.
 std::vector<RigidMotion> solve_motions(std::span<const ScanPair> pairs,
                                        std::span<const ScanBody> bodies, const Vec3& middle,
                                        double radius);

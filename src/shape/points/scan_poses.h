@@ -1,4 +1,4 @@
-// Which scans points are of, and where align_scans() brings these. Layer: shape.
+// Finds the scans that points belong to, and the poses from align_scans(). Layer: shape.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace rholm {
 
-// Adds the values of the attribute `scan` of some points to those of others, ascending; false if
-// they are no numbers of scans: no whole numbers, or more than kMaxScans different ones.
+// Adds values of the attribute `scan` to the ascending list `different`. Returns false if they are
+// no scan numbers: not whole numbers, or more than kMaxScans different ones.
 inline bool add_scans(std::span<const double> values, std::vector<double>& different) {
   for (const double value : values) {
     if (!(std::isfinite(value) && value == std::round(value))) return false;
@@ -26,7 +26,7 @@ inline bool add_scans(std::span<const double> values, std::vector<double>& diffe
   return true;
 }
 
-// Where a motion of many steps has brought a scan.
+// Pose of a scan after a motion of many steps.
 struct ScanPose {
   Vec3 origin, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // images of the middle and of the axes
 
@@ -39,15 +39,15 @@ struct ScanPose {
 
 struct ScanPoses {
   ScanAlignment alignment;           // without `moved`
-  Vec3 middle;                       // of all points, before
+  Vec3 middle;                       // middle of all points before the motion
   std::vector<double> labels = {};   // values of the attribute `scan`, ascending
-  std::vector<ScanPose> poses = {};  // of each; none: nothing moves
+  std::vector<ScanPose> poses = {};  // of each scan; empty if nothing moves
 
-  // Moves points with an attribute `scan`, their normals and sensors. Points of scans that are not
-  // known stay. Returns the sum of squares of the ways.
+  // Moves points with an attribute `scan`, their normals and sensors. Points of unknown scans stay.
+  // Returns the sum of squared displacements.
   double move(PointCloud& cloud) const;
 };
-// As align_scans(), which moves all points by them.
+// Computes the poses with which align_scans() moves all points.
 ScanPoses find_scan_poses(const PointCloud& cloud, const Context& context);
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// Where points were measured from. Layer: shape.
+// Reads and writes the sensor positions of points. Layer: shape.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@ namespace rholm {
 
 inline constexpr std::array kSensorAxes = {"sensor_x", "sensor_y", "sensor_z"};
 
-// Per point, from the attributes of these names; empty if one is missing or a value not finite.
+// Returns the sensor of each point from these attributes; empty if one is missing or not finite.
 std::vector<Vec3> sensors_of(const PointCloud& cloud);
-// Sets the attributes that there are.
+// Sets the attributes with these names that exist.
 void set_sensors(PointCloud& cloud, const std::vector<Vec3>& sensors);
 
 }  // namespace rholm

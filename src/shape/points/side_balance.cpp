@@ -11,16 +11,16 @@ namespace rholm {
 namespace {
 
 constexpr std::size_t kAreaSeeds = 2000;  // chosen: volumes to 2 % of area times size
-// Squared, the disc around a point to its eighth neighbour stands for eight points' areas.
+// The squared distance to the eighth neighbour is the area of eight points, up to a factor.
 constexpr std::size_t kDisc = 8;
-// An outlier far from all others stands for no more of the surface than this many typical points;
-// where density falls 30 times, the sparse end's stand for 5.
+// Largest area of a point, in medians: it limits an outlier far from all others. Where the density
+// falls 30 times, points of the sparse end have 5 medians.
 constexpr double kMostOfMedian = 10;
-// Of a closed surface the mean normal is zero, of half a sphere 0.5. Below this at most a fifth of
-// a sphere is missing.
+// Largest length of the mean normal of a nearly closed surface: at most a fifth of a sphere is
+// missing. It is zero for a closed surface and 0.5 for half a sphere.
 constexpr double kNearlyClosed = 0.2;
-// Standard deviations that a volume is below zero (chosen: a solid that has none by chance, one in
-// thirty thousand).
+// Least standard deviations of a volume below zero (chosen: by chance, once
+// in thirty thousand solids).
 constexpr double kSure = 4;
 
 }  // namespace
@@ -33,7 +33,7 @@ SideBalance balance_sides(const PointTree& tree, std::span<const Vec3> points,
     std::vector<Neighbor> near;
     for (std::size_t j = begin; j < end; ++j) {
       tree.nearest_to(j * n / seeds, kDisc + 1, near);
-      areas[j] = near.back().distance2;  // to a common factor
+      areas[j] = near.back().distance2;  // up to a common factor
     }
   });
   std::vector<Vec3> some, some_normals;

@@ -1,4 +1,4 @@
-// Points whose normals point the wrong way. Layer: shape.
+// Detects points whose normals point the wrong way. Layer: shape.
 #pragma once
 
 #include <span>
@@ -11,18 +11,18 @@
 namespace rholm {
 
 struct SideBalance {
-  // Normals of points all around a solid point into it: the volume by the theorem of Gauss is
-  // negative by more than chance makes it. False where points do not surround anything.
+  // True if normals all around a solid point inwards: the volume (Gauss) is negative by more than
+  // chance. False if points do not surround anything.
   bool inwards = false;
-  // Length of the mean normal: 0 of a closed surface, 1/2 of half a sphere, 1 of a plane.
+  // Length of the mean normal: 0 for a closed surface, 1/2 for half a sphere, 1 for a plane.
   double one_sided = 1;
 };
 
-// Unit normals and points in the order of the tree.
+// Takes points and unit normals in the order of the tree.
 SideBalance balance_sides(const PointTree& tree, std::span<const Vec3> points,
                           std::span<const Vec3> normals, const Context& context);
 
-// Of some points, with the area that each stands for, to a common factor.
+// Takes some points, and the relative area that each one stands for.
 SideBalance balance_of(std::vector<double> areas, std::span<const Vec3> points,
                        std::span<const Vec3> normals);
 

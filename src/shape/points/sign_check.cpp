@@ -17,31 +17,31 @@
 namespace rholm {
 namespace {
 
-// Two walls: standard errors of the mean height, and its least share of the mean length of edges
-// (chosen).
+// Limits for two walls: standard errors of the mean height, and its least share of the
+// mean edge length (chosen).
 constexpr double kWalls = 4, kLeastWall = 0.03;
-// Edges that turn a piece, or tell two walls: one or two may be chance, at corners, and the
-// standard error of one height is 0. The same for a point that contradicts its neighbours.
+// Least number of edges that flip a piece or prove two walls. One or two may occur by chance at
+// corners, and the standard error of one height is 0. It also applies to contradicting points.
 constexpr std::uint32_t kFewestVotes = 3;
-// Share of the edges between two pieces that turns one: at tips thinner than the spacing few
-// edges contradict.
+// Least share of the edges between two pieces that flips one. At tips thinner than the
+// spacing, few edges contradict.
 constexpr double kLeastShare = 0.34;
-// Edges of a point, twice: what undecided edges are divided by.
+// Twice the number of edges of a point: the divisor that converts undecided edges to points.
 constexpr double kEdgesOfPoint = 10;
 
-// Winding numbers are asked behind and before a point, and their mean is 1/2 where the sign is
-// right. From here on it is nearer to what is wrong, -1/2 or 3/2.
+// Limit of the mean of the winding numbers behind and before a point, relative to 1/2, the value of
+// a right sign. Beyond the limit it is nearer to a wrong value, -1/2 or 3/2.
 constexpr double kInward = 0.75;
-constexpr std::size_t kLeastPart = 30;  // samples of a component that has a say
-constexpr double kClosed = 0.2;         // length of the mean normal, at most: side_balance.cpp
-constexpr double kOpen = 0.25;  // mean error of the winding numbers of what bounds a body by itself
-constexpr double kMost = 0.6;   // share of the area of a component that is turned
-constexpr int kRounds = 16;     // components that are turned, at most
+constexpr std::size_t kLeastPart = 30;  // least number of samples of a component that may flip
+constexpr double kClosed = 0.2;         // largest length of the mean normal: side_balance.cpp
+constexpr double kOpen = 0.25;          // mean error of the winding numbers of a body's surface
+constexpr double kMost = 0.6;           // share of the area of a component that is flipped
+constexpr int kRounds = 16;             // largest number of components that are flipped
 
-// Creases between pieces, where noise hides which way the surface bends: mean agreement of the
-// edges, and how many standard errors it is from zero.
+// Limits for creases between pieces, where noise hides the bend of the surface: mean agreement of
+// the edges, and its distance from zero in standard errors.
 constexpr double kBend = 0.1, kSureBend = 4;
-// Share of turned points from which creases that stay undecided are told.
+// Share of flipped points above which undecided creases are reported.
 constexpr double kManyTurned = 0.02;
 
 bool is_decided(const Moments& votes, double edges) {
@@ -61,7 +61,7 @@ std::vector<std::uint32_t> wholes_of(const AllPieces& all) {
   return whole;
 }
 
-// Of wholes.
+// Returns the pairs of pieces as pairs of wholes.
 std::vector<PiecePair> pairs_of_wholes(const AllPieces& all,
                                        const std::vector<std::uint32_t>& whole) {
   std::vector<PiecePair> pairs = all.pairs;
@@ -73,7 +73,7 @@ std::vector<PiecePair> pairs_of_wholes(const AllPieces& all,
   return pairs;
 }
 
-// The winding numbers of some samples behind and before each of them.
+// Winding numbers behind and before each sample, of all samples.
 struct BothSides {
   double behind = 0, before = 0;
   double mean() const { return (behind + before) / 2; }
@@ -98,8 +98,8 @@ std::vector<BothSides> ask_both_sides(std::span<const SignSample> samples, doubl
   return sides;
 }
 
-// Whether points bound a body by themselves: behind or before them the winding number of these
-// points alone is 0, and it is 1 or -1 on the other side.
+// Returns true if points bound a body by themselves. Then the winding number of these points alone
+// is 0 on one side, and 1 or -1 on the other.
 bool bound_a_body(std::span<const SignSample> samples, double scatter, const Context& context) {
   double off = 0;
   for (const BothSides& s : ask_both_sides(samples, scatter, context)) {
@@ -110,8 +110,8 @@ bool bound_a_body(std::span<const SignSample> samples, double scatter, const Con
   return off < kOpen * static_cast<double>(samples.size());
 }
 
-// Per whole that contradicts others: whether it bounds a body. Bodies that touch contradict each
-// other where they do, and none is to be turned for that.
+// Returns for each whole that contradicts others: 1 if it bounds a body. Bodies that touch
+// contradict each other there, which is no reason to flip one.
 std::vector<std::uint8_t> find_closed(const std::vector<PiecePair>& pairs,
                                       const std::vector<std::uint32_t>& whole,
                                       std::span<const SignSample> samples, double scatter,
@@ -136,7 +136,7 @@ std::vector<std::uint8_t> find_closed(const std::vector<PiecePair>& pairs,
   return closed;
 }
 
-// Pieces turned to agree, the most decided ones first.
+// Flips pieces to agree, in descending order of their contradicting edges.
 SignedSets join_pieces(std::vector<PiecePair> pairs, const std::vector<std::uint32_t>& whole,
                        const std::vector<std::uint8_t>& closed) {
   SignedSets sets(whole.size());
@@ -152,7 +152,7 @@ SignedSets join_pieces(std::vector<PiecePair> pairs, const std::vector<std::uint
   return sets;
 }
 
-// What creases join. Returns the number of edges at creases that stay undecided.
+// Joins pieces across creases. Returns the number of edges at creases that stay undecided.
 double join_at_creases(const std::vector<PiecePair>& pairs, SignedSets& sets) {
   std::vector<PiecePair> votes;
   for (PiecePair pair : pairs) {
@@ -178,7 +178,7 @@ double join_at_creases(const std::vector<PiecePair>& pairs, SignedSets& sets) {
   return undecided;
 }
 
-// In every set the fewer points are turned.
+// Flips the smaller number of points in every set.
 void turn_fewer(const AllPieces& all, SignedSets& sets, SignCheck& check) {
   const std::size_t n = all.own.size();
   std::vector<std::array<std::uint64_t, 2>> sizes(n);
@@ -213,7 +213,7 @@ SideBalance balance_of_samples(std::span<const SignSample> samples) {
 
 bool faces_inward(double mean_winding) { return std::abs(mean_winding - 0.5) > kInward; }
 
-// What the samples of a component say together.
+// Sums over the samples of a component.
 struct Part {
   double area = 0, inward = 0;
   Vec3 normal;
@@ -249,7 +249,7 @@ SignCheck check_signs(const AllPieces& all, std::span<const SignSample> samples,
   SignedSets sets = join_pieces(pairs, check.whole, closed);
   const double undecided = join_at_creases(pairs, sets);
   turn_fewer(all, sets, check);
-  // Between the sides of a crease nothing is known: it may be that one is to be turned, too.
+  // Signs between the sides of an undecided crease are not known: one side may need a flip too.
   const auto n =
       static_cast<double>(std::accumulate(all.own.begin(), all.own.end(), std::uint64_t{0}));
   if (static_cast<double>(check.n_turned) > kManyTurned * n) {
@@ -330,7 +330,7 @@ SideCheck check_sides(std::vector<SignSample> samples, std::span<const std::uint
     const auto n = static_cast<double>(samples.size());
     check.inward = n > 0 ? static_cast<double>(inward) / n : 0;
     if (parts.size() < 2 || round == kRounds) return check;
-    // The largest first: what is inside it is asked again.
+    // Flips the largest first, because this changes the winding numbers inside it.
     std::size_t largest = 0;
     for (std::size_t k = 1; k < parts.size(); ++k) {
       const auto rank = [&](std::size_t p) {

@@ -10,12 +10,12 @@
 namespace rholm {
 namespace {
 
-// Cosine of 45 degrees: what noise of normals and the bend of the surface leave.
+// Cosine of 45 degrees, which allows for noise of normals and for curvature.
 constexpr double kSure = 0.7;
-// Height of one end above the other, in lengths of the edge (chosen). The longest edges have two
-// spacings: walls 0.4 spacings apart are told edge by edge, nearer walls by means over many edges.
+// Largest height of one end above the other, in edge lengths (chosen). The longest edges have two
+// spacings: single edges detect walls 0.4 spacings apart, means over many edges nearer walls.
 constexpr double kLevel = 0.2;
-// Points that tell the scatter.
+// Number of points from which the scatter is computed.
 constexpr std::size_t kSeeds = 2000;
 // Cosine of 37 degrees: two faces that meet at an obtuse angle of 143 degrees (chosen).
 constexpr double kCrease = 0.8;

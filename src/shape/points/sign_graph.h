@@ -1,9 +1,9 @@
-// Edges between neighbours that say whether the signs of their normals agree. Layer: shape.
+// Finds edges between neighbours that tell whether the signs of their normals agree. Layer: shape.
 //
-// An edge of the graph of neighbours says that its ends agree, or that they contradict each other,
-// where the normal of one end, reflected in the plane that halves the edge, is nearly that of the
-// other, or nearly its opposite (orient_graph.h), and where the edge lies within the surface: no
-// end is above the other.
+// The normal of one end is reflected in the plane that halves the edge (orient_graph.h). The ends
+// agree if the result is nearly the normal of the other end, and contradict each other if it is
+// nearly opposite. An edge counts only if it lies within the surface: neither end is above the
+// other along their normals.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +23,13 @@ enum class Says : std::int8_t { kNothing = 0, kAgree = 1, kContradict = -1 };
 
 struct SignEdge {
   Says says = Says::kNothing;
-  float height = 0;  // of the end above the begin, along their normals, in lengths of the edge
+  float height = 0;  // height of the end over the begin along their normals, in edge lengths
 };
 
 class SignGraph {
  public:
-  // Points and unit normals (zero: of no say) in the order of the tree. Edges that begin at points
-  // which are `foreign`, if there are any, say nothing. `neighbors` are graph_neighbors().
+  // Takes points and unit normals (zero: no vote) in the order of the tree. `foreign` (may be
+  // empty) flags points where edges begin that have no vote. `neighbors` are graph_neighbors().
   SignGraph(std::vector<std::uint32_t> neighbors, std::span<const Vec3> points,
             std::span<const Vec3> normals, std::span<const std::uint8_t> foreign,
             const Context& context);
@@ -42,11 +42,11 @@ class SignGraph {
   }
   std::uint32_t to(std::size_t e) const { return neighbors_[e]; }
   const SignEdge& operator[](std::size_t e) const { return edges_[e]; }
-  // Median height of neighbours above the tangent planes of points.
+  // Returns the median height of neighbours above the tangent planes of points.
   double scatter() const { return scatter_; }
-  // Whether the normals of the ends are far apart, as they are on two sides of a crease.
+  // Returns true if the normals of the ends differ as on two sides of a crease.
   bool is_crease(std::size_t e) const;
-  // agreement() of the ends, without slack.
+  // Returns agreement() of the ends without slack.
   double agreement_at(std::size_t e) const;
 
  private:
@@ -60,7 +60,7 @@ class SignGraph {
   double scatter_ = 0;
 };
 
-// Heights within so many times their median are the noise of the points (chosen: 2 standard
+// Heights up to this many times their median are noise of the points (chosen: 2 standard
 // deviations of Gaussian noise).
 inline constexpr double kNoiseOfScatter = 3;
 

@@ -12,10 +12,10 @@
 namespace rholm {
 namespace {
 
-// A point has ten edges and each edge two ends: their values are not independent.
+// Number of edges per point, with dependent values: a point has ten edges, and an edge two ends.
 constexpr double kEdgesOfPoint = 5;
 
-// Numbers of pieces by their first points, of points that an own one reaches.
+// Numbers the pieces in the order of first points, among points reached from own points.
 void number_pieces(const SignGraph& graph, std::span<const std::uint8_t> foreign,
                    DisjointSets& sets, SignPieces& pieces) {
   const std::size_t n = graph.n_points();
@@ -23,7 +23,7 @@ void number_pieces(const SignGraph& graph, std::span<const std::uint8_t> foreign
   for (std::size_t e = 0; e < graph.size() && !foreign.empty(); ++e) {
     if (foreign[graph.from(e)] == 0) reached[graph.from(e)] = reached[graph.to(e)] = 1;
   }
-  // The first point of a set may be one that is foreign; it is reached if its set is held together.
+  // The first point of a set may be foreign; it is reached if its set is held together.
   pieces.piece.assign(n, kNoPiece);
   for (std::uint32_t i = 0; i < n; ++i) {
     if (reached[i] == 0) continue;
@@ -80,7 +80,7 @@ SignPieces find_sign_pieces(const PointTree& tree, std::span<const Vec3> points,
   number_pieces(graph, foreign, sets, pieces);
   for (std::size_t e = 0; e < graph.size(); ++e) {
     poll();
-    if (graph[e].says == Says::kAgree) continue;  // within a piece
+    if (graph[e].says == Says::kAgree) continue;  // the edge is within a piece
     const std::uint32_t i = graph.from(e), j = graph.to(e);
     if (!foreign.empty() && foreign[i] != 0) continue;
     const bool contradicts = graph[e].says == Says::kContradict;

@@ -1,8 +1,8 @@
-// Points whose signs hold together, and what such pieces say of each other. Layer: shape.
+// Finds pieces, which are sets of points with consistent signs, and how they agree. Layer: shape.
 //
-// Edges that agree (sign_graph.h) hold pieces together; a piece is turned as a whole. Points may
-// come in parts, as the tiles of a large cloud: each part looks at the edges that begin at its own
-// points, and what is found for all parts together is what one part of all points would find.
+// Edges that agree (sign_graph.h) join points to pieces; a piece is flipped as a whole. Points may
+// come in parts, such as the tiles of a large cloud. Each part tests the edges that begin at its
+// own points. The result for all parts together equals the result for one part with all points.
 #pragma once
 
 #include <cstddef>
@@ -24,38 +24,38 @@ struct Moments {
   void add(double value) { n += 1, sum += value, squares += value * value; }
   void add(const Moments& other) { n += other.n, sum += other.sum, squares += other.squares; }
   double mean() const { return sum / n; }
-  // Standard errors that the mean is from zero, of values that edges have.
+  // Returns the distance of the mean from zero, in standard errors, for values of edges.
   double significance() const;
 };
 
-// What the edges between two pieces, or within one, say together.
+// Sums over the edges between two pieces, or within one piece.
 struct PiecePair {
   std::uint32_t a = 0, b = 0;  // a <= b
-  double edges = 0;            // all edges between two pieces; within one, those that contradict
-  Moments heights;             // of edges that contradict
+  double edges = 0;            // all edges between two pieces; contradicting ones within one
+  Moments heights;             // heights of contradicting edges
   Moments bends;               // agreements of edges across a crease between two pieces
 };
-// Makes one pair of those of the same pieces, in the order of pieces.
+// Joins pairs of equal pieces to one pair each, and sorts them by pieces.
 void merge(std::vector<PiecePair>& pairs);
 
 // Pieces of one part.
 struct SignPieces {
   struct Quarrel {
-    std::uint32_t point = 0;  // of the part's own
+    std::uint32_t point = 0;  // point of the part itself
     std::uint32_t other = 0;  // piece of the neighbour that it contradicts
   };
-  // Per point; kNoPiece for foreign points that no edge of an own point reaches. Pieces are
-  // numbered by their first points.
+  // Piece of each point; kNoPiece for foreign points that no edge from an own point reaches. Pieces
+  // are numbered in the order of their first points.
   std::vector<std::uint32_t> piece = {};
-  std::vector<std::uint64_t> own = {};  // per piece: points that are not foreign
-  std::vector<PiecePair> pairs = {};    // that have anything to say, by pieces
+  std::vector<std::uint64_t> own = {};  // per piece: number of points that are not foreign
+  std::vector<PiecePair> pairs = {};    // pairs with any votes, ordered by pieces
   std::vector<Quarrel> quarrels = {};   // by points
-  double scatter = 0;                   // as of the graph
+  double scatter = 0;                   // scatter() of the graph
 };
 inline constexpr std::uint32_t kNoPiece = ~std::uint32_t{0};
 
-// Points and unit normals (zero: of no say) in the order of the tree; points that are `foreign`, if
-// there are any, are own points of another part. `neighbors` are graph_neighbors(), or empty.
+// Takes points and unit normals (zero: no vote) in the order of the tree. `foreign` (may be empty)
+// flags own points of other parts. `neighbors` are graph_neighbors(), or empty.
 SignPieces find_sign_pieces(const PointTree& tree, std::span<const Vec3> points,
                             std::span<const Vec3> normals, const SamplingGaps& gaps,
                             std::span<const std::uint8_t> foreign, const Context& context,

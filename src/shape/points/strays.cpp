@@ -18,33 +18,33 @@ namespace rholm {
 namespace {
 
 constexpr std::size_t kEighth = 8;
-constexpr std::size_t kLinks = 8;  // half of them of the point's own row
+constexpr std::size_t kLinks = 8;  // half of them are neighbours in the point's row
 static_assert(kLinks <= kGraphNeighbors, "neighbours of the graph are enough for links");
-// Two points are of one group when they are no farther apart than so many times the way to the
-// eighth neighbour of either: 2.4 times the spacing. Of even random points one in 10^8 is alone.
+// Two points are of one group if their distance is at most this times the distance to the eighth
+// neighbour of either, 2.4 spacings. One even random point in 10^8 is alone.
 constexpr double kReach = 1.5;
-// From a point to its neighbours the spacing of a surface grows by no more. Outliers among each
-// other have ways of their own; seen from the surface they are alone.
+// Largest growth of the spacing from a point to its neighbours on a surface. Outliers have larger
+// distances among each other, but seen from the surface they are alone.
 constexpr float kGrows = 1.5f;
-constexpr int kSweeps = 40;              // 1.5^40: a hundred million times
-constexpr std::size_t kLeastGroup = 16;  // fewer points have no surface of their own
-// Groups that fill a volume: the least extent of 16 neighbours over the largest, squared, the
-// median over points. Random points of a volume have 0.37; of a sheet with noise of 0, 0.25, 0.5, 1
-// spacings 0.00, 0.03, 0.11, 0.25; groups of outliers, which are chains, have less than a whole
-// volume (0.25 misses a fifth of those that 0.2 finds).
+constexpr int kSweeps = 40;              // 1.5^40: a factor of a hundred million
+constexpr std::size_t kLeastGroup = 16;  // a smaller group has no surface of its own
+// Largest thickness of a surface: the least over the largest extent of 16 neighbours, squared,
+// median over points. Random points in a volume have 0.37. A sheet with noise of 0, 0.25, 0.5, 1
+// spacings has 0.00, 0.03, 0.11, 0.25. Groups of outliers, which are chains, have less than a
+// volume: a limit of 0.25 misses a fifth of the groups that 0.2 finds.
 constexpr std::size_t kAround = 16;
 constexpr double kVolume = 0.2;
-// Of a point alone: how far others are, in ways to their eighth neighbours; how far it is off the
-// plane of its neighbours, or these themselves, of their radius. What is sparser than its
-// surroundings and lies in their plane is no outlier.
+// Limits for single points. kFar limits the distance to other points, over the distance to their
+// eighth neighbours. kOff limits the distance from the plane of the neighbours, relative to their
+// radius. kThick limits the neighbours' squared thickness over their squared length. A sparse point
+// in the plane of its neighbours is no outlier.
 constexpr double kFar = 10;
 constexpr double kOff = 0.25;
 constexpr double kThick = 0.05;
-constexpr double kThinner =
-    1.5;  // the way to the eighth neighbour, times that of the largest group
+constexpr double kThinner = 1.5;  // distance to the eighth neighbour over that of the largest group
 constexpr std::size_t kAsked = 200;
 
-// See find_far_strays.
+// Limits of find_far_strays().
 constexpr std::size_t kBeyond = 200, kFewestForBox = 32;
 constexpr double kFarOutside = 20;
 
@@ -66,14 +66,14 @@ class Groups {
   std::vector<std::uint8_t> strays() const {
     const std::size_t n = points_.size();
     std::vector<std::uint8_t> flags(n, 0);
-    // Alone, or of a few, whatever lies around.
+    // Tests single points and small groups among all points.
     const std::vector<std::uint32_t> near = join(eighth_);
     const Members groups(near, n);
     for (std::uint32_t i = 0; i < n; ++i) {
       if (groups.size(near[i]) >= kLeastGroup) continue;
       if (is_far(i, near) || is_off(i)) flags[i] = 1;
     }
-    // Seen from the surface.
+    // Tests groups as seen from the surface.
     const std::vector<std::uint32_t> steady = join(steady_ways());
     const Members seen(steady, n);
     std::uint32_t largest = 0;
@@ -126,7 +126,7 @@ class Groups {
     });
   }
 
-  // Groups of points whose links are within reach; each has the number of its first point.
+  // Groups points whose links are within reach; a group's number is its first point.
   std::vector<std::uint32_t> join(const std::vector<float>& ways) const {
     SharedSets sets(points_.size());
     for_points([&](std::uint32_t i) {
@@ -140,7 +140,7 @@ class Groups {
     return group;
   }
 
-  // The ways to the eighth neighbours, cut to what neighbours let them grow to.
+  // Returns distances to eighth neighbours, limited to kGrows times the neighbours' distances.
   std::vector<float> steady_ways() const {
     std::vector<float> ways = eighth_, shorter = ways;
     std::atomic<bool> changed = true;
@@ -157,7 +157,7 @@ class Groups {
     return ways;
   }
 
-  // Whether the nearest point of another group is so far that its neighbours seem one place.
+  // Returns true if the nearest point of another group is far, compared with its own neighbours.
   bool is_far(std::uint32_t i, std::span<const std::uint32_t> group_of) const {
     std::vector<Neighbor> near;
     tree_.nearest_to(i, 2 * kLeastGroup, near);
@@ -169,7 +169,7 @@ class Groups {
     return true;
   }
 
-  // Whether a point, or its neighbours, have no plane in common.
+  // Returns true if the point and its neighbours have no common plane.
   bool is_off(std::uint32_t i) const {
     std::vector<Neighbor> near;
     tree_.nearest_to(i, kAround + 1, near);
@@ -185,7 +185,7 @@ class Groups {
     return plane.height > kThick * plane.length || std::abs(dot(middle, plane.normal)) > kOff;
   }
 
-  // Some of a group, evenly spread over its points.
+  // Returns some points of a group, evenly spread.
   static std::vector<std::uint32_t> some_of(std::span<const std::uint32_t> group) {
     std::vector<std::uint32_t> some(std::min(group.size(), kAsked));
     for (std::size_t k = 0; k < some.size(); ++k) some[k] = group[k * group.size() / some.size()];
@@ -198,7 +198,7 @@ class Groups {
     return median(std::move(ways));
   }
 
-  // Whether the neighbours of its points, within the group, have no plane.
+  // Returns true if the neighbours of the group's points, within the group, have no plane.
   bool fills_volume(std::span<const std::uint32_t> group,
                     std::span<const std::uint32_t> group_of) const {
     std::vector<float> thickness;
@@ -221,11 +221,11 @@ class Groups {
   std::span<const Vec3> points_;
   const Context& context_;
   AlignedArray<std::array<Neighbor, kLinks>> links_;
-  std::vector<float> eighth_;  // the way to the eighth neighbour, between rows
+  std::vector<float> eighth_;  // distance to the eighth neighbour; in rows, to the row's stride
 };
 
-// Whether so many points are in the outer quarters of the whole box, along its longest side, that
-// the box of all but those beyond is half as long: then none is far from it.
+// Returns true if no point is far: each outer quarter of the box, along its longest side, has more
+// points than find_far_ball() leaves out. Then the box of that function is at least half as long.
 bool is_compact(std::span<const Vec3> points) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Vec3 low{kInfinity, kInfinity, kInfinity}, high = -low;

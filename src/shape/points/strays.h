@@ -1,4 +1,4 @@
-// Points far from any surface, told from places alone. Layer: shape.
+// Finds isolated points, far from any surface, from coordinates alone. Layer: shape.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace rholm {
 
-// One flag per point: 1 for those far outside the box that holds nearly all (all but one in two
-// hundred on either side), twenty diagonals from its middle. Single precision, and what a tolerance
-// relative to all points means, would suffer from them. Points need not be finite.
+// Returns one flag per point: 1 if it is farther than twenty diagonals from the middle of a box.
+// The box holds all but one in two hundred points on either side. Far points would spoil single
+// precision and tolerances relative to the extent. Points need not be finite.
 std::vector<std::uint8_t> find_far_strays(std::span<const Vec3> points);
 
-// The ball beyond which they are. Radius 0: there are none, for the points are too few or nearly
-// all at one place.
+// The ball outside of which points are isolated. Its radius is 0 if there are too few points, or
+// nearly all are at one place; then no point is isolated.
 struct FarBall {
   Vec3 middle = {};
   double radius = 0;
@@ -26,13 +26,13 @@ struct FarBall {
 };
 FarBall find_far_ball(std::span<const Vec3> points);
 
-// Once the ones found are gone, a second and a third look find those that they have hidden.
+// Number of passes. Later passes find isolated points that were hidden by ones now removed.
 inline constexpr int kStrayPasses = 3;
 
-// One flag per point, in the order of the tree: 1 for a point that is farther from the others than
-// both have neighbours, alone or in a group of a few, and for those of a group that fills a volume
-// more thinly than the largest group its surface: outliers, at any distance. Normals are not
-// needed. `neighbors`, if it is given, gets graph_neighbors(), which are found on the way.
+// Returns one flag per point, in the order of the tree: 1 for isolated points at any distance.
+// These are single points or small groups, farther from others than their neighbours are from
+// theirs. A group that fills a volume, more thinly than the largest group its surface, is flagged
+// too. Needs no normals. `neighbors`, if given, receives graph_neighbors().
 std::vector<std::uint8_t> find_strays(const PointTree& tree, std::span<const Vec3> points,
                                       const SamplingGaps& gaps, const Context& context,
                                       std::vector<std::uint32_t>* neighbors = nullptr);

@@ -1,5 +1,5 @@
-// Symmetric matrices: eigenvalues of 3 x 3, and positive definite systems of six unknowns
-// (paraboloids, rigid motions). Layer: shape.
+// Computes eigenvalues of symmetric 3 x 3 matrices, and solves positive definite systems of six
+// unknowns (paraboloids, rigid motions). Layer: shape.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ struct Eigenvalues {
   double least = 0, middle = 0, largest = 0;
 };
 
-// By the trigonometric solution of the cubic (Smith 1961). Errors are some 1e-8 of the largest
-// where the two smaller ones are nearly equal, and a few ulp elsewhere.
+// Uses the trigonometric solution of the cubic (Smith 1961). Errors are some 1e-8 of the largest
+// eigenvalue if the two smaller ones are nearly equal, and a few ulp otherwise.
 inline Eigenvalues eigenvalues(const Symmetric3& m) {
   const double mean = (m.xx + m.yy + m.zz) / 3;
   const double x = m.xx - mean, y = m.yy - mean, z = m.zz - mean;
@@ -38,8 +38,8 @@ inline constexpr int kSix = 6;
 using Vector6 = std::array<double, kSix>;
 using Matrix6 = std::array<Vector6, kSix>;
 
-// The Cholesky factor in the place of the lower triangle, all that is read; false if the matrix is
-// not positive definite.
+// Replaces the lower triangle, the only part that is read, by the Cholesky factor. Returns false if
+// the matrix is not positive definite.
 inline bool factorize(Matrix6& a) {
   for (int i = 0; i < kSix; ++i) {
     const double diagonal = a[i][i];
@@ -49,7 +49,7 @@ inline bool factorize(Matrix6& a) {
       if (i != j) {
         a[i][j] = sum / a[j][j];
       } else {
-        // Below this share of the diagonal nothing but rounding of some 30 sums is left.
+        // Below this share of the diagonal, only rounding of some 30 sums is left.
         if (!(sum > 1e-12 * diagonal)) return false;
         a[i][i] = std::sqrt(sum);
       }
@@ -58,7 +58,7 @@ inline bool factorize(Matrix6& a) {
   return true;
 }
 
-// b becomes the solution; `factor` is factorize()'s.
+// Replaces b by the solution; `factor` is the result of factorize().
 inline void solve(const Matrix6& factor, Vector6& b) {
   for (int i = 0; i < kSix; ++i) {
     for (int k = 0; k < i; ++k) b[i] -= factor[i][k] * b[k];

@@ -12,25 +12,25 @@
 namespace rholm {
 namespace {
 
-// Points that are chosen, about (chosen: the share is then exact to 0.035).
+// Approximate number of chosen points (chosen: the share is then exact to 0.035).
 constexpr double kChosen = 200;
-// Points that fill a plate of thickness T evenly have a scatter of sqrt(T^2 / 48 + (d - T / 4)^2)
-// about walls that are 2 d apart: these are at most 4.0 scatters apart, where d = T / 3. Surfaces
-// follow their points a little, and points that fill slabs and rods have walls 4 to 5.5 scatters
-// apart; so has a plate that is four deviations of Gaussian noise thick, and one of five has not
-// (tests/cli/clouds_test.py --walls).
+// Least distance of walls in scatters. Points that fill a plate of thickness T evenly have a
+// scatter of sqrt(T^2 / 48 + (d - T / 4)^2) about walls 2 d apart. Such walls are at most 4.0
+// scatters apart, for d = T / 3. Surfaces follow their points a little: filled slabs and rods have
+// 4 to 5.5 scatters. A plate four deviations of Gaussian noise thick has them too, a plate of five
+// has more (tests/cli/clouds_test.py --walls).
 constexpr double kResolved = 5.5;
-// Mean fourth power of the distances of a patch over the square of their mean square: 1.8 of points
-// that fill a shell evenly, 2.8 of Gaussian noise and 32 points, more where noise is not the same
-// everywhere (--walls): at most this of points that fill a volume. Their scatter is at least so
-// many spacings (chosen): points at the middles of the voxels along a surface have up to 0.5.
+// Limits for points that fill a shell or volume. kMostKurtosis: mean fourth power of a patch's
+// distances over their squared mean square. A filled shell has 1.8; Gaussian noise with 32 points
+// has 2.8, uneven noise more (--walls). kLeastScatter: least scatter in spacings (chosen), as
+// points at middles of voxels along a surface have up to 0.5.
 constexpr double kMostKurtosis = 2.3, kLeastScatter = 0.5;
-// Patches that are looked at first, and the share of them that settles it. If half of all are off,
-// a third of 200 shows fewer than a fifth with a chance of 1 in a million.
+// Every kFirstLook-th patch is tested first; a share below kFewOff ends the check. If half of all
+// patches are off, a third of 200 shows less than a fifth once in a million times.
 constexpr std::size_t kFirstLook = 3;
 constexpr double kFewOff = 0.2;
-// Radii of a patch, and steps, within which vertices are looked for. A flat patch has a scatter of
-// at most 0.2 of its radius.
+// Distance in which vertices are sought: kReach radii of a patch and kStepsOfReach steps. A flat
+// patch has a scatter of at most 0.2 of its radius.
 constexpr double kReach = 2, kStepsOfReach = 2;
 constexpr double kOpposite = -0.3;  // cosine of the normals of two walls (chosen)
 
@@ -40,7 +40,7 @@ double reach_of(std::span<const Vec3> patch, double step) {
   return kReach * radius + kStepsOfReach * step;
 }
 
-// Which cubes of a coarse grid are within reach of patches.
+// Marks the cubes of a coarse grid that are within reach of patches.
 class ReachGrid {
  public:
   ReachGrid(const WallPatches& patches, double step) {
@@ -70,12 +70,13 @@ class ReachGrid {
   }
 
  private:
-  // Along the longest side, and in the longest reach, at most (chosen for time and memory).
+  // Largest number of cubes along the longest side, and in the longest reach (both
+  // chosen for time and memory).
   static constexpr double kCubes = 128, kCubesOfReach = 4;
 
   std::array<std::int64_t, 3> cube_of(const Vec3& place) const {
     const Vec3 at = (place - origin_) / edge_;
-    // What is far away has coordinates that no integer has.
+    // Coordinates of far places exceed every integer, so they are clamped.
     const auto whole = [](double x) {
       return static_cast<std::int64_t>(std::floor(std::clamp(x, -1.0, 1e6)));
     };
@@ -107,13 +108,13 @@ struct PatchCheck {
   double scatter = 0, kurtosis = 3;
 };
 
-// The vertices, in a tree over them.
+// The vertices of the surface, in a tree.
 class Wall {
  public:
   Wall(std::span<const WallVertex> vertices, const Context& context)
       : tree_(places_of(vertices), context), vertices_(vertices) {}
 
-  // What has no wall within reach is not resolved.
+  // Checks one patch; it stays unresolved if a point has no wall within reach.
   PatchCheck look(std::span<const Vec3> patch, double step, std::vector<Neighbor>& near) const {
     const double reach = reach_of(patch, step);
     PatchCheck check;
@@ -172,7 +173,7 @@ WallPatches choose_patches(const PointTree& tree, std::span<const Vec3> points,
     std::vector<Neighbor> near;
     for (std::size_t p = begin; p < end; ++p) {
       tree.nearest_to(chosen[p], taken, near);
-      // Fewer points than a patch has are taken twice.
+      // If there are fewer points than a patch needs, some are taken twice.
       for (std::size_t k = 0; k < kPatch; ++k) {
         patches.points[p * kPatch + k] = points[near[k * near.size() / kPatch].index];
       }

@@ -17,7 +17,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, kTreeWidth>;
 using V = hn::Vec<D>;
 
-// Below this, squares of lengths lose bits.
+// Squares of lengths below this lose bits.
 constexpr float kLeastSquare = 1e-30F;
 
 struct Vector3 {
@@ -44,7 +44,7 @@ HWY_INLINE Vector3 Cross(const Vector3& a, const Vector3& b) {
   return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
           hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
 }
-// Of unit length; 0 where the square is not above `least`.
+// Returns a vector of unit length, or 0 where the square is not above `least`.
 HWY_INLINE Vector3 Unit(D d, const Vector3& a, V least) {
   const V square = Dot(a, a);
   const V inverse = hn::Div(hn::Set(d, 1.0F), hn::Sqrt(square));
@@ -64,7 +64,7 @@ void SetPlanes(const std::array<TreeRows3, 3>& corners, PlaneGroup& planes) {
     hn::Store(hn::Min(along[0], hn::Min(along[1], along[2])), d, &planes.low[k]);
     hn::Store(Max3(along[0], along[1], along[2]), d, &planes.high[k]);
     for (int side = 0; side < 3; ++side) {
-      // The normal of a sliver may lie along its edge: what is left is not orthogonal to it.
+      // A sliver's normal may be parallel to its edge; then the cross product is not orthogonal.
       const V square = Dot(edges[side], edges[side]);
       const V least = hn::Max(hn::Mul(hn::Set(d, 0.9F), square), hn::Set(d, kLeastSquare));
       const Vector3 out = Unit(d, Cross(edges[side], normal), least);
@@ -74,7 +74,7 @@ void SetPlanes(const std::array<TreeRows3, 3>& corners, PlaneGroup& planes) {
   }
 }
 
-// Squared distances to eight boxes or triangles, and which of them are near.
+// Squared distances to eight boxes or triangles; `bits` marks the near ones.
 struct Near {
   alignas(32) TreeRow squares;
   unsigned bits = 0;
@@ -82,7 +82,7 @@ struct Near {
 
 HWY_INLINE void Note(D d, V square, float least, std::size_t k, Near& near) {
   hn::Store(square, d, &near.squares[k]);
-  std::array<std::uint8_t, 8> bits = {};  // as many as are asked for
+  std::array<std::uint8_t, 8> bits = {};  // as many bytes as Highway requires
   hn::StoreMaskBits(d, hn::Le(square, hn::Set(d, least)), bits.data());
   near.bits |= static_cast<unsigned>(bits[0]) << k;
 }
@@ -122,7 +122,7 @@ HWY_INLINE Near NearTriangles(const PlaneGroup& planes, const std::array<float, 
   return near;
 }
 
-// A node and its squared distance, which is not negative: in the order of the distance.
+// Packs a node with its squared distance >= 0, so that numbers are ordered by distance.
 HWY_INLINE std::uint64_t Waiting(float square, std::size_t node) {
   return std::uint64_t{std::bit_cast<std::uint32_t>(square)} << 32 | node;
 }

@@ -7,14 +7,14 @@ namespace {
 
 double squared(const Vec3& a) { return dot(a, a); }
 
-// Of the two shorter edges, whose cross product loses the least to cancellation.
+// Uses the two shorter edges, whose cross product loses least to cancellation.
 Vec3 triangle_normal(const std::array<Vec3, 3>& edges) {
   const double l0 = squared(edges[0]), l1 = squared(edges[1]), l2 = squared(edges[2]);
   if (l0 >= l1 && l0 >= l2) return cross(edges[1], edges[2]);
   return l1 >= l2 ? cross(edges[2], edges[0]) : cross(edges[0], edges[1]);
 }
 
-// The point of the segment from a on along an edge that is closest, in p's distance.
+// The closest point of an edge, with its squared distance from p.
 struct Foot {
   Vec3 point;
   double distance2;
@@ -33,9 +33,9 @@ Vec3 closest_point_of_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return foot_on_edge(p, a, b, b - a).point;
 }
 
-// The closest point e of the boundary first; then, if p projects into the inside, e's step onto the
-// plane's foot point. Measured from e, an error in the normal of a sliver only touches the distance
-// in proportion, and the distance can never exceed that of the boundary.
+// Finds the closest point e of the boundary first. If p projects into the triangle, it moves from e
+// to the foot point on the plane. So an error in a sliver's normal changes the distance only in
+// proportion, and the distance never exceeds the distance to the boundary.
 Vec3 closest_point_of_triangle(const Vec3& p, const std::array<Vec3, 3>& corners) {
   const auto& [a, b, c] = corners;
   const std::array<Vec3, 3> edges = {b - a, c - b, a - c};
@@ -51,7 +51,7 @@ Vec3 closest_point_of_triangle(const Vec3& p, const std::array<Vec3, 3>& corners
     if (dot(cross(normal, edges[k]), p - corners[k]) < 0) return best.point;
   }
   const Vec3 foot = p - (dot(normal, p - best.point) / normal2) * normal;
-  return squared(p - foot) <= best.distance2 ? foot : best.point;  // also if foot has overflowed
+  return squared(p - foot) <= best.distance2 ? foot : best.point;  // also if foot overflows
 }
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// The point of a triangle that is closest to a given point, safe for degenerate triangles.
+// Computes the closest point of a triangle to a given point, safe for degenerate triangles.
 #pragma once
 
 #include <array>
@@ -7,13 +7,13 @@
 
 namespace rholm {
 
-// Corners and point should be of the order of 1 (squares of squares are formed). For a triangle
-// without area the closest point of its three edges; no division by zero for any input. The error
-// of the distance |p - result| is a few roundings of the largest coordinate; of a sliver with
-// smallest angle alpha it is at most 2^-52 / alpha of the distance itself.
+// Needs corners and point of order 1, because it forms squares of squares. For a triangle without
+// area it returns the closest point of its edges; no input causes a division by zero. The error of
+// the distance |p - result| is a few roundings of the largest coordinate. For a sliver with
+// smallest angle alpha it is at most 2^-52 / alpha times the distance.
 Vec3 closest_point_of_triangle(const Vec3& p, const std::array<Vec3, 3>& corners);
 
-// The point of the segment from a to b that is closest to p.
+// Returns the point of the segment from a to b that is closest to p.
 Vec3 closest_point_of_segment(const Vec3& p, const Vec3& a, const Vec3& b);
 
 }  // namespace rholm

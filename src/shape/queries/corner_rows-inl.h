@@ -1,10 +1,10 @@
-// Corners of triangles of a MeshView as vectors of double precision; for inner loops, included once
-// for every kind of processor (Highway).
+// Loads corners of triangles of a MeshView as vectors of double precision. For inner loops;
+// included once for every kind of processor (Highway).
 //
-// Corners are loaded row by row, x, y, z of a vertex at a time, and turned into vectors of x, of y
-// and of z in registers: a third of the loads of a gather, and where gathers are slow (measured on
-// a Cascade Lake with the mitigation of gather data sampling: 13 ns a triangle) a quarter of their
-// time.
+// Corners are loaded row by row, x, y, z of one vertex at a time. They are turned into vectors of
+// x, y and z in registers. This needs a third of the loads of a gather, and a quarter of the time
+// where gathers are slow. Gathers take 13 ns a triangle on a Cascade Lake with the mitigation of
+// gather data sampling (measured).
 #if defined(RHOLM_SHAPE_CORNER_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RHOLM_SHAPE_CORNER_ROWS_INL_H_
 #undef RHOLM_SHAPE_CORNER_ROWS_INL_H_
@@ -43,18 +43,18 @@ HWY_INLINE Vector3 Cross(const Vector3& a, const Vector3& b) {
           hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
 }
 
-// Corner k of triangles lies at `indices + triangle * mesh.triangle_stride`, indices =
-// mesh.triangles + 4 k.
+// Returns the row of a vertex. The index of corner k is at `indices + triangle *
+// mesh.triangle_stride`, where indices = mesh.triangles + 4 k.
 HWY_INLINE const std::byte* Row(const MeshView& mesh, const std::byte* index) {
   std::uint32_t i;
   std::memcpy(&i, index, sizeof i);
   return mesh.vertices + i * mesh.vertex_stride;
 }
 
-// Bytes of triangles asked for ahead of the one looked at: a tenth of a large mesh's pass
-// (scripts/constants).
+// Number of bytes of triangles prefetched ahead; saves a tenth of a pass over a large
+// mesh (scripts/constants).
 constexpr std::size_t kFarAhead = 2048;
-// Returns the largest index of the triangles [begin, end), and asks for their corners.
+// Returns the largest index of the triangles [begin, end), and prefetches their corners.
 HWY_INLINE std::uint32_t LookAhead(const MeshView& mesh, std::size_t begin, std::size_t end) {
   if (begin == end) return 0;
   using Four [[gnu::vector_size(16)]] = std::uint32_t;
@@ -62,7 +62,7 @@ HWY_INLINE std::uint32_t LookAhead(const MeshView& mesh, std::size_t begin, std:
   const std::size_t stride = mesh.triangle_stride, vertex_stride = mesh.vertex_stride;
   const std::byte* const vertices = mesh.vertices;
   const std::byte* at = mesh.triangles + begin * stride;
-  // One load each, but for the last, behind which there may be nothing.
+  // Loads 16 bytes per triangle, except for the last one, behind which the memory may end.
   for (const std::byte* const last = at + (end - 1 - begin) * stride; at != last; at += stride) {
     std::memcpy(&corners, at, 16);
     largest = largest > corners ? largest : corners;
@@ -74,7 +74,7 @@ HWY_INLINE std::uint32_t LookAhead(const MeshView& mesh, std::size_t begin, std:
   return HWY_MAX(largest[0], HWY_MAX(largest[1], largest[2]));
 }
 
-// For any number of triangles up to a vector's; missing ones repeat the last.
+// Loads up to a vector's number of triangles; missing ones repeat the last.
 template <class T>
 HWY_INLINE Vector3 LoadFew(D d, const MeshView& mesh, const std::byte* indices, std::size_t n) {
   alignas(64) double rows[3][hn::MaxLanes(d)];
@@ -86,7 +86,7 @@ HWY_INLINE Vector3 LoadFew(D d, const MeshView& mesh, const std::byte* indices, 
   return {hn::Load(d, rows[0]), hn::Load(d, rows[1]), hn::Load(d, rows[2])};
 }
 
-// Coordinates as they are in the file, of twice as many triangles as a vector of doubles takes.
+// Coordinates in the mesh's own precision, of twice as many triangles as a vector of doubles has.
 using DF = hn::CappedTag<float, 16>;
 struct FloatRows {
   hn::Vec<DF> x, y, z;
@@ -122,7 +122,7 @@ HWY_INLINE Vector3 Upper(D d, const FloatRows& rows) {
 #if HWY_MAX_BYTES >= 32 && !HWY_HAVE_SCALABLE
 constexpr bool kWholeVectors = true;
 
-// The rows of triangles i and, in vectors of eight, i + 4; of floats 4 bytes more than the row.
+// Loads the rows of triangles i and, for vectors of eight, i + 4. It reads 4 bytes beyond a row.
 HWY_INLINE auto LoadRows(const MeshView& mesh, const std::byte* indices, std::size_t i, float) {
   const hn::FixedTag<float, 4> d4;
   const auto load = [&](std::size_t j) HWY_ATTR {
@@ -148,7 +148,7 @@ HWY_INLINE Vector3 LoadWhole(D d, const MeshView& mesh, const std::byte* indices
           hn::PromoteTo(d, hn::InterleaveUpper(df, even, odd)), hn::PromoteTo(d, z)};
 }
 
-// Rows i, i + 4, i + 8, i + 12 or as many as there are.
+// Loads the rows i, i + 4, and with vectors of 16 also i + 8 and i + 12.
 HWY_INLINE auto LoadManyRows(const MeshView& mesh, const std::byte* indices, std::size_t i) {
   const hn::FixedTag<float, 4> d4;
   const hn::FixedTag<float, 8> d8;
@@ -174,7 +174,7 @@ HWY_INLINE FloatRows LoadWholeRows(const MeshView& mesh, const std::byte* indice
   return {hn::InterleaveLower(df, even, odd), hn::InterleaveUpper(df, even, odd), z};
 }
 
-// Four triangles.
+// Loads corners of four triangles.
 HWY_INLINE void LoadFour(const MeshView& mesh, const std::byte* indices,
                          hn::Vec<hn::FixedTag<double, 4>>* xyz) {
   const hn::FixedTag<double, 2> d2;

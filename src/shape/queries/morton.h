@@ -1,4 +1,4 @@
-// Places along a Morton curve: near ones are near in space as a rule.
+// Computes positions along a Morton curve: close positions are usually close in space.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace rholm {
 
 inline constexpr int kMortonLevels = 21;  // bits per axis
 
-// Every third bit.
+// Spreads the bits of v to every third bit.
 inline std::uint64_t spread_bits(std::uint64_t v) {
   v = (v | v << 32) & 0x001f00000000ffffULL;
   v = (v | v << 16) & 0x001f0000ff0000ffULL;
@@ -19,7 +19,7 @@ inline std::uint64_t spread_bits(std::uint64_t v) {
   return (v | v << 2) & 0x1249249249249249ULL;
 }
 
-// Of a point in -1 ... 1; those outside, or not finite, go to the border.
+// Returns the Morton code of a point in -1 ... 1; other points are moved to the border.
 inline std::uint64_t morton(const Vec3& x) {
   const auto cell = [](double c) {
     const double scaled = (c + 1) * (1 << (kMortonLevels - 1));

@@ -10,20 +10,20 @@
 namespace rholm {
 namespace {
 
-// Cells along the longest side of the balls' box and around it: 2 MiB of bits, which a processor
-// keeps near, and coordinates of a byte.
+// Number of cells along the longest side of the balls' box and its border: 2 MiB of bits, which fit
+// into a processor's cache, and coordinates of one byte.
 constexpr int kFinest = 256, kCoarsest = 16;
-// Around the box: cells of what is outside, and those next to a ball.
+// Cells around the box: one for all places outside, and one next to the balls' cells.
 constexpr int kBorder = 2;
-// Balls that fill more cells than this, on average, get larger ones (chosen: a millisecond for
-// thousands of balls).
+// Largest mean number of cells of a ball; above it, cells become larger (chosen: a
+// millisecond for thousands of balls).
 constexpr double kCellsOfBall = 64;
-// A face that would be looked up in more cells is taken unseen.
+// A face that covers more cells is taken without a test.
 constexpr int kCellsOfFace = 512;
-// Beyond the radius, for the rounding of corners near 1.
+// Margin of the radius for the rounding of corners near 1.
 constexpr double kRounding = 1e-12;
 
-// Along x, y and z.
+// Indices of a cell along x, y and z.
 using Cell = std::array<std::uint8_t, 3>;
 
 struct CellRange {
@@ -43,7 +43,7 @@ struct CellRange {
   }
 };
 
-// A bit for each cell.
+// One bit for each cell.
 class Marks {
  public:
   explicit Marks(int n) : n_(n), words_(static_cast<std::size_t>(n) * n * n / 64) {}
@@ -60,7 +60,7 @@ class Marks {
   }
 
  private:
-  // Calls look(word, bit) until it says true; whether it did.
+  // Calls look(word, bit) until it returns true; returns true if it did.
   template <typename Look>
   bool visit(const CellRange& cells, const Look& look) const {
     for (int i = cells.first[0]; i <= cells.last[0]; ++i) {
@@ -78,13 +78,13 @@ class Marks {
   std::vector<std::uint64_t> words_;
 };
 
-// Where a vertex is, in four bytes.
+// The cell of a vertex, in four bytes.
 struct PlacedVertex {
   Cell cell;
   bool near;  // a ball touches the cell or one next to it
 };
 
-// A grid over the balls. What lies outside is in cells of its border, which no ball is near.
+// A grid over the balls. Places outside are in cells of its border, which no ball touches.
 class BallGrid {
  public:
   explicit BallGrid(const Balls& balls) {
@@ -120,8 +120,8 @@ class BallGrid {
     const Cell cell = cell_of(x);
     return {cell, near_.any({cell, cell})};
   }
-  // Whether a ball may touch a face. If none is near a corner, and the corners' cells are next to
-  // each other, none is in the cells that the face meets.
+  // Returns true if a ball may touch the face. If no ball is near corner a, and the cells of b and
+  // c are next to its cell, no ball is in a cell of the face.
   bool may_touch(const PlacedVertex& a, const PlacedVertex& b, const PlacedVertex& c) const {
     CellRange range = {a.cell, a.cell};
     range.add(b.cell);
@@ -150,7 +150,7 @@ class BallGrid {
   Vec3 low_;
   int n_ = 0;
   double per_length_ = 0;
-  Marks touched_{0}, near_{0};  // cells that a ball touches; with those next to them
+  Marks touched_{0}, near_{0};  // cells that a ball touches; with adjacent ones
 };
 
 }  // namespace

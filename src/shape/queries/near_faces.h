@@ -1,4 +1,4 @@
-// The faces of a mesh that have the closest points to a few balls' centres, without a tree of all.
+// Finds the faces of a mesh with the closest points to the centres of some balls, without a tree.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace rholm {
 
-// Balls that reach the surface: its closest point to a centre is within the ball's radius.
+// Balls that reach the surface: the closest point to a centre is within the ball's radius.
 struct Balls {
   std::vector<Vec3> centers;
   std::vector<double> radii;
@@ -20,9 +20,9 @@ struct Balls {
   }
 };
 
-// All faces that touch a ball and some more, in their order, with corners of their own at
-// scale (v - origin), the coordinates of the balls. Where balls are small against the mesh, a
-// TriangleTree of them is made in a small part of the time that one of the whole mesh takes.
+// Returns all faces that touch a ball and some others, in their order. Each face has its own
+// corners at scale (v - origin), the coordinates of the balls. If balls are small against the mesh,
+// a TriangleTree of the result takes a small part of the time of a tree of the whole mesh.
 Mesh faces_near(const MeshView& mesh, const Vec3& origin, double scale, const Balls& balls,
                 const Context& context);
 

@@ -1,5 +1,5 @@
-// Embree 3 (https://www.embree.org) keeps the tree and walks it. What it sees are float
-// coordinates in the mesh's UnitFrame, at most 1 in modulus.
+// Traces rays with Embree 3 (https://www.embree.org), which builds and walks the tree. Its
+// coordinates are floats in the mesh's UnitFrame, at most 1 in modulus.
 #include "shape/queries/ray_scene.h"
 
 #include <embree3/rtcore.h>
@@ -45,8 +45,8 @@ using Device = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
 using Scene = std::unique_ptr<RTCSceneTy, SceneDeleter>;
 using Geometry = std::unique_ptr<RTCGeometryTy, GeometryDeleter>;
 
-// Embree's question whether to go on building; it comes from threads of its own, too, which have no
-// scope, or another caller's.
+// Answers Embree whether to continue building. Embree also asks on threads of its own, which have
+// no scope, and on threads with another caller's scope.
 bool keep_building(void* scope, double) {
   return scope != cancel_scope() || static_cast<const CancelScope*>(scope)->keep_going();
 }
@@ -136,7 +136,7 @@ void RayScene::Impl::build(int threads) {
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene.get(), geometry.get());
   }
-  // Robust: rays do not slip through shared edges. The filters below travel with each query.
+  // RTC_SCENE_FLAG_ROBUST: no ray slips through a shared edge. Filters are set for each query.
   rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
                                                            RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
   rtcSetSceneBuildQuality(scene.get(), quality);
@@ -144,7 +144,7 @@ void RayScene::Impl::build(int threads) {
     rtcSetSceneProgressMonitorFunction(scene.get(), &keep_building,
                                        const_cast<CancelScope*>(scope));
   }
-  // Embree's loops would look for work on every processor.
+  // Limits the threads: Embree's loops would look for work on every processor.
   run_limited(threads, [&] { rtcCommitScene(scene.get()); });
   const RTCError error = rtcGetDeviceError(device.get());
   if (error != RTC_ERROR_NONE) throw_embree_error(error, "building the search tree");
@@ -177,9 +177,9 @@ RayScene::~RayScene() = default;
 
 namespace {
 
-constexpr std::size_t kPacket = 8;  // rays at once, as AVX2 has floats
+constexpr std::size_t kPacket = 8;  // rays in one call, as many as floats in an AVX2 vector
 
-// Embree's context with our own data behind it, for each of the rays that are traced together.
+// Embree's context, followed by our own data for each of the rays that are traced together.
 template <std::size_t kRays>
 struct FirstHitContext {
   RTCIntersectContext base;
@@ -191,8 +191,8 @@ struct FirstHitContext {
   }
 };
 
-// Of several triangles at the same distance (a shared edge) the smallest index wins, whatever the
-// order of the tree.
+// If several triangles have the same distance (a shared edge), the smallest index wins,
+// whatever the order of the tree.
 template <unsigned kRays>
 void prefer_smaller_index(const RTCFilterFunctionNArguments* args) {
   auto& first = *reinterpret_cast<FirstHitContext<kRays>*>(args->context);
@@ -242,7 +242,7 @@ struct AllHitsContext {
   std::vector<std::uint32_t> triangles;
 };
 
-// Notes the triangle and refuses the hit, so that the ray goes on.
+// Stores the triangle and rejects the hit, so that the ray continues.
 void note_triangle(const RTCFilterFunctionNArguments* args) {
   auto& all = *reinterpret_cast<AllHitsContext*>(args->context);
   all.triangles.push_back(reinterpret_cast<const RTCHit*>(args->hit)->primID);
@@ -267,7 +267,7 @@ bool RayScene::occluded(const Vec3& origin, const Vec3& direction, double near, 
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded1(impl_->scene.get(), &context, &query);
-  return query.tfar < 0;  // Embree's sign for occluded
+  return query.tfar < 0;  // Embree's mark of an occluded ray
 }
 
 std::vector<RayHit> RayScene::first_hits(std::span<const Ray> rays) const {

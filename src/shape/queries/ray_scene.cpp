@@ -1,4 +1,4 @@
-// What both ways of tracing rays have in common: crossings in double precision.
+// Computes crossings in double precision, which both ways of tracing rays have in common.
 #include "shape/queries/ray_scene.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Distance along the ray to the plane of a triangle that the ray meets: the float hit is good to
-// 1e-7 of the mesh's size only, which is too near to the 1e-6 that tell hits apart.
+// Returns the distance along the ray to the plane of a triangle that the ray meets. The float hit
+// is exact only to 1e-7 of the mesh's size, too close to the 1e-6 that separates hits.
 double plane_distance(const std::array<Vec3, 3>& corners, const Vec3& origin,
                       const Vec3& direction) {
   const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);

@@ -1,5 +1,5 @@
-// Rays without Embree: the boxes of a TriangleTree, and triangles met as Woop, Benthin and Wald do
-// it (Watertight Ray/Triangle Intersection, Journal of Computer Graphics Techniques 2, 2013).
+// Traces rays without Embree: through boxes of a TriangleTree, and triangles as Woop, Benthin, Wald
+// do (Watertight Ray/Triangle Intersection, Journal of Computer Graphics Techniques 2, 2013).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,9 +14,9 @@ namespace {
 
 using Components = std::array<double, 3>;
 
-constexpr float kRounding = 0x1p-24F;  // of a float, relative
-// Beyond this float boxes cannot tell triangles apart: every one is tried. Products in near_boxes()
-// stay below 2^128.
+constexpr float kRounding = 0x1p-24F;  // relative rounding of a float
+// Farther away, float boxes cannot separate triangles, and every triangle is tried. Products in
+// enter_boxes() stay below 2^128.
 constexpr double kFarthest = 0x1p50;
 
 Components components(const Vec3& v) { return {v.x, v.y, v.z}; }
@@ -40,8 +40,8 @@ struct Hit {
 
 // --- What a ray meets ----------------------------------------------------------------------
 
-// The ray is laid along an axis by a shear: edges are then lines in a plane, past which the origin
-// lies on one side or the other.
+// Shears space so that the ray is along an axis. Edges become lines in a plane, and the origin
+// lies on one of their sides.
 class TriangleRay {
  public:
   TriangleRay(const Vec3& origin, const Vec3& direction) : origin_(origin) {
@@ -54,12 +54,12 @@ class TriangleRay {
     shear_x_ = d[x_] / d[z_], shear_y_ = d[y_] / d[z_], scale_z_ = 1 / d[z_];
   }
 
-  // Corners in the frame. A ray through an edge meets both of its triangles, one through a vertex
-  // all of them, one in the plane of a triangle none.
+  // Takes corners in the frame. A ray through an edge meets both of its triangles, a ray through a
+  // vertex all of them, and a ray in a triangle's plane none.
   std::optional<Hit> meet(const std::array<Vec3, 3>& corners, const Span& span) const {
     const Sheared a = sheared(corners[0]), b = sheared(corners[1]), c = sheared(corners[2]);
-    // Products of floats are exact in double, and their difference has the right sign, the opposite
-    // one for the triangle beyond the edge: no ray slips through.
+    // Products of floats are exact in double, so their difference has the right sign. It is
+    // opposite for the triangle beyond the edge: no ray slips through.
     const double u = c.x * b.y - c.y * b.x;
     const double v = a.x * c.y - a.y * c.x;
     const double w = b.x * a.y - b.y * a.x;
@@ -74,9 +74,9 @@ class TriangleRay {
 
  private:
   struct Sheared {
-    double x, y, z;  // x and y have values of float
+    double x, y, z;  // x and y are values of float
   };
-  // The same bits for a vertex of every triangle.
+  // Returns the same bits for a vertex in every triangle.
   Sheared sheared(const Vec3& corner) const {
     const Components p = components(corner - origin_);
     return {static_cast<float>(p[x_] - shear_x_ * p[z_]),
@@ -106,14 +106,14 @@ std::optional<Hit> meet_ball(const Vec3& origin, const Vec3& direction, const Ve
 
 // --- The walk ------------------------------------------------------------------------------
 
-// A ray for the boxes. Box and origin are off by a rounding of their moduli each, and so is their
-// difference: boxes grow by twice that. Quotients are off by three roundings of theirs.
+// A ray for tests of boxes. Box, origin and their difference have each a rounding of their moduli:
+// boxes grow by twice their sum. Quotients have three relative roundings.
 struct BoxRay {
   BoxRay(const Vec3& at, const Vec3& direction, double radius) {
     const Components o = components(at), d = components(direction);
     double largest = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      constexpr double kLeast = 1e-18;  // chosen: no box is as far as would take a slope like this
+      constexpr double kLeast = 1e-18;  // chosen: a smaller slope changes no box
       const double slope = std::copysign(std::max(std::abs(d[axis]), kLeast), d[axis]);
       origin[axis] = static_cast<float>(o[axis]);
       inverse[axis] = static_cast<float>(1 / slope);
@@ -127,7 +127,7 @@ struct BoxRay {
 
 constexpr float kSlack = 1 + 8 * kRounding;
 
-// Where the ray enters each box, and leaves it.
+// Computes where the ray enters and leaves each box.
 void enter_boxes(const BoxGroup& group, const BoxRay& ray, const Span& span, TreeRow& enter,
                  TreeRow& leave) {
   enter.fill(span.near);
@@ -145,8 +145,8 @@ void enter_boxes(const BoxGroup& group, const BoxRay& ray, const Span& span, Tre
   }
 }
 
-// Calls visit(leaf) for leaves that the ray may meet, near ones first as a rule; `visit` may bring
-// span.far nearer.
+// Calls visit(leaf) for leaves that the ray may meet, usually near ones first.
+// `visit` may reduce span.far.
 template <typename Visit>
 void walk(const TriangleTreeNodes& tree, const BoxRay& ray, Span& span, const Visit& visit) {
   struct Waiting {
@@ -170,16 +170,16 @@ void walk(const TriangleTreeNodes& tree, const BoxRay& ray, Span& span, const Vi
     enter_boxes(group, ray, span, enter, leave);
     const std::size_t first = n;
     for (std::uint32_t k = 0; k < kTreeWidth; ++k) {
-      if (group.low[0][k] == kFloatInfinity) break;  // missing: the last ones
+      if (group.low[0][k] == kFloatInfinity) break;  // missing boxes are the last ones
       if (enter[k] > leave[k] * kSlack) continue;
-      std::size_t i = n++;  // the nearest on top
+      std::size_t i = n++;  // keeps the nearest on top
       for (; i > first && stack[i - 1].enter < enter[k]; --i) stack[i] = stack[i - 1];
       stack[i] = {enter[k], group.first + k};
     }
   }
 }
 
-// A triangle without size at each vertex.
+// Returns a mesh with a triangle of size zero at each vertex.
 Mesh points_of(const Mesh& mesh) {
   Mesh points;
   points.vertices = mesh.vertices;
@@ -193,9 +193,9 @@ Mesh points_of(const Mesh& mesh) {
 struct RayScene::Impl {
   const Mesh& mesh;
   const UnitFrame& frame;
-  double radius;  // of balls in the frame; 0 for triangles
+  double radius;  // radius of balls in the frame; 0 for triangles
   Mesh centers;
-  std::optional<TriangleTree> tree;  // none where there is nothing to meet
+  std::optional<TriangleTree> tree;  // empty if there is nothing to meet
 
   Impl(const Mesh& m, const UnitFrame& f, int threads, double ball_radius)
       : mesh(m), frame(f), radius(ball_radius * f.scale) {
@@ -205,7 +205,7 @@ struct RayScene::Impl {
       tree.emplace(held, frame, PortionNumbers{}, Context{.threads = threads});
   }
 
-  // Calls take(number, hit) for all that the ray meets within the span, which `take` may shorten.
+  // Calls take(number, hit) for all hits within the span, which `take` may shorten.
   template <typename Take>
   void for_each_hit(const Vec3& origin, const Vec3& direction, Span& span, const Take& take) const {
     const Vec3 q = frame.to_local(origin);
@@ -226,7 +226,7 @@ struct RayScene::Impl {
     walk(tree->nodes(), BoxRay(q, direction, radius), span, [&](std::uint32_t leaf) {
       const auto numbers = order.subspan(leaf * kTreeWidth, kTreeWidth);
       for (std::size_t k = 0; k < kTreeWidth; ++k) {
-        if (k > 0 && numbers[k] == numbers[k - 1]) break;  // the last one again
+        if (k > 0 && numbers[k] == numbers[k - 1]) break;  // the last triangle repeated
         try_one(numbers[k]);
       }
     });
@@ -249,7 +249,7 @@ RayHit RayScene::first_hit(const Vec3& origin, const Vec3& direction, double nea
   Span span = span_of(near, far, frame_.scale);
   RayHit first;
   impl_->for_each_hit(origin, direction, span, [&](std::uint32_t k, const Hit& hit) {
-    // Of several at the same distance (a shared edge) the smallest index wins.
+    // If several have the same distance (a shared edge), the smallest index wins.
     if (first.hit && hit.distance == span.far && k > first.triangle) return;
     span.far = hit.distance;
     first = {true, k, hit.u, hit.v, hit.distance / frame_.scale};
@@ -262,7 +262,7 @@ bool RayScene::occluded(const Vec3& origin, const Vec3& direction, double near, 
   bool found = false;
   impl_->for_each_hit(origin, direction, span, [&](std::uint32_t, const Hit&) {
     found = true;
-    span.far = -1;  // no box is as near
+    span.far = -1;  // no box is so near: ends the walk
   });
   return found;
 }

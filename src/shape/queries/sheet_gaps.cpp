@@ -14,13 +14,13 @@ namespace rholm {
 namespace {
 
 constexpr std::size_t kGrain = 256;  // points: some hundred microseconds
-// Rays start this part of the diagonal before their point: ten times what single precision places
-// them wrong.
+// Rays start this part of the diagonal before their point: ten times the error of their
+// position in single precision.
 constexpr double kBack = 1e-6;
-// Rays of a point that vote on its winding number: one that meets an edge may count it twice.
+// Number of rays that vote on a point's winding number: a ray through an edge may count it twice.
 constexpr std::uint64_t kVotes = 3;
 
-// Of unit length; zero for a triangle without area.
+// Returns the unit normal, or zero for a triangle without area.
 Vec3 normal_of(const Mesh& mesh, std::uint32_t triangle) {
   return normalized(face_normal(scaled_corners(mesh, mesh.triangles[triangle], 1)).twice_area);
 }
@@ -64,7 +64,7 @@ std::vector<int> outer_winding(const PointsOnMesh& on, const RayScene& scene,
       const auto draw = [&](std::uint64_t n) {
         return 2 * random_uniform(1, 3 * (kVotes * i + k) + n) - 1;
       };
-      // Within 60 degrees of the normal, in no plane that meshes like.
+      // The direction is within 60 degrees of the normal, and in no plane that meshes often have.
       const Vec3 ahead = normalized(normal + 0.5 * Vec3{draw(0), draw(1), draw(2)});
       for (const RayCrossing& met : scene.crossings(on.points[i] + back * normal, ahead)) {
         if (met.triangle == on.triangles[i]) continue;

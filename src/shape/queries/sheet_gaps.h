@@ -1,4 +1,4 @@
-// How near a surface comes to itself, and what of it lies inside its own solid. Layer: shape.
+// Computes the distance of a surface from itself, and its parts inside its own solid. Layer: shape.
 #pragma once
 
 #include <cstdint>
@@ -11,23 +11,23 @@
 
 namespace rholm {
 
-// Points of a mesh, and the triangle that each lies on.
+// Points of a mesh, with the triangle that each point lies on.
 struct PointsOnMesh {
   const Mesh& mesh;
   std::span<const Vec3> points;
   std::span<const std::uint32_t> triangles;
 };
 
-// The distance from each point, along the normal of its triangle to either side, to the nearest
-// triangle that faces the other way: how thick the solid is there, or how wide the gap outside of
-// it. Infinity where there is none.
+// Returns the distance from each point, along its triangle's normal to either side, to the nearest
+// triangle that faces the other way. This is the thickness of the solid, or the width of the gap
+// outside of it; infinity if no triangle is met.
 std::vector<double> sheet_gaps(const PointsOnMesh& on, const RayScene& scene,
                                const Context& context);
 
-// The winding number of the mesh just outside of each point, by crossings of rays: 0 on the outside
-// of a solid, positive where other parts of the mesh enclose the point, negative where the mesh is
-// inside out. The mesh must be closed. Coinciding sheets that face the same way do not enclose each
-// other.
+// Returns the winding number of the mesh just outside of each point, computed by crossings of
+// rays. It is 0 outside a solid, positive if other parts of the mesh enclose the point, and
+// negative if the mesh is inside out. The mesh must be closed. Coinciding sheets that face the
+// same way do not enclose each other.
 std::vector<int> outer_winding(const PointsOnMesh& on, const RayScene& scene,
                                const Context& context);
 

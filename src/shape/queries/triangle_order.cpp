@@ -14,15 +14,15 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kPart = std::size_t{1} << 18;  // triangles of a part, about 2 ms
+constexpr std::size_t kPart = std::size_t{1} << 18;  // number of triangles of a part, about 2 ms
 constexpr std::size_t kMostParts = 16;
 constexpr std::size_t kVisit = 8192;  // triangles between two calls of before() and after()
 constexpr std::size_t kSampled = 512;
-// On a surface most cells of a Morton curve through space are empty.
+// On a surface, most cells of a Morton curve through space are empty.
 constexpr int kEmptyBits = 4;
 constexpr int kMostBits = 30;
 
-// Keys below 2^bits.
+// Computes keys of triangles, below 2^bits.
 class Keys {
  public:
   Keys(const MeshView& mesh, TriangleKey key, const Context& context)
@@ -44,7 +44,7 @@ class Keys {
   }
 
  private:
-  // An array of their own is read at random in a quarter of the time that the mesh takes.
+  // Uses a separate array: random reads from it take a quarter of the time of reads from the mesh.
   void place_vertices(const Context& context) {
     find_box();
     places_ = AlignedArray<std::uint32_t>(mesh_.n_vertices);
@@ -55,7 +55,7 @@ class Keys {
       }
     });
   }
-  // From some of the vertices; what lies beyond counts as on its border.
+  // Computes a box from some of the vertices; vertices outside count as on its border.
   void find_box() {
     Vec3 least{HUGE_VAL, HUGE_VAL, HUGE_VAL}, most = -1.0 * least;
     const std::size_t step = std::max<std::size_t>(1, mesh_.n_vertices / (4 * kSampled));
@@ -74,10 +74,10 @@ class Keys {
   int bits_ = 0;
   Vec3 middle_;
   double per_length_ = 0;
-  AlignedArray<std::uint32_t> places_;  // of the vertices
+  AlignedArray<std::uint32_t> places_;  // keys of the vertices
 };
 
-// Sorts by the high digits of the keys into buckets, then each bucket by the low ones: stable.
+// Sorts by high digits of the keys into buckets, then each bucket by low digits; stable.
 class Sorter {
  public:
   Sorter(const MeshView& mesh, TriangleKey key, const Context& context, OrderedTriangles& result)
@@ -92,7 +92,7 @@ class Sorter {
         begin_(buckets_ + 1),
         corners_(result.corners.data()) {}
 
-  // Digits of each triangle, and how many of each there are in each part.
+  // Stores the digits of each triangle, and counts each digit in each part.
   void count(const TriangleVisit& before, const TriangleVisit& after, const Context& context) {
     parallel_for(mesh_.n_triangles, part_, context, {}, [&](std::size_t begin, std::size_t end) {
       std::size_t* const counts = next_.data() + begin / part_ * buckets_;
@@ -191,7 +191,7 @@ OrderedTriangles order_triangles(const MeshView& mesh, TriangleKey key, const Tr
 }
 
 bool vertices_in_order(const MeshView& mesh) {
-  constexpr double kNear = 0.2;  // chosen: of the usual distance
+  constexpr double kNear = 0.2;  // chosen: part of the distance of random vertices
   if (mesh.n_vertices < 2) return true;
   const auto random_vertex = [&](std::uint64_t stream, std::size_t i) {
     const double at = random_uniform(stream, i) * static_cast<double>(mesh.n_vertices - 1);

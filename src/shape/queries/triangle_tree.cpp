@@ -19,24 +19,24 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFloatRounding = 0x1p-24;  // relative error of a conversion to float
 
-// Beyond this (in units of the mesh) squares of float coordinates come near overflow at 2^128, and
-// the float boxes cannot tell the triangles apart anyway: every triangle is tried.
+// Farther away (in units of the mesh), squares of float coordinates come near to overflow at 2^128,
+// and float boxes cannot separate triangles. Then every triangle is tried.
 constexpr double kFarthest = 0x1p50;
 
-// And queries are drawn in to here, so that their squares are finite in double.
+// Coordinates of queries are limited to this modulus, so that their squares are finite in double.
 constexpr double kDrawnIn = 0x1p400;
 
 constexpr double kLargestRadius = 0x1p60;
 
-constexpr std::size_t kManyTriangles = 8192;  // 1 ms: whether to cancel is asked
-// Of halves that all threads work on; chosen: 64 parts of the rest are even.
+constexpr std::size_t kManyTriangles = 8192;  // 1 ms: between two cancel checks
+// Number of levels that all threads split together; chosen: the remaining 64 parts are even.
 constexpr int kCommonLevels = 6;
 
 double largest_component(const Vec3& a) {
   return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
 }
 
-// The middle of a triangle, -1 ... 1 as 0 ... 2^32 - 1.
+// The middle of a triangle; coordinates -1 ... 1 are stored as 0 ... 2^32 - 1.
 struct Middle {
   std::array<std::uint32_t, 3> at;
   std::uint32_t triangle;
@@ -61,8 +61,8 @@ int longest_axis(std::span<const Middle> middles) {
   return static_cast<int>(std::max_element(length.begin(), length.end()) - length.begin());
 }
 
-// The n smallest first, as std::nth_element does: without branches that cannot be foreseen, in a
-// third of its time.
+// Moves the n smallest to the front, as std::nth_element does. It takes a third of its time,
+// because it has no unpredictable branches.
 void select(std::span<Middle> middles, std::size_t n, int axis) {
   constexpr std::size_t kFew = 32;
   for (int round = 0; round < 64 && middles.size() > kFew; ++round) {
@@ -91,11 +91,11 @@ void select(std::span<Middle> middles, std::size_t n, int axis) {
 
 struct Part {
   std::span<Middle> middles;
-  std::size_t whole = 0;  // a leaf's triangles times a power of two, at least as many as there are
+  std::size_t whole = 0;  // at least the number of triangles: a power of two times a leaf's number
 };
 
-// Halves across the longest side of their box, the first one `whole` triangles or a half of it, a
-// quarter ...; what is not more than a leaf is left as it is.
+// Splits across the longest side of the box. The first part has a number of triangles equal to
+// `whole`, a half of it, a quarter and so on. A leaf is not split.
 std::array<Part, 2> halved(const Part& part) {
   const std::span<Middle> middles = part.middles;
   if (middles.size() <= kTreeWidth) return {part, Part{}};
@@ -106,14 +106,14 @@ std::array<Part, 2> halved(const Part& part) {
   return {Part{middles.first(whole), whole}, Part{middles.subspan(whole), whole}};
 }
 
-// Down to those of a leaf.
+// Splits a part down to leaves.
 void split(const Part& part) {
   if (part.middles.size() <= kTreeWidth) return;
   for (const Part& half : halved(part)) split(half);
 }
 
-// Appends the nodes above the children with these boxes, the first of which is `first`; boxes are
-// theirs then.
+// Appends the parents of the nodes with these boxes, the first of which is `first`. Replaces
+// `boxes` by the boxes of the parents.
 void add_level(std::vector<FloatBox>& boxes, std::size_t first, std::vector<BoxGroup>& nodes) {
   std::vector<FloatBox> around((boxes.size() + kTreeWidth - 1) / kTreeWidth);
   for (std::size_t g = 0; g < around.size(); ++g) {
@@ -147,7 +147,7 @@ TriangleTree::TriangleTree(const Mesh& portion, const UnitFrame& whole,
   build(context);
 }
 
-// So that each node holds triangles that are near each other.
+// Sorts triangles so that each node has triangles that are near each other.
 void TriangleTree::sort_triangles(const Context& context) {
   AlignedArray<Middle> middles(mesh_.triangles.size());
   parallel_for(middles.size(), kManyTriangles, context, {},
@@ -179,7 +179,7 @@ void TriangleTree::sort_triangles(const Context& context) {
 
 void TriangleTree::build(const Context& context) {
   const std::size_t n_leaves = (order_.size() + kTreeWidth - 1) / kTreeWidth;
-  order_.resize(kTreeWidth * n_leaves, order_.back());  // the last one fills its leaf
+  order_.resize(kTreeWidth * n_leaves, order_.back());  // the last triangle fills its leaf
   nodes_.leaves = AlignedArray<PlaneGroup>(n_leaves);
   std::vector<FloatBox> boxes(n_leaves);
   parallel_for(n_leaves, kManyTriangles / kTreeWidth, context, {},
@@ -239,16 +239,16 @@ struct ClosestSearch {
   const UnitFrame& frame;
   const std::vector<std::uint32_t>& order;
   PortionNumbers numbers;
-  Vec3 query;      // in that frame
-  double at_most;  // how far away the mesh is
+  Vec3 query;      // in the frame
+  double at_most;  // upper bound of the mesh's distance
   double best2;
-  std::uint64_t number;  // of the best triangle, in the whole mesh
+  std::uint64_t number;  // number of the best triangle in the whole mesh
   Vec3 best = {};
-  std::uint32_t triangle = 0;  // in this one
+  std::uint32_t triangle = 0;  // index in this mesh
   bool found = false;
 
-  // How far is to be looked now, in float, so that no triangle at the distance found or less is
-  // lost: see walk_near(), and the square of the radius.
+  // Returns the search radius in float, with margins of walk_near() and of the squared radius, so
+  // that no triangle at the best distance or nearer is lost.
   float radius() const {
     const double shifted =
         std::min(std::sqrt(best2), at_most) + 10 * kFloatRounding * (1 + largest_component(query));
@@ -256,7 +256,7 @@ struct ClosestSearch {
   }
 };
 
-// Squared distance of a point to a box: rounded, it is still never above that to a box within.
+// Returns the squared distance to a box. Rounded, it never exceeds the distance to a box inside.
 double box_distance2(const Vec3& p, const Vec3& low, const Vec3& high) {
   const Vec3 gap = {std::max({low.x - p.x, p.x - high.x, 0.0}),
                     std::max({low.y - p.y, p.y - high.y, 0.0}),
@@ -272,8 +272,8 @@ double box_distance2(const Vec3& p, const std::array<Vec3, 3>& c) {
 }
 
 void take_if_nearer(std::uint32_t triangle, ClosestSearch& search) {
-  // In the order of the indices, an edge gives the same bits to both of its triangles: ties are
-  // ties.
+  // Corners are in the order of indices, so that an edge gives the same bits for both of its
+  // triangles, and ties are exact.
   const auto [a, b, c] = search.mesh.triangles[triangle];
   const std::uint32_t first = std::min({a, b, c}), last = std::max({a, b, c});
   const auto corner = [&](std::uint32_t vertex) {
@@ -285,8 +285,8 @@ void take_if_nearer(std::uint32_t triangle, ClosestSearch& search) {
   if (box2 > search.best2) return;
   const Vec3 candidate = closest_point_of_triangle(search.query, corners);
   const Vec3 offset = search.query - candidate;
-  // Rounding may bring the point into the box's distance. What a box is passed over for must hold
-  // of all triangles in it, or ties would depend on which comes first.
+  // Rounding may bring the point nearer than the box. The bound that excludes a box must hold for
+  // all triangles in it; otherwise ties depend on which triangle comes first.
   const double d2 = std::max(dot(offset, offset), box2);
   const std::uint64_t number = search.numbers.first + triangle * search.numbers.step;
   const bool tie = d2 == search.best2 && number < search.number;
@@ -304,7 +304,7 @@ float try_triangle(void* data, std::size_t leaf, std::size_t k) {
   return search.radius();
 }
 
-// The closest point of all triangles, where it is closer than the best; its distance.
+// Finds the closest point of all triangles if it is closer than the best; returns its distance.
 double search_all(ClosestSearch& search, const TriangleTreeNodes& nodes, const Vec3& point) {
   const Vec3 q = search.frame.to_local(point);
   if (!(largest_component(q) < kFarthest)) {
@@ -349,7 +349,7 @@ ClosestPoint TriangleTree::closest(const Vec3& point) const {
   return closest_within(point, kInfinity);
 }
 
-// No farther than the mesh is from the last one, and that from this one.
+// Uses as bound the last point's distance to the mesh, plus the distance of the two points.
 std::vector<ClosestPoint> TriangleTree::closest(std::span<const Vec3> points) const {
   std::vector<ClosestPoint> found;
   found.reserve(points.size());
@@ -364,7 +364,7 @@ std::vector<ClosestPoint> TriangleTree::closest(std::span<const Vec3> points) co
 void visit_closest(const TriangleTree& tree, std::span<const Vec3> points,
                    const ParallelStage& stage, const Context& context,
                    const std::function<void(std::size_t, const ClosestPoint&)>& visit) {
-  constexpr std::size_t kGrain = 256;  // some 50 ms where the shapes are far apart
+  constexpr std::size_t kGrain = 256;  // some 50 ms if the shapes are far apart
   parallel_for(points.size(), kGrain, context, stage, [&](std::size_t begin, std::size_t end) {
     std::size_t i = begin;
     for (const ClosestPoint& found : tree.closest(points.subspan(begin, end - begin))) {

@@ -1,7 +1,7 @@
-// Exact closest points on a triangle mesh.
+// Computes exact closest points on a triangle mesh.
 //
-// A tree of float boxes around coordinates shifted to the mesh's centre tells which triangles can
-// be nearest; these are then measured in double, on the mesh's own vertices.
+// A tree of float boxes, in coordinates shifted to the mesh's centre, finds the triangles that can
+// be nearest. These are then measured in double precision with the mesh's own vertices.
 #pragma once
 
 #include <array>
@@ -26,20 +26,20 @@ struct ClosestPoint {
   double distance = 0;
 };
 
-// Of a mesh that is searched a portion at a time: the closest point of all portions so far.
+// The closest point so far, if a mesh is searched one portion at a time.
 struct ClosestSoFar {
   double square = std::numeric_limits<double>::infinity();  // of the distance, in the frame
-  std::uint64_t triangle = std::numeric_limits<std::uint64_t>::max();  // its number in the whole
+  std::uint64_t triangle = std::numeric_limits<std::uint64_t>::max();  // number in the whole mesh
   double distance = std::numeric_limits<double>::infinity();
 };
 
-// What triangle k of a portion is in the whole mesh: number first + k step.
+// Triangle k of a portion has the number first + k step in the whole mesh.
 struct PortionNumbers {
   std::uint64_t first = 0, step = 1;
 };
 
-// Whether a portion whose vertices have that box, in the frame of the whole mesh, may have a closer
-// point, or one as close: no other needs to be asked.
+// Returns true if a portion may have a closer or equally close point; other portions need no query.
+// `box` bounds the portion's vertices in the frame of the whole mesh.
 bool may_be_closer(const Bounds& box, const UnitFrame& whole, const Vec3& point,
                    const ClosestSoFar& so_far);
 
@@ -49,28 +49,28 @@ struct FloatBox {
   std::array<float, 3> high = {-kFloatInfinity, -kFloatInfinity, -kFloatInfinity};
 };
 
-// Keeps a reference to `mesh`, which must outlive it. Queries may come from several threads at
-// once.
+// Searches closest points. It keeps a reference to `mesh`, which must outlive it. Several threads
+// may call queries at once.
 class TriangleTree {
  public:
-  // Made on the threads of `context`; the same for any number of them.
+  // Builds the tree on the threads of `context`; the result does not depend on their number.
   explicit TriangleTree(const Mesh& mesh, const Context& context = {.threads = 1});
-  // Of a portion of a mesh, with vertices in the order that they have there, and that mesh's frame.
+  // Builds a tree of a portion; vertices are in the whole mesh's order, and `whole` is its frame.
   TriangleTree(const Mesh& portion, const UnitFrame& whole, const PortionNumbers& numbers,
                const Context& context = {.threads = 1});
 
-  // Takes the closest point of the portion if it is closer than what was found, or as close and of
-  // a triangle with a smaller number, and says so. Whatever the portions and their order, in the
-  // end there is what closest() has of the whole mesh. The mesh is no farther away than `at_most`.
+  // Takes the portion's closest point if it is closer than `so_far`, or equally close with a
+  // smaller triangle number. Returns true if it is taken. After all portions, in any order,
+  // `so_far` equals closest() of the whole mesh. The mesh is no farther away than `at_most`.
   bool improve(const Vec3& point, double at_most, ClosestSoFar& so_far) const;
 
-  // The mesh must have a triangle. Ties go to the triangle with the smaller index.
+  // Needs a mesh with a triangle. For ties, returns the triangle with the smaller index.
   ClosestPoint closest(const Vec3& point) const;
-  // The same of each: faster where neighbours in the list are near each other.
+  // Does the same for each point; faster if neighbours in the list are near each other.
   std::vector<ClosestPoint> closest(std::span<const Vec3> points) const;
 
-  // For walks of other kinds: boxes in the frame, good to the rounding of float, of which the leaf
-  // k has triangles order()[8 k] ... order()[8 k + 7]; the last leaf may have its last one again.
+  // Give access for other walks. Boxes are in the frame, exact to the rounding of float. Leaf k has
+  // triangles order()[8 k] ... order()[8 k + 7]; the last leaf may repeat its last one.
   const TriangleTreeNodes& nodes() const { return nodes_; }
   std::span<const std::uint32_t> order() const { return order_; }
 
@@ -83,16 +83,16 @@ class TriangleTree {
   const Mesh& mesh_;
   UnitFrame frame_;
   PortionNumbers numbers_;
-  std::vector<std::uint32_t> order_;  // of the triangles in the leaves
+  std::vector<std::uint32_t> order_;  // order of the triangles in the leaves
   TriangleTreeNodes nodes_;
 };
 
-// Calls visit(i, closest point of points[i]) for each point, on the threads of `context`, each of
-// which asks for points that follow each other.
+// Calls visit(i, closest point of points[i]) for each point, on the threads of `context`. Each
+// thread takes ranges of consecutive points.
 void visit_closest(const TriangleTree& tree, std::span<const Vec3> points,
                    const ParallelStage& stage, const Context& context,
                    const std::function<void(std::size_t, const ClosestPoint&)>& visit);
-// How far each point is from the mesh.
+// Returns the distance of each point from the mesh.
 std::vector<double> distances_to(const TriangleTree& tree, std::span<const Vec3> points,
                                  const ParallelStage& stage, const Context& context);
 

@@ -1,4 +1,4 @@
-// Loops over vectors of triangles of a view, in double precision; for inner loops, included once
+// Loops over vectors of triangles of a view, in double precision. For inner loops; included once
 // for every kind of processor (Highway).
 #if defined(RHOLM_SHAPE_TRIANGLE_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RHOLM_SHAPE_TRIANGLE_VECTORS_INL_H_
@@ -19,13 +19,13 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Triangles whose indices are checked, and corners asked for, ahead of use; measured
-// (scripts/constants): 32 to 256 are alike.
+// Number of triangles whose indices are checked, and whose corners are prefetched, ahead of use.
+// Measured (scripts/constants): 32 to 256 are alike.
 constexpr std::size_t kBlock = 128;
 
-// Calls look(a, b, c, t, n) for the triangles t ... t + n - 1 of each vector, in their order.
-// Corners are as they stand in the view, of type T; after n of them the last one is repeated.
-// Throws InvalidInput for an index out of range.
+// Calls look(a, b, c, t, n) for the triangles t ... t + n - 1 of each vector, in order. Corners
+// have the view's coordinates, read as type T; behind the n-th, the last one is repeated. Throws
+// InvalidInput for an index out of range.
 template <class T, class Look>
 HWY_INLINE void ForVectors(const MeshView& mesh, std::size_t begin, std::size_t end, Look look) {
   const D d;
@@ -34,10 +34,10 @@ HWY_INLINE void ForVectors(const MeshView& mesh, std::size_t begin, std::size_t 
   std::uint32_t next_largest = LookAhead(mesh, t, block_end);
   while (t < end) {
     const std::uint32_t largest = next_largest;
-    if (largest >= mesh.n_vertices) validate(mesh);  // throws, and says which
+    if (largest >= mesh.n_vertices) validate(mesh);  // throws with the index
     next_largest = LookAhead(mesh, block_end, std::min(end, block_end + kBlock));
     const std::byte* at = mesh.triangles + t * mesh.triangle_stride;
-    // Rows of floats are read with 4 bytes more: not the last one.
+    // Rows of floats are read with 4 bytes more, so the last row is excluded.
     if (kWholeVectors && (sizeof(T) == 8 || largest + 1 < mesh.n_vertices)) {
       for (; t + lanes <= block_end; t += lanes, at += lanes * mesh.triangle_stride) {
         look(LoadWhole(d, mesh, at, T()), LoadWhole(d, mesh, at + 4, T()),

@@ -16,8 +16,8 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Of six times the volumes of tetrahedra over the middle of the frame: the sum, that of their
-// moduli, and x, y, z of the sum of each times its three corners.
+// Sums over tetrahedra with the frame's middle as apex: six times the volumes, then the moduli of
+// these. Then x, y, z of each volume times the sum of its three corners.
 using Sums = std::array<double, 5>;
 
 template <class T>
@@ -77,7 +77,7 @@ Vec3 volume_centroid(const MeshView& mesh, const UnitFrame& frame, const Context
     volumes += volume, moduli += modulus;
     moment += Vec3{x, y, z};
   }
-  // Of a tetrahedron a quarter of the sum of its corners.
+  // The centroid of a tetrahedron is a quarter of the sum of its corners.
   if (!has_volume(volumes, moduli)) return frame.to_shape({});
   return frame.to_shape(moment / (4 * volumes));
 }

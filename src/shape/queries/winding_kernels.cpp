@@ -36,11 +36,11 @@ HWY_INLINE V Near(D d, const WindingPoint& point, const Vector3& x) {
   return hn::Div(Dot(d, r, point.area_normal), hn::Mul(square, hn::Sqrt(square)));
 }
 
-// The field of a dipole is a . F(r), F(r) = r / |r|^3 = -grad 1/|r|. Taylor's series of
-// sum a . F(r + o) with r = center - x, R = |r|, p the first and q the second form of the node:
-//   a . r / R^3   +   tr p / R^3 - 3 p(r) / R^5   +   15/2 q(r) / R^7 - 3/4 (laplacian q)(r) / R^5,
-// for the second derivatives of 1/|r| are 3 r r / R^5 - 1 / R^3, and the third ones, on a symmetric
-// form, -15 q(r) / R^7 + 9/6 (laplacian q)(r) / R^5.
+// The field of a dipole is a . F(r), F(r) = r / |r|^3 = -grad 1/|r|.
+// Taylor's series of sum a . F(r + o), with r = center - x, R = |r| and the forms p, q of the node:
+//   a . r / R^3   +   tr p / R^3 - 3 p(r) / R^5   +   15/2 q(r) / R^7 - 3/4 (laplacian q)(r) / R^5.
+// The second derivatives of 1/|r| are 3 r r / R^5 - 1 / R^3. On a symmetric form, the third ones
+// are -15 q(r) / R^7 + 9/6 (laplacian q)(r) / R^5.
 HWY_INLINE V Far(D d, const WindingNode& node, const Vector3& r, V square) {
   const V inverse = hn::Div(hn::Set(d, 1.0), square);
   const auto& p = node.first;
@@ -56,7 +56,7 @@ HWY_INLINE V Far(D d, const WindingNode& node, const Vector3& r, V square) {
   const V second =
       hn::MulAdd(hn::Mul(r.x, r.x), qx,
                  hn::MulAdd(hn::Mul(r.y, r.y), qy, hn::MulAdd(hn::Mul(r.z, r.z), qz, mixed)));
-  // Horner in 1 / R^2.
+  // Evaluates by Horner's rule in 1 / R^2.
   const V fifth =
       hn::MulAdd(hn::Mul(hn::Set(d, 7.5), inverse), second,
                  hn::NegMulAdd(hn::Set(d, 3.0), first,
@@ -65,13 +65,13 @@ HWY_INLINE V Far(D d, const WindingNode& node, const Vector3& r, V square) {
   return hn::Mul(hn::MulAdd(fifth, inverse, third), hn::Mul(inverse, hn::Sqrt(inverse)));
 }
 
-// Queries of one vector walk through the tree together. A lane that sees a node from far enough is
-// done with all below it, and waits until the walk has passed them: what a query gets does not
-// depend on those beside it.
+// Queries of one vector walk through the tree together. A lane that sees a node from far enough
+// skips all nodes below it, and waits until the walk has passed them. So a query's result does not
+// depend on the other lanes.
 HWY_INLINE V Walk(D d, std::span<const WindingNode> nodes, std::span<const WindingPoint> points,
                   const Vector3& x, double opening) {
   V sum = hn::Zero(d);
-  V resume = hn::Zero(d);  // the node from which a lane goes on
+  V resume = hn::Zero(d);  // node at which a lane continues
   for (std::size_t i = 0; i < nodes.size();) {
     const WindingNode& node = nodes[i];
     const Vector3 r = FromTo(d, x, node.center);

@@ -17,15 +17,15 @@ namespace {
 
 using std::numbers::pi;
 
-// Measured (scripts/constants): 4 to 16 are within a tenth of each other.
+// Measured (scripts/constants): the times of 4 to 16 are within a tenth of each other.
 constexpr std::uint32_t kLeafSize = 8;
-// A patch of no area still has a radius, relative to the points' extent: its term, 0 / radius^3,
-// must not become 0 / 0.
+// Least radius of a patch, relative to the points' extent. A patch of area zero has the term 0 /
+// radius^3, which must not become 0 / 0.
 constexpr double kLeastRadius = 1e-30;
-// Queries that are worked on at a time; a multiple of any vector's length.
+// Number of queries evaluated at a time; a multiple of any vector's length.
 constexpr std::size_t kGrain = 1024;
 constexpr std::size_t kSorted = 4096;            // chosen
-constexpr std::size_t kNodesPerQuestion = 4096;  // whether to cancel
+constexpr std::size_t kNodesPerQuestion = 4096;  // between two cancel checks
 
 void check_finite(std::span<const Vec3> vectors, const char* what) {
   for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -35,7 +35,7 @@ void check_finite(std::span<const Vec3> vectors, const char* what) {
   }
 }
 
-// (a . r) (b . r)
+// Returns the form (a . r) (b . r).
 QuadraticForm product(const Vec3& a, const Vec3& b) {
   return {a.x * b.x,
           a.y * b.y,
@@ -45,7 +45,7 @@ QuadraticForm product(const Vec3& a, const Vec3& b) {
           a.y * b.z + a.z * b.y};
 }
 
-// p(r) (b . r)
+// Returns the form p(r) (b . r).
 CubicForm product(const QuadraticForm& p, const Vec3& b) {
   return {p[0] * b.x,
           p[1] * b.y,
@@ -64,8 +64,8 @@ void add(Form& sum, const Form& form, double factor = 1) {
   for (std::size_t k = 0; k < form.size(); ++k) sum[k] += factor * form[k];
 }
 
-// Moments around a center of what has these around center + offset:
-// sum a (o + offset) and sum a (o + offset)^2.
+// Adds moments that are moved from centre + offset to the centre: sum a (o + offset)
+// and sum a (o + offset)^2.
 void add_moments(WindingNode& sum, const WindingNode& part, const Vec3& offset) {
   const QuadraticForm moved = product(part.area_normal, offset);
   sum.area_normal += part.area_normal;
@@ -98,7 +98,7 @@ WindingTree::WindingTree(std::span<const Vec3> points, std::span<const Vec3> are
     order_[i] = keys[i].index;
     points_[i].at = local[keys[i].index];
   }
-  nodes_.reserve(keys.size() / 2);  // of surfaces a third: what is not used is not touched
+  nodes_.reserve(keys.size() / 2);  // a third for surfaces; unused memory is not touched
   if (!keys.empty()) split(keys, 0, static_cast<std::uint32_t>(keys.size()), kMortonLevels);
   set_area_normals(area_normals);
 }
@@ -110,7 +110,7 @@ std::vector<WindingTree::Key> WindingTree::sorted_keys(std::span<const Vec3> loc
     return a.morton != b.morton ? a.morton < b.morton : a.index < b.index;
   };
   const auto at = [&](std::size_t i) { return keys.begin() + static_cast<std::ptrdiff_t>(i); };
-  // Parts, then pairs of them.
+  // Sorts parts, then merges pairs of parts.
   parallel_for(keys.size(), kSorted, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       keys[i] = {morton(local[i]), static_cast<std::uint32_t>(i)};
@@ -125,8 +125,8 @@ std::vector<WindingTree::Key> WindingTree::sorted_keys(std::span<const Vec3> loc
   return keys;
 }
 
-// Appends the node of points begin ... end - 1, whose keys agree above 3 `level` bits, and those
-// below it. A node with one child only is left out.
+// Appends the node of points begin ... end - 1, whose keys agree above 3 `level` bits, and the
+// nodes below it. A node with only one child is omitted.
 void WindingTree::split(std::span<const Key> keys, std::uint32_t begin, std::uint32_t end,
                         int level) {
   const auto digit = [&](std::uint32_t i) { return keys[i].morton >> 3 * (level - 1) & 7; };
@@ -166,7 +166,7 @@ void WindingTree::set_area_normals(std::span<const Vec3> area_normals) {
   sum_moments();
 }
 
-// Radii hold the patches, within which the far field is not meant.
+// Radii include the patches, because the far field does not hold within a patch.
 void WindingTree::sum_moments() {
   CancelPoll poll;
   for (std::size_t i = nodes_.size(); i-- > 0;) {
@@ -200,7 +200,7 @@ WindingTree WindingTree::top(int levels) const {
   WindingTree kept;
   kept.middle_ = middle_, kept.scale_ = scale_;
   struct Parent {
-    std::size_t kept, end;  // where it is there, and the node here that is not below it
+    std::size_t kept, end;  // index in `kept`, and the first node here that is not below it
   };
   std::vector<Parent> parents;
   const auto close = [&](std::size_t at) {
@@ -225,7 +225,7 @@ WindingTree WindingTree::top(int levels) const {
 }
 
 bool WindingTree::has_all(const Vec3& x, double opening) const {
-  // Rounding may not decide: a place that is nearer than this much more is asked in the whole tree.
+  // Rounding must not decide: places within this margin are evaluated in the whole tree.
   constexpr double kMargin = 1 + 1e-9;
   const Vec3 local = scale_ * (x - middle_);
   return std::none_of(left_out_.begin(), left_out_.end(), [&](const WindingBall& ball) {
@@ -243,7 +243,7 @@ std::vector<double> WindingTree::winding(std::span<const Vec3> x, const Context&
                                          double opening) const {
   std::vector<Vec3> local(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) local[i] = scale_ * (x[i] - middle_);
-  // Queries that lie near each other walk through the tree together.
+  // Sorts the queries, because near queries walk through the tree together.
   const std::vector<Key> keys = sorted_keys(local, context);
   std::vector<double> result(x.size());
   parallel_for(x.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {

@@ -1,9 +1,9 @@
-// The generalised winding number of oriented points. Layer: shape.
+// Computes the generalised winding number of oriented points. Layer: shape.
 //
-// Points p_j that stand for patches of a surface, with area normals a_j (unit outward normal times
-// area), have at x the winding number (Barill, Dickson, Schmidt, Levin, Jacobson 2018)
-//   w(x) = 1/(4 pi) sum_j a_j . (p_j - x) / |p_j - x|^3:
-// near 1 inside a closed surface, near 0 outside, and between the two where the surface has holes.
+// Points p_j stand for patches of a surface, with area normals a_j (unit outward normal times
+// area). They have at x the winding number (Barill, Dickson, Schmidt, Levin, Jacobson 2018)
+//   w(x) = 1/(4 pi) sum_j a_j . (p_j - x) / |p_j - x|^3,
+// near 1 inside a closed surface, near 0 outside, and between 0 and 1 where the surface has holes.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +18,12 @@
 
 namespace rholm {
 
-// w at each of x, as WindingTree::winding() has it.
+// Returns w at each of x, as WindingTree::winding() does.
 using WindingNumbers = std::function<std::vector<double>(std::span<const Vec3> x, double opening)>;
-// Where nothing is known of the precision that is needed.
+// The opening to use if the required precision is not known.
 inline constexpr double kWindingOpening = 2;
 
-// Holds the points with their patches.
+// A ball that contains some points with their patches.
 struct WindingBall {
   Vec3 center;
   double radius = 0;
@@ -31,26 +31,26 @@ struct WindingBall {
 
 class WindingTree {
  public:
-  // One area normal per point. Throws InvalidInput if one is not finite, or their numbers differ.
+  // Takes one area normal per point. Throws InvalidInput if one is not finite or numbers differ.
   WindingTree(std::span<const Vec3> points, std::span<const Vec3> area_normals);
 
-  // Other normals for the same points: a pass over the tree, cheaper than a new one.
+  // Sets other normals for the same points: a pass over the tree, cheaper than a new tree.
   void set_area_normals(std::span<const Vec3> area_normals);
 
-  // w at each of x. A set of points is replaced by its dipole, first and second moments where it
-  // is seen from more than `opening` times its radius: the error falls with its cube. Closer to a
-  // point than its patch's radius e = sqrt(area / pi) the denominator is e^3: over an even sheet w
-  // then changes from 0 to 1 by the smooth step 1/2 - (3 t - t^3) / 4, t = height / e, and is the
-  // sheet's own beyond.
-  // Fastest where x are many near each other, in any order; the result at one of them does not
-  // depend on the others, nor on the number of threads. `opening` must be at least 1.
+  // Returns w at each of x. A set of points seen from more than `opening` times its radius
+  // is replaced by its dipole, first and second moments; the error falls with the cube of
+  // `opening`. Closer to a point than its patch's radius e = sqrt(area / pi), the
+  // denominator is e^3. So w changes over an even sheet by the smooth step 1/2 - (3 t - t^3)
+  // / 4, t = height / e, and is exact beyond. It is fastest for many x near each other, in
+  // any order. Each result depends neither on the other x nor on the number of threads.
+  // `opening` must be at least 1.
   std::vector<double> winding(std::span<const Vec3> x, const Context& context = {},
                               double opening = kWindingOpening) const;
-  // The first levels of the tree, without points: the same numbers where has_all().
+  // Returns the first levels of the tree, without points; equal results where has_all() is true.
   WindingTree top(int levels) const;
-  // Whether a place is so far from all that top() has left out that it is not asked there.
+  // Returns true if x is so far from all nodes left out by top() that they are not needed.
   bool has_all(const Vec3& x, double opening) const;
-  // The same as a function; good as long as the tree.
+  // Returns winding() as a function, which is valid as long as the tree.
   WindingNumbers numbers(const Context& context = {}) const;
 
  private:
@@ -65,10 +65,10 @@ class WindingTree {
 
   Vec3 middle_;
   double scale_ = 1;                   // the points lie in -1 ... 1
-  std::vector<std::uint32_t> order_;   // index of each of points_
+  std::vector<std::uint32_t> order_;   // original index of each of points_
   std::vector<WindingPoint> points_;   // along a Morton curve
   std::vector<WindingNode> nodes_;     // parents before children
-  std::vector<WindingBall> left_out_;  // what is below nodes of top(), and on leaves, there
+  std::vector<WindingBall> left_out_;  // in top(): around left-out subtrees and leaves
 };
 
 }  // namespace rholm

@@ -14,7 +14,7 @@
 namespace rholm {
 namespace {
 
-// Of a part of the polygon: 1 - cosine of the largest angle between neighbours, then the area.
+// Cost of a part of the polygon: 1 - cosine of the largest angle between neighbours, then area.
 struct Weight {
   double bend = std::numeric_limits<double>::infinity();
   double area = 0;
@@ -26,14 +26,14 @@ struct Weight {
 // The best triangulation of the part i, i + 1, ... j of the polygon, closed by the diagonal j -> i.
 struct Part {
   Weight weight;
-  std::uint32_t apex = 0;  // of the triangle at the diagonal: i, apex, j
-  Vec3 normal;             // its unit normal; of an edge of the rim that of the triangle beyond
+  std::uint32_t apex = 0;  // apex of the triangle (i, apex, j) at the diagonal
+  Vec3 normal;             // its unit normal; for an edge of the rim, of the triangle beyond
 };
 
-// Angles closer than this are equal: flat rims are to be decided by area, not by rounding.
+// Angles closer than this are equal, so that area, not rounding, decides on flat rims.
 constexpr double kSameBend = 1e-9;
 
-// Worse than any bend, which is 2 at most: along a straight side of the rim there are others.
+// Cost above any bend, which is at most 2: a straight side of the rim has other triangulations.
 constexpr double kWithoutArea = 3;
 
 double bend_between(const Vec3& a, const Vec3& b) {
@@ -94,7 +94,7 @@ class Triangulator {
     const FaceNormal face = face_normal({rim_[i], rim_[m], rim_[j]});
     const Vec3 normal = normalized(face.twice_area);
     weight.area += norm(face.twice_area) / 2;
-    // Not less than that of its parts: one that cannot be closed stays so.
+    // The weight is at least the weight of each part, so a part that cannot be closed stays so.
     if (face.degenerate) weight.bend = std::max(weight.bend, kWithoutArea);
     weight.bend = std::max(
         {weight.bend, bend_between(normal, left.normal), bend_between(normal, right.normal)});
@@ -124,8 +124,8 @@ std::optional<HoleTriangles> triangulate_hole(
 
 namespace {
 
-// Of a part's area: a larger cover would not close a hole but double a sheet. A hemisphere's is a
-// half, that of a flat sheet 1.
+// Largest area of a cover, relative to its part: a larger cover does not close a hole but doubles a
+// sheet. The ratio is a half for a hemisphere and 1 for a flat sheet.
 constexpr double kLargestCover = 0.75;
 
 Vec3 unit_normal_of(const Mesh& mesh, std::uint32_t t) {
@@ -138,13 +138,13 @@ double area_of(const std::vector<Vec3>& at, const Triangle& t) {
   return norm(cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]])) / 2;
 }
 
-// Half-edges of a border, each beginning where the one before it ends.
+// Half-edges of a border, each beginning where the last one ends.
 using Border = std::vector<std::uint32_t>;
 
 std::vector<Border> find_borders(const Mesh& mesh, const Parts& parts,
                                  const std::vector<char>& one_sided,
                                  const std::vector<std::uint32_t>& mates) {
-  std::vector<std::uint32_t> from(mesh.vertices.size(), kNoMate);  // the half-edge that leaves
+  std::vector<std::uint32_t> from(mesh.vertices.size(), kNoMate);  // half-edge leaving a vertex
   const auto is_border = [&](std::uint32_t h) {
     return mates[h] == kNoMate && !one_sided[parts.part[h / 3]];
   };
@@ -167,11 +167,11 @@ std::vector<Border> find_borders(const Mesh& mesh, const Parts& parts,
   return borders;
 }
 
-// The border of a hole run through by what closes it.
+// The border of a hole, in the direction of the triangles that close it.
 struct Rim {
   std::vector<std::uint32_t> vertices;
   std::vector<Vec3> at;
-  std::vector<Vec3> beyond;  // normals at the edge from each to the next
+  std::vector<Vec3> beyond;  // normals beyond the edge from each vertex to the next
 };
 
 Rim rim_of(const Mesh& mesh, const Border& border) {
@@ -187,7 +187,7 @@ Rim rim_of(const Mesh& mesh, const Border& border) {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-// Edges between vertices of the rim that there are already, sorted.
+// Returns existing edges between vertices of the rim, sorted.
 std::vector<Pair> edges_within(const Mesh& mesh, const VertexStars& stars, const Rim& rim) {
   std::vector<Pair> place;  // vertex, its index in the rim
   place.reserve(rim.vertices.size());
@@ -208,7 +208,7 @@ std::vector<Pair> edges_within(const Mesh& mesh, const VertexStars& stars, const
   return edges;
 }
 
-// Around a new vertex, whose attributes are the means of the rim's; whole numbers stay whole.
+// Makes a fan around a new vertex with the means of the rim's attributes; integers are rounded.
 HoleTriangles fan(const Rim& rim, Mesh& mesh) {
   const auto n = static_cast<std::uint32_t>(rim.vertices.size());
   Vec3 middle;
@@ -236,7 +236,7 @@ void drop_last_vertex(Mesh& mesh) {
   for (Attribute& attribute : mesh.attributes) attribute.values.pop_back();
 }
 
-// What closes holes one after the other.
+// Closes holes one after the other.
 class Closer {
  public:
   Closer(const Parts& parts, Mesh& mesh, RepairReport& report)

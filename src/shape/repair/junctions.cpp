@@ -13,13 +13,13 @@
 namespace rholm {
 namespace {
 
-// Chosen: a vertex of a solid has two open edges for each face with a junction there. Comparing all
-// with all stays cheap.
+// Most open edges of a vertex that are compared (chosen): a vertex of a solid has two open edges
+// for each face with a junction there. Comparing all pairs stays cheap.
 constexpr std::size_t kMostOpenEdges = 64;
 
 bool has_corner(const Triangle& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
 
-// Vertices and edges as far as rounding tells them apart.
+// Compares vertices and edges with allowance for rounding.
 class RoundedVertices {
  public:
   RoundedVertices(const std::vector<Vec3>& vertices, const Vec3& error)
@@ -29,8 +29,8 @@ class RoundedVertices {
     return norm(vertices_[a] - vertices_[b]);
   }
 
-  // Whether p may lie between a and b, and apart from both: whether some s in (0, 1) has
-  // p - a = s (b - a) on each axis.
+  // Returns true if p may lie between a and b, and apart from both: some s in (0, 1) has p - a = s
+  // (b - a) on each axis, within rounding.
   bool is_on_edge(std::uint32_t p, std::uint32_t a, std::uint32_t b) const {
     const Vec3 to = vertices_[p] - vertices_[a], way = vertices_[b] - vertices_[a];
     double low = 0, high = 1;
@@ -41,7 +41,7 @@ class RoundedVertices {
            distance(p, b) < distance(a, b);
   }
 
-  // Whether a corner lies on the edge of the others.
+  // Returns true if a corner lies on the opposite edge.
   bool has_no_width(const Triangle& t) const {
     for (std::size_t k = 0; k < 3; ++k) {
       if (is_on_edge(t[k], t[(k + 1) % 3], t[(k + 2) % 3])) return true;
@@ -65,10 +65,10 @@ class RoundedVertices {
   }
 
   const std::vector<Vec3>& vertices_;
-  Vec3 doubt_;  // of the difference of two vertices
+  Vec3 doubt_;  // error of the difference of two vertices
 };
 
-// Triangles without width beside edges that are not of two triangles, or become so.
+// Drops triangles without width at edges that do not have two triangles, at first or after drops.
 class ThinDrops {
  public:
   ThinDrops(const RoundedVertices& rounded, std::size_t n_vertices,
@@ -132,9 +132,9 @@ class ThinDrops {
   const RoundedVertices& rounded_;
   std::vector<Triangle>& triangles_;
   HalfEdges half_edges_;
-  std::vector<std::uint32_t> edge_of_;  // of each half-edge
-  std::vector<std::uint32_t> count_;    // of each edge: triangles that are left
-  std::vector<std::uint32_t> first_;    // of each edge: in half_edges_
+  std::vector<std::uint32_t> edge_of_;  // edge of each half-edge
+  std::vector<std::uint32_t> count_;    // for each edge: number of remaining triangles
+  std::vector<std::uint32_t> first_;    // for each edge: index in half_edges_
 };
 
 class JunctionSplits {
@@ -172,7 +172,7 @@ class JunctionSplits {
     std::uint32_t a = 0, b = 0, triangle = 0;
   };
   struct Pair {
-    std::uint32_t longer = 0, shorter = 0;  // of open_
+    std::uint32_t longer = 0, shorter = 0;  // indices in open_
   };
 
   void find_open_edges() {
@@ -182,8 +182,8 @@ class JunctionSplits {
         });
   }
 
-  // A vertex never gets more open edges than it has now: a split gives the rest of the longer edge
-  // the place of the shorter one.
+  // A vertex never gets more open edges than it has now: after a split, the rest of the longer edge
+  // takes the list entry of the shorter one.
   void list_by_vertex() {
     begin_.assign(n_vertices_ + 1, 0);
     for (const OpenEdge& e : open_) ++begin_[e.a + 1], ++begin_[e.b + 1];
@@ -207,7 +207,7 @@ class JunctionSplits {
     return open_[e].a == v ? open_[e].b : open_[e].a;
   }
 
-  // The nearest junction on an edge from v.
+  // Returns the nearest junction on an edge from v.
   std::optional<Pair> find_pair(std::uint32_t v) {
     std::optional<Pair> found;
     if (count_[v] > kMostOpenEdges) return found;
@@ -235,7 +235,7 @@ class JunctionSplits {
     triangles_.push_back(near);
     take_from_list(from, pair.longer);
     take_from_list(from, pair.shorter);
-    // The third corner's edge to `from`, if it is open, is one of the new triangle.
+    // The third corner's edge to `from`, if open, belongs to the new triangle.
     for (const std::uint32_t e : edges_of(from)) {
       if (open_[e].triangle == rest.triangle) open_[e].triangle = added;
     }

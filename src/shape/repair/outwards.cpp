@@ -10,13 +10,13 @@
 namespace rholm {
 namespace {
 
-// A closed part, its triangles in the order of the mesh.
+// A closed part; its triangles are in mesh order.
 struct Solid {
   std::vector<std::uint32_t> triangles;
   Bounds box;
   double volume = 0;
   bool closed = true;
-  int depth = 0;  // others it lies within
+  int depth = 0;  // number of other solids that contain it
 };
 
 std::vector<Solid> find_solids(const Mesh& mesh, const Parts& parts,
@@ -32,7 +32,7 @@ std::vector<Solid> find_solids(const Mesh& mesh, const Parts& parts,
     solid.triangles.push_back(t);
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t h = 3 * t + static_cast<std::uint32_t>(k);
-      // Same starts: one-sided.
+      // Half-edges with the same start belong to a one-sided part.
       solid.closed = solid.closed && mates[h] != kNoMate &&
                      start_of(mesh.triangles, h) != start_of(mesh.triangles, mates[h]);
       const Vec3& p = mesh.vertices[corners[k]];
@@ -52,7 +52,7 @@ bool holds(const Bounds& outer, const Bounds& inner) {
          outer.max.x > inner.max.x && outer.max.y > inner.max.y && outer.max.z > inner.max.z;
 }
 
-// Directions in general position, chosen: a ray through an edge counts wrong, three hardly do.
+// Directions in general position, chosen: one ray may miscount at an edge, three hardly do.
 const Vec3 kDirections[] = {normalized({0.26, 0.53, 0.81}), normalized({-0.71, 0.37, -0.59}),
                             normalized({0.43, -0.83, -0.35})};
 
@@ -62,8 +62,8 @@ bool is_inside(const RayScene& scene, const Vec3& point) {
   return odd >= 2;
 }
 
-// Whether the solid lies within the scene's: by a few of its corners, so that solids that cross
-// each other do not count.
+// Returns true if the solid lies within the scene's solid. All of a few corners must lie inside, so
+// that solids that cross each other do not count.
 bool is_within(const RayScene& scene, const Mesh& mesh, const Solid& solid) {
   constexpr std::size_t kCorners = 5;  // chosen
   const std::size_t n = solid.triangles.size();
@@ -102,7 +102,7 @@ void find_depths(const Mesh& mesh, std::vector<Solid>& solids, const Context& co
       if (holds(outer.box, solids[order[j]].box)) within.push_back(order[j]);
     }
     if (within.empty()) continue;
-    const Mesh part = mesh_of(mesh, outer);  // which the scene refers to
+    const Mesh part = mesh_of(mesh, outer);  // the scene refers to it
     const RayScene scene(part);
     for (const std::uint32_t j : within) solids[j].depth += is_within(scene, mesh, solids[j]);
   }

@@ -1,4 +1,4 @@
-// Closed parts of a mesh turned outwards, those within others inwards.
+// Orients closed parts of a mesh outwards, and parts inside of others inwards.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace rholm {
 
-// Marks the triangles that must turn: `turned[t]` becomes 1 minus itself. Coordinates of the order
-// of 1; parts are oriented alike unless they are one-sided. Counts what it finds in `report`.
+// Marks triangles that must be flipped: `turned[t]` becomes 1 - turned[t]. Coordinates are of order
+// 1; parts are oriented alike unless they are one-sided. Writes counts to `report`.
 void turn_outwards(const Mesh& mesh, const Parts& parts, const std::vector<std::uint32_t>& mates,
                    std::vector<char>& turned, RepairReport& report, const Context& context);
 

@@ -1,6 +1,6 @@
-// Each step leaves what the next one counts on: no duplicates before triangles are paired,
-// junctions joined before borders have fans, alike senses before sheets are told apart, single fans
-// before borders are followed, and closed parts before their insides are looked for.
+// Repairs a mesh in steps that depend on each other. Duplicates are dropped before triangles are
+// paired, and junctions are joined before borders have fans. Orientations agree before sheets are
+// separated, fans are single before borders are followed, parts closed before cavities are found.
 #include "rholm/repair.h"
 
 #include <algorithm>
@@ -27,10 +27,10 @@
 namespace rholm {
 namespace {
 
-// Of the diagonal: copies of a vertex move so far apart. Chosen: readers that weld do not see them
-// as one, eyes do.
+// Distance between copies of a vertex after they are moved apart, relative to the diagonal. Chosen:
+// readers that weld keep the copies apart, but the gap is not visible.
 constexpr double kApart = 1e-6;
-// Of the largest coordinate: four steps of single precision, in which most formats keep it.
+// This distance relative to the largest coordinate: four spacings of floats, as most formats have.
 constexpr double kApartSingle = 0x1p-21;
 
 double largest_modulus(const Bounds& box) {
@@ -41,7 +41,7 @@ double largest_modulus(const Bounds& box) {
   return largest;
 }
 
-// A mesh under repair. `mesh_` has coordinates times a power of two, near 1.
+// A mesh under repair. Coordinates of `mesh_` are scaled by a power of two to be near 1.
 class Repairer {
  public:
   Repairer(Mesh mesh, const RepairOptions& options, const Context& context)
@@ -71,7 +71,7 @@ class Repairer {
     swap_thin();
     at(0.5);
     close();
-    swap_thin();  // narrow holes are closed by thin faces
+    swap_thin();  // faces that close narrow holes are thin
     at(0.8);
     turn();
   }
@@ -88,20 +88,20 @@ class Repairer {
   }
 
  private:
-  // New places are of the precision of the given ones, so that the rounding of all stays known.
+  // Rounds new vertices to the precision of the given ones, so that the error of all stays known.
   Vec3 as_written(const Vec3& v) const {
     if (!single_) return v;
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
   }
 
-  // Whether two vertices may be one point within their rounding.
+  // Returns true if two vertices may be one point within their rounding.
   bool may_coincide(std::uint32_t a, std::uint32_t b) const {
     const Vec3 apart = mesh_.vertices[a] - mesh_.vertices[b];
     return std::abs(apart.x) <= 2 * error_.x && std::abs(apart.y) <= 2 * error_.y &&
            std::abs(apart.z) <= 2 * error_.z;
   }
 
-  // Thin triangles, one of whose edges is a point. Whether there were any.
+  // Collapses thin triangles with an edge that may be a point. Returns true if there were any.
   bool collapse_needles() {
     DisjointSets same(mesh_.vertices.size());
     bool found = false;
@@ -168,7 +168,7 @@ class Repairer {
     parts_ = find_parts(mesh_.triangles.size(), mates_);
   }
 
-  // Alike first across edges of two triangles, so that those of more can be told apart.
+  // Orients across edges of two triangles first; edges of more triangles need the result.
   void orient() {
     mates_ = find_mates(mesh_.vertices.size(), mesh_.triangles);
     parts_ = find_parts(mesh_.triangles.size(), mates_);
@@ -196,7 +196,7 @@ class Repairer {
     move_into_sheets(moves);
   }
 
-  // Towards the mean of the other corners of a vertex's triangles.
+  // Moves vertices towards the mean of the other corners of their triangles.
   void move_into_sheets(const std::vector<char>& moves) {
     const double apart = std::max(kApart * diagonal_, kApartSingle * largest_);
     std::vector<Vec3> sums(moves.size());
@@ -227,7 +227,7 @@ class Repairer {
     orient_again();
   }
 
-  // Mates of swapped triangles are in order; parts may have new numbers.
+  // Orients again after swaps, which keep the mates valid; parts may have new numbers.
   void orient_again() {
     Parts parts = parts_;
     const Orienting again = orient_alike(mesh_.vertices, parts, mesh_.triangles, mates_);
@@ -248,7 +248,7 @@ class Repairer {
     for (std::size_t t = 0; t < wrong.size(); ++t) turned_[t] ^= wrong[t];
   }
 
-  // Normals of the file at turned triangles, where they contradict these now.
+  // Flips given normals at flipped triangles if they contradict these triangles.
   void turn_normals() {
     const NormalAttributes normals = normal_attributes(mesh_);
     if (!normals) return;
@@ -264,15 +264,15 @@ class Repairer {
 
   const RepairOptions& options_;
   const Context& context_;
-  std::vector<Vec3> given_, local_;  // as they came: what stays comes back to the last bit
+  std::vector<Vec3> given_, local_;  // as given: unmoved vertices are returned exactly
   Mesh mesh_;
   double scale_ = 1, diagonal_ = 0, largest_ = 0;
   Vec3 error_;           // coordinate_error(), scaled
-  bool single_ = false;  // all given coordinates are numbers of single precision
+  bool single_ = false;  // true if all given coordinates are single-precision numbers
   std::vector<std::uint32_t> mates_;
   Parts parts_;
   std::vector<char> one_sided_;  // per part
-  std::vector<char> turned_;     // per triangle, against the mesh given
+  std::vector<char> turned_;     // for each triangle: flipped against the given mesh
   RepairReport report_;
 };
 

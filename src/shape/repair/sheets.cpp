@@ -17,7 +17,7 @@ void join(std::uint32_t a, std::uint32_t b, std::vector<std::uint32_t>& mates) {
   mates[b] = a;
 }
 
-// The half-edges of one edge in the order of their triangles' angles about it.
+// Returns the half-edges of one edge, ordered by the angles of their triangles about it.
 std::vector<HalfEdge> around_edge(const std::vector<Vec3>& vertices,
                                   const std::vector<Triangle>& triangles, std::uint32_t smaller,
                                   std::span<const HalfEdge> group) {
@@ -38,8 +38,8 @@ std::vector<HalfEdge> around_edge(const std::vector<Vec3>& vertices,
   return result;
 }
 
-// A triangle whose half-edge rises has the solid at smaller angles about the rising edge, one whose
-// half-edge falls at larger ones: like parentheses, around a circle.
+// A triangle with a rising half-edge has the solid at smaller angles about the rising edge; with a
+// falling one, at larger angles. So half-edges match like parentheses around a circle.
 void join_around(std::vector<HalfEdge> ring, std::vector<std::uint32_t>& mates) {
   const auto join_first = [&](const auto& fits) {
     for (std::size_t i = 0; i < ring.size() && ring.size() > 1; ++i) {
@@ -58,7 +58,7 @@ void join_around(std::vector<HalfEdge> ring, std::vector<std::uint32_t>& mates) 
   }
 }
 
-// Corners of two mates at the same vertex.
+// Joins the corners of two mates at each common vertex.
 void join_corners(const std::vector<Triangle>& triangles, std::uint32_t h, std::uint32_t mate,
                   DisjointSets& fans) {
   const bool opposite = start_of(triangles, h) != start_of(triangles, mate);
@@ -126,7 +126,7 @@ Orienting orient_alike(const std::vector<Vec3>& vertices, const Parts& parts,
       }
     }
   }
-  std::vector<double> balance(parts.n, 0.0);  // area that would turn less that which would not
+  std::vector<double> balance(parts.n, 0.0);  // area that would be flipped minus remaining area
   const auto area = [&](const Triangle& t) {
     const Vec3& a = vertices[t[0]];
     return norm(cross(vertices[t[1]] - a, vertices[t[2]] - a));
@@ -147,7 +147,7 @@ Orienting orient_alike(const std::vector<Vec3>& vertices, const Parts& parts,
   return result;
 }
 
-// Corners 1 and 2 change places: half-edge 0 (0 -> 1) becomes 2 (1 -> 0), and back; 1 stays.
+// Swaps corners 1 and 2: half-edges 0 (0 -> 1) and 2 (1 -> 0) exchange places; half-edge 1 stays.
 void flip_marked(const std::vector<char>& marked, std::vector<Triangle>& triangles,
                  std::vector<std::uint32_t>& mates) {
   const auto place = [&](std::uint32_t h) {
@@ -171,7 +171,7 @@ std::vector<std::uint32_t> separate_fans(std::size_t n_vertices,
     if (mates[h] != kNoMate && h < mates[h]) join_corners(triangles, h, mates[h], fans);
   }
   std::vector<char> seen(n_vertices, 0);
-  std::vector<std::uint32_t> vertex_of(3 * triangles.size());  // of fans, at their first corner
+  std::vector<std::uint32_t> vertex_of(3 * triangles.size());  // of fans, at first corners
   std::vector<std::uint32_t> copies;
   for (std::uint32_t c = 0; c < vertex_of.size(); ++c) {
     poll();

@@ -1,5 +1,5 @@
-// Which triangles go on into which: a mesh as sheets that are manifold by themselves, even where
-// they touch.
+// Splits a mesh into sheets that are manifold by themselves, even where they touch: it finds which
+// triangles continue into which.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace rholm {
 
-// As find_mates(), also at edges of more than two triangles that are oriented alike: those that
-// have the solid between them are mates (a falling half-edge and the next one around that rises),
-// then what is left in pairs of neighbours; of an odd number one has none.
+// Does the same as find_mates(), but also pairs edges of more than two oriented triangles. Mates
+// have the solid between them: a falling half-edge and the next rising one around the edge. The
+// remaining half-edges are paired with neighbours; if their number is odd, one has no mate.
 std::vector<std::uint32_t> find_mates_at_all_edges(const std::vector<Vec3>& vertices,
                                                    const std::vector<Triangle>& triangles);
 
-// Parts of triangles connected through mates: part[t], counted in the order of their first ones.
+// Parts of triangles connected through mates; part[t] is numbered in the order of first triangles.
 struct Parts {
   std::vector<std::uint32_t> part;
   std::size_t n = 0;
@@ -26,19 +26,19 @@ Parts find_parts(std::size_t n_triangles, const std::vector<std::uint32_t>& mate
 
 struct Orienting {
   std::vector<char> flipped;    // per triangle
-  std::vector<char> one_sided;  // per part: there is no orientation
+  std::vector<char> one_sided;  // per part: true if it has no orientation
 };
-// Turns triangles so that mates run through their edge in opposite senses: of each part the smaller
-// share of its area. One-sided parts stay as they are. `mates` follows the triangles.
+// Flips triangles so that mates run through their edge in opposite directions. In each part, the
+// smaller area is flipped. One-sided parts stay unchanged. `mates` is updated.
 Orienting orient_alike(const std::vector<Vec3>& vertices, const Parts& parts,
                        std::vector<Triangle>& triangles, std::vector<std::uint32_t>& mates);
 
-// Turns the triangles that are marked; `mates` follows.
+// Flips the marked triangles and updates `mates`.
 void flip_marked(const std::vector<char>& marked, std::vector<Triangle>& triangles,
                  std::vector<std::uint32_t>& mates);
 
-// Gives each fan of a vertex but the first a copy of it at the end of the list. Returns for each
-// new vertex the one it is a copy of.
+// Gives each fan of a vertex, except the first, its own copy of the vertex at the end of the list.
+// Returns for each new vertex the vertex that it is a copy of.
 std::vector<std::uint32_t> separate_fans(std::size_t n_vertices,
                                          const std::vector<std::uint32_t>& mates,
                                          std::vector<Triangle>& triangles);

@@ -12,8 +12,8 @@
 namespace rholm {
 namespace {
 
-// Swaps of a thin face for two others, one of which is thin still (chosen: each shortens the
-// longest edge, so that they end; this guards against rounding).
+// Most swaps per thin face (chosen). A swap may leave one of two faces thin, but it shortens the
+// longest edge, so swaps end; the limit guards against rounding.
 constexpr std::size_t kSwapsOfFace = 16;
 
 class ThinFaceSwaps {
@@ -118,7 +118,7 @@ class ThinFaceSwaps {
     }
   }
 
-  // Whether fewer faces are thin after a swap, or as many with shorter edges, and none is folded.
+  // Returns true if fewer faces are thin after a swap, or both with shorter edges, and none folds.
   bool gains(const Triangle& mate, const Triangle& first, const Triangle& second, double longest) {
     const Shape before = shape(mate), one = shape(first), two = shape(second);
     const auto folded = [&](const Shape& after) {

@@ -1,19 +1,19 @@
-// Sums of squared distances to planes (Garland and Heckbert 1997), seen from a place near them: in
-// single precision the three terms would cancel far from the origin.
+// Sums squared distances to planes (Garland and Heckbert 1997), relative to a place near them. Far
+// from the origin, the three terms would cancel in single precision.
 #pragma once
 
 #include "rholm/vec3.h"
 
 namespace rholm {
 
-// sum_k w_k (n_k . x + d_k)^2 = x^T A x + 2 b . x + c.
+// The function sum_k w_k (n_k . x + d_k)^2 = x^T A x + 2 b . x + c.
 struct PlaneQuadric {
-  float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // A
+  float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // the matrix A
   float bx = 0, by = 0, bz = 0;
   float c = 0;
   float weight = 0;  // sum of w_k
 
-  // The plane through the origin with this unit normal.
+  // Adds the plane through the origin with this unit normal.
   void add(const Vec3& n, double w) {
     xx += static_cast<float>(w * n.x * n.x), xy += static_cast<float>(w * n.x * n.y);
     xz += static_cast<float>(w * n.x * n.z), yy += static_cast<float>(w * n.y * n.y);
@@ -27,7 +27,7 @@ struct PlaneQuadric {
     c += q.c, weight += q.weight;
   }
 
-  // At x: never below zero but for rounding.
+  // Returns the value at x, never below zero: negative rounding errors are set to zero.
   float operator()(float x, float y, float z) const {
     const float ax = xx * x + xy * y + xz * z + 2 * bx;
     const float ay = xy * x + yy * y + yz * z + 2 * by;
@@ -36,7 +36,7 @@ struct PlaneQuadric {
     return value > 0 ? value : 0;
   }
 
-  // The same seen from x: values at y become those at x + y.
+  // Returns the function relative to x: its value at y is the old value at x + y.
   PlaneQuadric seen_from(float x, float y, float z) const {
     PlaneQuadric q = *this;
     q.c = (*this)(x, y, z);

@@ -26,30 +26,30 @@ namespace rholm {
 namespace {
 
 constexpr std::size_t kGrain = 8192;
-// Vertices that may go in one pass: the cheapest 0.3 of them, first the cheaper half of those. In
-// each half they go in the order of the mesh, which is some three times as fast as the order of
-// their costs and moves the surface by a hundredth more (scripts/constants).
+// Share of vertices that may collapse in a pass: the cheapest 0.3, the cheaper half of them first.
+// Each half is in mesh order. This is some three times as fast as the order of costs, and moves the
+// surface by a hundredth more (scripts/constants).
 constexpr double kShareOfPass = 0.3;
 constexpr std::size_t kClasses = 2;
-constexpr std::size_t kMoreOfPass = 8;  // times as many where none of the cheapest may go
-// A vertex that goes locks its neighbours: of so many cheap ones one goes.
+constexpr std::size_t kMoreOfPass = 8;  // factor if none of the cheapest may collapse
+// Cheap vertices per wanted collapse, because a collapse locks the neighbours of its vertex.
 constexpr std::size_t kTriesOfCollapse = 4;
-// Triangles may turn by the angle of this cosine (chosen: the fans of marching cubes have sharp
-// edges of no meaning).
+// Least cosine of the angle between a triangle's old and new normal. Chosen: fans of marching cubes
+// have sharp edges without meaning.
 constexpr double kLeastCosine = 0.25;
-constexpr double kBorderWeight = 10;  // chosen: a border is seen against the background
+constexpr double kBorderWeight = 10;  // chosen: borders are visible against the background
 
 struct Collapse {
   float error = 0;         // weighted sum of squared distances, in mean edges
-  std::uint32_t from = 0;  // the vertex that goes
-  std::size_t place = 0;   // of the vertex it becomes among its neighbours
+  std::uint32_t from = 0;  // the vertex that is removed
+  std::size_t place = 0;   // index of the vertex it becomes among its neighbours
 };
 
-// The mesh as it shrinks: after each pass the vertices that are left, in their order.
+// The mesh while it shrinks: after each pass, the remaining vertices in their order.
 class Simplifier {
  public:
-  // Of a whole mesh: nothing is locked, the unit is its mean edge, and `error` its
-  // coordinate_error().
+  // For a whole mesh (is_whole), nothing is locked, the unit is its mean edge, and `error`
+  // is its coordinate_error().
   Simplifier(SimplifyPart part, const SimplifyOptions& options, const Context& context,
              bool is_whole, const Vec3& error = {})
       : options_(options),
@@ -105,7 +105,7 @@ class Simplifier {
   double error() const { return std::sqrt(largest_) / per_length_; }
 
  private:
-  // Lengths are counted in mean edges, so that single precision suits meshes of any unit.
+  // Uses the mean edge as unit of length, so that single precision suits meshes of any unit.
   void find_scale() {
     double sum = 0;
     for (const Triangle& t : triangles_) sum += norm(points_[t[1]] - points_[t[0]]);
@@ -116,7 +116,7 @@ class Simplifier {
     return per_length_ * (points_[to] - points_[from]);
   }
 
-  // Planes of the triangles, and along borders those across them.
+  // Adds planes of the triangles, and along borders the planes perpendicular to these.
   void make_quadrics() {
     parallel_for(points_.size(), kGrain, context_, {}, [&](std::size_t begin, std::size_t end) {
       Ring ring;
@@ -128,7 +128,7 @@ class Simplifier {
           const Vec3 twice = twice_area(t);
           quadrics_[v].add(normalized(twice), norm(twice) / 2);
         }
-        if (is_locked(v)) continue;  // open in this part, perhaps not in all
+        if (is_locked(v)) continue;  // at the border of this part, perhaps not of the surface
         find_ring(triangles_, stars_, v, ring);
         if (ring.kind != RingKind::kOpen) continue;
         const std::vector<std::uint32_t>& around = ring.neighbours;
@@ -182,8 +182,8 @@ class Simplifier {
     }
   }
 
-  // One round of at most `wanted` collapses that do not touch each other's stars, among the
-  // cheapest vertices: whether there was one.
+  // Makes at most `wanted` collapses with disjoint stars among the cheapest vertices.
+  // Returns true if it made one.
   bool pass(std::size_t wanted, std::size_t cheapest) {
     const std::size_t n = points_.size();
     const std::vector<float> least = least_errors();
@@ -221,7 +221,7 @@ class Simplifier {
     return true;
   }
 
-  // Of all ways for each vertex to go that are within the error allowed; infinite without one.
+  // Returns for each vertex the least error of an allowed collapse, or infinity without one.
   std::vector<float> least_errors() const {
     std::vector<float> errors(points_.size(), HUGE_VALF);
     parallel_for(points_.size(), kGrain, context_, {}, [&](std::size_t begin, std::size_t end) {
@@ -238,7 +238,7 @@ class Simplifier {
     return errors;
   }
 
-  // Of the `count` least errors the largest of each class.
+  // Returns the largest error in each class of the `count` least errors.
   static std::vector<float> limits_of(std::vector<float> errors, std::size_t count) {
     count = std::min(count, errors.size());
     std::vector<float> limits;
@@ -270,8 +270,8 @@ class Simplifier {
     if (q.weight > 0) largest_ = std::max(largest_, static_cast<double>(q.c) / q.weight);
   }
 
-  // The way for a vertex to go that changes least, within the limit, and keeps the surface what it
-  // is. Its ring is left in ring_.
+  // Finds the collapse of a vertex with the least error within the limit that keeps the topology.
+  // It leaves the vertex's ring in ring_.
   bool find_collapse(float limit, Collapse& collapse) {
     const std::uint32_t v = collapse.from;
     find_ring(triangles_, stars_, v, ring_);
@@ -279,7 +279,7 @@ class Simplifier {
     const std::size_t n = ring_.neighbours.size();
     ways_.clear();
     for (std::size_t i = 0; i < n; ++i) {
-      // A border shrinks along itself.
+      // A border vertex collapses along the border only.
       if (ring_.kind == RingKind::kOpen && i != 0 && i != n - 1) continue;
       const std::uint32_t to = ring_.neighbours[i];
       if (locked_[to] != 0) continue;
@@ -297,7 +297,7 @@ class Simplifier {
     return true;
   }
 
-  // Whether a triangle would turn over, or lose its area.
+  // Returns true if a triangle would turn over or lose its area.
   bool turns_triangles(std::uint32_t v, std::uint32_t to) const {
     const Vec3 d = offset(v, to);
     for (const std::uint32_t t : stars_.of(v)) {
@@ -310,7 +310,7 @@ class Simplifier {
       const Vec3 then = cross(a - d, b - d);
       if (becomes_thin(then, a - d, b - d, c, k, to)) return true;
       if (dot(then, now) > kLeastCosine * norm(then) * norm(now)) continue;
-      // Where a face thinner than rounding points says nothing.
+      // The direction of a face thinner than the rounding is meaningless.
       if (!is_thin(corners(c), coordinate_error_)) return true;
     }
     return false;
@@ -320,18 +320,18 @@ class Simplifier {
     return {points_[t[0]], points_[t[1]], points_[t[2]]};
   }
 
-  // Whether a triangle would be thinner than the rounding of its corners, once its corner k is
-  // `to`: then it has the edges a and b from there, and `normal` is their product.
+  // Returns true if a triangle becomes thinner than the rounding of its corners when corner k is
+  // `to`. Then a and b are its edges from this corner, and `normal` is their cross product.
   bool becomes_thin(const Vec3& normal, const Vec3& a, const Vec3& b, Triangle t, std::size_t k,
                     std::uint32_t to) const {
-    constexpr double kWide = 1e-2;  // chosen: few triangles are looked at more closely
+    constexpr double kWide = 1e-2;  // chosen: few triangles need the exact test
     if (dot(normal, normal) > kWide * kWide * dot(a, a) * dot(b, b)) return false;
     t[k] = to;
     return is_thin(corners(t), coordinate_error_);
   }
 
-  // The link condition (Dey, Edelsbrunner, Guha, Nekhayev 1999): no edge of the vertex that goes,
-  // and no triangle, comes where there is one, but for the triangles at the edge that shrinks.
+  // Tests the link condition (Dey, Edelsbrunner, Guha, Nekhayev 1999). No edge of the removed
+  // vertex, and no triangle, may coincide with an existing one, except at the collapsed edge.
   bool keeps_topology(const Collapse& collapse) {
     const std::vector<std::uint32_t>& around = ring_.neighbours;
     const std::size_t n = around.size();
@@ -347,13 +347,13 @@ class Simplifier {
       if (i == place || i == before || i == after) continue;
       if (std::find(there.begin(), there.end(), around[i]) != there.end()) return false;
     }
-    // Three triangles become one, which may be there, below: a tetrahedron stays. So does the last
-    // triangle of an open piece.
+    // Three triangles become one, which may exist already beneath: a tetrahedron stays. The last
+    // triangle of an open component stays too.
     if (closed) return n > 3 || there.size() > 3 || target_.kind == RingKind::kOpen;
     return n > 2 || there.size() > 2;
   }
 
-  // Whether an edge, or a triangle, would come that may be there in another part.
+  // Returns true if a new edge or triangle may exist in another part already.
   bool may_meet_elsewhere(std::size_t place, std::size_t before, std::size_t after) const {
     const std::vector<std::uint32_t>& around = ring_.neighbours;
     if (!is_locked(around[place])) return false;
@@ -371,20 +371,20 @@ class Simplifier {
   const Context& context_;
   std::vector<Vec3> points_;
   std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> given_;  // the index each vertex was given with
+  std::vector<std::uint32_t> given_;  // given index of each vertex
   std::vector<PartVertex> kinds_;
   std::vector<PlaneQuadric> quadrics_;
-  std::vector<std::uint32_t> origins_;  // of a part: which triangle of the given ones each was
+  std::vector<std::uint32_t> origins_;  // for a part: given triangle that each one was
   std::vector<SimplifiedPart::Step> steps_;
   VertexStars stars_;
   std::vector<std::uint8_t> locked_;
   Ring ring_, target_;
   std::vector<Collapse> ways_;
-  Vec3 coordinate_error_;  // of a whole mesh
+  Vec3 coordinate_error_;  // only for a whole mesh
   double per_length_;
-  double most_ = 0;     // square of the error allowed, in mean edges
+  double most_ = 0;     // square of the allowed error, in mean edges
   double largest_ = 0;  // square of the error, in mean edges
-  double cost_ = 0;     // of the vertices that have gone: those of passes so far cost no more
+  double cost_ = 0;     // largest cost of collapsed vertices in all passes so far
 };
 
 void check(const SimplifyOptions& options) {
@@ -404,7 +404,7 @@ void check(const SimplifyOptions& options) {
   }
 }
 
-// 1 for sizes near 1.
+// Returns 1 for sizes near 1.
 double far_scale(const Bounds& box) {
   constexpr int kFarExponent = 300;  // chosen: far below the 512 of squares
   const UnitFrame frame = unit_frame(box);
@@ -423,7 +423,7 @@ Simplification simplify(Mesh mesh, const SimplifyOptions& options, const Context
   check(options);
   const auto share =
       static_cast<std::size_t>(options.share * static_cast<double>(mesh.triangles.size()));
-  // Where squares of lengths would leave the range of a double, a power of two brings them back.
+  // A power of two scales lengths if their squares would leave the range of a double.
   const double scale = far_scale(bounds(mesh.vertices));
   for (Vec3& v : mesh.vertices) v *= scale;
   std::erase_if(mesh.triangles, has_repeated_corner);

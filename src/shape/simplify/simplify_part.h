@@ -1,5 +1,5 @@
-// Simplification of a part of a surface, the rest of which stays or is simplified elsewhere. Layer:
-// shape.
+// Simplifies a part of a surface whose remainder stays unchanged or is simplified separately.
+// Layer: shape.
 #pragma once
 
 #include <cstddef>
@@ -15,29 +15,29 @@ namespace rholm {
 
 enum class PartVertex : std::uint8_t {
   kFree,
-  kLocked,   // stays where it is, with what it is joined to elsewhere
-  kUnlocked  // free, but has been locked before: its quadric does not know of borders
+  kLocked,   // stays in place, with its connections to other parts
+  kUnlocked  // free, but locked earlier: its quadric does not include borders
 };
 
 struct SimplifyPart {
   std::vector<Vec3> points = {};
   std::vector<Triangle> triangles = {};
   std::vector<PartVertex> kinds = {};  // per vertex
-  // Per vertex, what it stands for already, with weight 0 where the triangles around say it; or
-  // none of all. Lengths are in units.
+  // Quadric of each vertex, or empty. Where the weight is 0, the triangles around the vertex define
+  // the quadric. Lengths are in units.
   std::vector<PlaneQuadric> quadrics = {};
   double unit = 1;
 };
 
 struct SimplifiedPart {
-  std::vector<Triangle> triangles = {};      // by the given vertices
-  std::vector<std::uint32_t> origins = {};   // which of the given ones each was
-  std::vector<std::uint32_t> vertices = {};  // of the given ones that are left, ascending
-  std::vector<PlaneQuadric> quadrics = {};   // of these
+  std::vector<Triangle> triangles = {};      // refer to the given vertices
+  std::vector<std::uint32_t> origins = {};   // given triangle that each one was
+  std::vector<std::uint32_t> vertices = {};  // remaining given vertices, ascending
+  std::vector<PlaneQuadric> quadrics = {};   // of the remaining vertices
   double error = 0;                          // as Simplification::error
-  // On the way, one after the other: so many triangles were left once no vertex went that costs
-  // more (a sum of squared distances times areas, in units): parts of a surface are simplified as
-  // one if they end at the same cost.
+  // History of the simplification: `triangles` were left when all collapses of at most this cost
+  // were done. The cost is a sum of squared distances times areas, in units. Parts that end at the
+  // same cost are simplified as one surface is.
   struct Step {
     double cost = 0;
     std::uint64_t triangles = 0;
@@ -45,7 +45,7 @@ struct SimplifiedPart {
   std::vector<Step> steps = {};
 };
 
-// As simplify(), until no more triangles are left than that, or the error is reached. Two parts
+// Simplifies as simplify() until at most `triangles` are left or the error is reached. Two parts
 // with common vertices, locked in both, are as manifold together afterwards as before.
 SimplifiedPart simplify_part(SimplifyPart part, std::size_t triangles, double max_error,
                              const Context& context = {});

@@ -20,10 +20,10 @@ bool is_closed(const MeshView& mesh) {
     poll();
     const Triangle v = mesh.triangle(t);
     for (std::size_t k = 0; k < 3; ++k) {
-      // A product of what stands for the ends: as a polynomial, the sum is zero only if the edges
-      // cancel, and if they do not it is zero modulo 2^64 by chance alone, about once in 2^60.
+      // Adds the product of the ends' hashes. As a polynomial, the sum is zero only if the edges
+      // cancel. Otherwise it is zero modulo 2^64 by chance alone, about once in 2^60.
       const std::uint64_t a = places[v[k]], b = places[v[k == 2 ? 0 : k + 1]];
-      if (a == b) continue;  // no length, and no other side
+      if (a == b) continue;  // the edge has no length and adds nothing
       sum += a < b ? a * b : -(a * b);
     }
   }

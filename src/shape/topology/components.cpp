@@ -17,7 +17,7 @@ Mesh largest_component(const Mesh& mesh) {
     for (const HalfEdge& half_edge : group) parts.unite(group[0].triangle(), half_edge.triangle());
   });
   const double scale = unit_frame(bounds(mesh.vertices)).scale;
-  std::vector<double> areas(mesh.triangles.size(), 0.0);  // twice, at each part's first triangle
+  std::vector<double> areas(mesh.triangles.size(), 0.0);  // twice the areas, at first triangles
   CancelPoll poll;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     poll();
@@ -33,7 +33,7 @@ Mesh largest_component(const Mesh& mesh) {
     poll();
     if (parts.find(t) == largest) result.triangles.push_back(mesh.triangles[t]);
   }
-  return weld(result).mesh;  // drops the vertices of the others
+  return weld(result).mesh;  // drops the vertices of the other components
 }
 
 }  // namespace rholm

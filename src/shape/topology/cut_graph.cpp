@@ -13,10 +13,10 @@ namespace rholm {
 namespace {
 
 constexpr std::uint32_t kRoot = ~std::uint32_t{0};
-constexpr std::uint64_t kSeed = 1;  // any
+constexpr std::uint64_t kSeed = 1;  // an arbitrary seed
 
-// A spanning forest of the triangles: of each the half-edge towards its root, or kRoot. Breadth
-// first, so that paths are short. Where there are borders they are the roots.
+// Returns a spanning forest of the triangles: for each triangle the half-edge towards its root, or
+// kRoot. The search is breadth first, so that paths are short. Borders, if any, are roots.
 std::vector<std::uint32_t> triangle_forest(const std::vector<std::uint32_t>& mates) {
   const std::size_t n = mates.size() / 3;
   std::vector<std::uint32_t> up(n, kRoot), queue;
@@ -49,7 +49,7 @@ std::vector<std::uint32_t> triangle_forest(const std::vector<std::uint32_t>& mat
   return up;
 }
 
-// Half-edges, one of each edge, that neither forest has.
+// Returns one half-edge of each edge that is in neither forest.
 std::vector<std::uint32_t> edges_left(const Mesh& mesh, const std::vector<std::uint32_t>& mates,
                                       const std::vector<std::uint32_t>& up) {
   DisjointSets joined(mesh.vertices.size());
@@ -78,7 +78,7 @@ std::uint64_t CutGraph::crossed(std::uint32_t corner) const {
 
 CutGraph make_cut_graph(const Mesh& mesh, const std::vector<std::uint32_t>& mates) {
   const std::vector<std::uint32_t> up = triangle_forest(mates);
-  std::unordered_map<std::uint32_t, std::uint64_t> crossed;  // by the lower half-edge of an edge
+  std::unordered_map<std::uint32_t, std::uint64_t> crossed;  // by the edge's lower half-edge
   const auto cross_up_from = [&](std::uint32_t first, std::uint64_t bits) {
     for (std::uint32_t c = up[first / 3]; c != kRoot; c = up[mates[c] / 3]) {
       crossed[std::min(c, mates[c])] ^= bits;
@@ -88,7 +88,7 @@ CutGraph make_cut_graph(const Mesh& mesh, const std::vector<std::uint32_t>& mate
   for (const std::uint32_t c : edges_left(mesh, mates, up)) {
     const std::uint64_t bits = random_bits(kSeed, c);
     crossed[c] ^= bits;
-    // On both sides up to the roots, or, without what they share, to where they meet.
+    // Crosses edges on both sides up to the roots. Edges common to both sides cancel.
     cross_up_from(c, bits);
     if (mates[c] != kNoMate) cross_up_from(mates[c], bits);
   }

@@ -1,5 +1,5 @@
-// A counting sort by the smaller vertex, then a sort of each short bucket: the buckets of a usual
-// mesh hold about six half-edges, for which insertion is fastest.
+// Half-edges are sorted by counting of the smaller vertex, then each bucket is sorted. Buckets of a
+// usual mesh hold about six half-edges, for which insertion sort is fastest.
 #include "shape/topology/half_edges.h"
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 namespace rholm {
 namespace {
 
-// 3 t + k and the sense share 32 bits of a key.
+// Largest number of triangles: 3 t + k and the direction share 32 bits of a key.
 constexpr std::size_t kMaxTriangles = (std::size_t{1} << 31) / 3;
-// Chosen: above it std::sort, so that a vertex of many triangles costs n log n.
+// Chosen: larger buckets use std::sort, so that a vertex of n triangles costs n log n.
 constexpr std::size_t kInsertionLimit = 24;
 
 void sort_bucket(HalfEdge* first, HalfEdge* last) {
@@ -49,7 +49,7 @@ HalfEdges sort_half_edges(std::size_t n_vertices, const std::vector<Triangle>& t
   }
   for (std::size_t v = 2; v < begin.size(); ++v) begin[v] += begin[v - 1];
   edges.sorted.resize(begin.back());
-  // begin[v + 1] runs from the start of bucket v to its end, which is the start of bucket v + 1.
+  // begin[v + 1] moves from the start of bucket v to its end, which is the start of bucket v + 1.
   std::uint32_t corner = 0;
   for (const Triangle& t : triangles) {
     poll();

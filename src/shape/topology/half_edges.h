@@ -1,4 +1,4 @@
-// The half-edges of a mesh, grouped by edge.
+// Sorts the half-edges of a mesh into groups of one edge.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,20 @@
 
 namespace rholm {
 
-// A half-edge of the group it stands in: corner k of triangle t, running from corner k to the next.
-// Sorts by the edge's larger vertex, then by the place in the file.
+// A half-edge within its group: it runs from corner k of triangle t to the next corner. Order: by
+// the edge's larger vertex, then by the place in the file.
 struct HalfEdge {
   std::uint64_t key = 0;  // larger vertex << 32 | (3 t + k) << 1 | (runs from larger to smaller)
 
   std::uint32_t larger() const { return static_cast<std::uint32_t>(key >> 32); }
   std::uint32_t corner() const { return static_cast<std::uint32_t>(key) >> 1; }  // 3 t + k
   std::uint32_t triangle() const { return corner() / 3; }
-  bool rises() const { return (key & 1) == 0; }  // from the smaller vertex to the larger
+  bool rises() const { return (key & 1) == 0; }  // true if it runs from smaller to larger vertex
   friend bool operator<(const HalfEdge& a, const HalfEdge& b) { return a.key < b.key; }
 };
 
-// All half-edges: those of edges whose smaller vertex is v stand at begin[v] ... begin[v + 1],
-// sorted. Triangles with a repeated corner have none.
+// All half-edges, sorted. begin[v] ... begin[v + 1] are the half-edges of edges whose smaller
+// vertex is v. Triangles with a repeated corner have none.
 struct HalfEdges {
   std::vector<std::uint32_t> begin;  // n_vertices + 1
   std::vector<HalfEdge> sorted;
@@ -46,7 +46,7 @@ struct HalfEdges {
   }
 };
 
-// Indices must be in range (see validate). Throws Unsupported for more than 2^31 / 3 triangles.
+// Sorts half-edges; needs valid indices. Throws Unsupported for more than 2^31 / 3 triangles.
 HalfEdges sort_half_edges(std::size_t n_vertices, const std::vector<Triangle>& triangles);
 
 inline bool has_repeated_corner(const Triangle& t) {

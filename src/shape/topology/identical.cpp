@@ -12,15 +12,15 @@ namespace {
 std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }  // -0 + 0 = 0
 
 std::uint64_t hash(const Vec3& v) {
-  // Odd multipliers of xxHash64; the shifts bring high bits, where doubles differ, down.
+  // Odd multipliers of xxHash64; the shifts move high bits, in which doubles differ, down.
   std::uint64_t h = bits(v.x) * 0x9e3779b185ebca87ULL;
   h = (h ^ (h >> 32) ^ bits(v.y)) * 0xc2b2ae3d27d4eb4fULL;
   h = (h ^ (h >> 29) ^ bits(v.z)) * 0x165667b19e3779f9ULL;
   return h ^ (h >> 32);
 }
 
-// Points are sorted by the highest bits of their hashes into parts, each with a table of its own
-// that stays in the cache.
+// Number of parts into which points are sorted by the highest bits of their hashes. Each part has
+// its own table, which stays in the cache.
 constexpr std::size_t kParts = 64;
 constexpr std::size_t kGrain = 4096;  // chosen
 
@@ -30,7 +30,7 @@ struct Hashed {
 };
 struct Parts {
   std::vector<Hashed> points;                      // ascending within each part
-  std::array<std::uint32_t, kParts + 1> first{0};  // of each part, and the end
+  std::array<std::uint32_t, kParts + 1> first{0};  // start of each part, and the end of the last
 };
 
 Parts sort_by_hash(std::span<const Vec3> points, const Context& context) {

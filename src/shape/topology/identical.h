@@ -1,4 +1,4 @@
-// Points that coincide. Layer: shape.
+// Finds points that coincide. Layer: shape.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace rholm {
 
-// For every point the first one with the same coordinates, bit by bit; 0 and -0 are the same. Fewer
-// than 2^32 points, finite.
+// Returns for every point the first point with bitwise equal coordinates, where 0 and -0 are equal.
+// Points are finite and fewer than 2^32.
 std::vector<std::uint32_t> first_identical(std::span<const Vec3> points,
                                            const Context& context = {.threads = 1});
 

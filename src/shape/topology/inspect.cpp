@@ -12,12 +12,12 @@
 namespace rholm {
 namespace {
 
-// The third corner of a half-edge's triangle.
+// Returns the corner of a half-edge's triangle that is not on the edge.
 std::uint32_t opposite_corner(const Mesh& mesh, const HalfEdge& half_edge) {
   return mesh.triangles[half_edge.triangle()][(half_edge.corner() + 2) % 3];
 }
 
-// Triangles that repeat an earlier one, counted on the edge of their two smaller vertices.
+// Counts triangles that repeat an earlier one, at the edge of their two smaller vertices.
 std::size_t count_duplicates(const Mesh& mesh, std::span<const HalfEdge> group) {
   std::vector<std::uint32_t> largest;
   for (const HalfEdge& half_edge : group) {
@@ -29,7 +29,7 @@ std::size_t count_duplicates(const Mesh& mesh, std::span<const HalfEdge> group) 
   return largest.size() - static_cast<std::size_t>(distinct);
 }
 
-// The corner of a half-edge's triangle that stands on the edge's smaller and larger vertex.
+// The two corners of a half-edge's triangle at the smaller and the larger vertex of the edge.
 struct CornersOnEdge {
   std::uint32_t smaller;
   std::uint32_t larger;
@@ -40,8 +40,8 @@ CornersOnEdge corners_on_edge(const HalfEdge& half_edge) {
   return half_edge.rises() ? CornersOnEdge{start, end} : CornersOnEdge{end, start};
 }
 
-// Counts over edges. Corners of neighbouring triangles on the same vertex are joined: the sets
-// that are left are the fans of the vertices.
+// Counts edges of each kind. Corners of neighbouring triangles at the same vertex are joined: the
+// resulting sets are the fans of the vertices.
 void inspect_edges(const Mesh& mesh, Inspection& result) {
   const HalfEdges half_edges = sort_half_edges(mesh.vertices.size(), mesh.triangles);
   DisjointSets fans(3 * mesh.triangles.size());
@@ -57,7 +57,7 @@ void inspect_edges(const Mesh& mesh, Inspection& result) {
       result.misoriented_edges += group[0].rises() == group[1].rises();
     } else {
       ++result.non_manifold_edges;
-      fans_at[smaller] = fans_at[group[0].larger()] = 2;  // no single fan, whatever else is there
+      fans_at[smaller] = fans_at[group[0].larger()] = 2;  // not a single fan in any case
     }
     const CornersOnEdge first = corners_on_edge(group[0]);
     for (const HalfEdge& half_edge : group.subspan(1)) {
@@ -93,7 +93,7 @@ void count_degenerate(const Mesh& mesh, double scale, Inspection& result) {
   }
 }
 
-// Mean of the vertices of triangles without a repeated corner.
+// Returns the mean of the vertices of triangles without a repeated corner.
 Vec3 mean_of_used(const Mesh& mesh, const UnitFrame& frame) {
   std::vector<char> used(mesh.vertices.size(), 0);
   CancelPoll poll;
@@ -133,7 +133,7 @@ Inspection inspect(const Mesh& mesh) {
   result.closed = faces > 0 && result.boundary_edges == 0;
   result.manifold = result.non_manifold_edges == 0 && result.non_manifold_vertices == 0;
   result.oriented = result.misoriented_edges == 0;
-  // Euler: each closed component has 2 - 2 genus.
+  // Euler's formula: each closed component has the characteristic 2 - 2 genus.
   const long long twice_genus =
       2 * static_cast<long long>(result.components) - result.euler_characteristic;
   if (result.closed && result.manifold) result.genus = static_cast<std::size_t>(twice_genus / 2);

@@ -28,7 +28,7 @@ LoopSides sides_of(const std::vector<std::uint32_t>& loop, const std::vector<Tri
   LoopSides sides;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     sides.vertices.push_back(start_of(triangles, loop[i]));
-    // Counter-clockwise from the edge back to the one ahead.
+    // Turns counter-clockwise from the edge behind to the edge ahead.
     const std::uint32_t before = loop[i == 0 ? loop.size() - 1 : i - 1];
     for (std::uint32_t c = mates[before]; c != loop[i]; c = mates[previous_corner(c)]) {
       sides.right.emplace_back(i, c);
@@ -56,7 +56,7 @@ void cut_along(const LoopSides& loop, Mesh& mesh, std::vector<std::uint32_t>& co
   }
 }
 
-// Half-edges from the base to the vertex, the last first.
+// Returns the half-edges from the base to the vertex, the last one first.
 std::vector<std::uint32_t> LoopSearch::way_to(std::uint32_t vertex) const {
   std::vector<std::uint32_t> way;
   while (vertex != base_) {
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> LoopSearch::way_to(std::uint32_t vertex) const {
   return way;
 }
 
-// To where the half-edge begins, along it, and back.
+// Returns the loop to the start of the half-edge, along it, and back.
 Loop LoopSearch::loop_through(std::uint32_t corner) const {
   std::vector<std::uint32_t> there = way_to(start_of(mesh_.triangles, corner));
   std::vector<std::uint32_t> back = way_to(end_of(mesh_.triangles, corner));

@@ -5,7 +5,7 @@
 namespace rholm {
 namespace {
 
-// How many half-edges counter-clockwise from `first` until it comes again; 0 if a border does.
+// Returns the number of half-edges counter-clockwise around the start of `first`; 0 at a border.
 std::size_t fan_size(const std::vector<std::uint32_t>& mates, std::uint32_t first) {
   std::size_t n = 0;
   for (std::uint32_t c = first; n == 0 || c != first; ++n) {

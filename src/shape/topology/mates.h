@@ -1,5 +1,5 @@
-// The half-edges of a mesh in pairs. Half-edge 3 t + k runs from corner k of triangle t to the
-// next. Layer: shape.
+// Pairs the half-edges of a mesh. Half-edge 3 t + k runs from corner k of triangle t to the
+// next corner. Layer: shape.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace rholm {
 inline std::uint32_t next_corner(std::uint32_t c) { return c % 3 == 2 ? c - 2 : c + 1; }
 inline std::uint32_t previous_corner(std::uint32_t c) { return c % 3 == 0 ? c + 2 : c - 1; }
 
-// Where half-edge c begins, and where it ends.
+// Return the vertex at which half-edge c begins, and the vertex at which it ends.
 inline std::uint32_t start_of(const std::vector<Triangle>& triangles, std::uint32_t c) {
   return triangles[c / 3][c % 3];
 }
@@ -23,14 +23,14 @@ inline std::uint32_t end_of(const std::vector<Triangle>& triangles, std::uint32_
 
 inline constexpr std::uint32_t kNoMate = ~std::uint32_t{0};
 
-// For each half-edge that of the triangle beyond its edge, kNoMate along a border. Where two
-// triangles meet they are mates, whatever their senses; edges of more have none. Throws as
-// sort_half_edges().
+// Returns for each half-edge the other half-edge of its edge, or kNoMate along a border. The
+// half-edges of two triangles are mates even if they run in the same direction. Edges of three or
+// more triangles have no mates. Throws as sort_half_edges().
 std::vector<std::uint32_t> find_mates(std::size_t n_vertices,
                                       const std::vector<Triangle>& triangles);
 
-// Of triangles that are oriented alike: a half-edge that begins at each vertex; kNoMate at those of
-// borders, and where not all triangles of the vertex are around it in one fan.
+// Returns for each inner vertex a half-edge that begins there; kNoMate for vertices of borders or
+// with several fans. The triangles must be oriented alike.
 std::vector<std::uint32_t> inner_outgoing(std::size_t n_vertices,
                                           const std::vector<Triangle>& triangles,
                                           const std::vector<std::uint32_t>& mates);

@@ -10,12 +10,12 @@
 namespace rholm {
 namespace {
 
-// Pairs the half-edges of one edge: the i-th that rises with the i-th that falls. Returns how many
-// are left without a partner.
+// Pairs the half-edges of one edge: the i-th rising one with the i-th falling one. Returns the
+// number of half-edges without a partner.
 std::size_t pair_group(std::uint32_t smaller, std::span<const HalfEdge> group,
                        std::vector<Edge>& edges) {
   const std::size_t n = group.size();
-  if (n == 2 && group[0].rises() != group[1].rises()) {  // nearly all
+  if (n == 2 && group[0].rises() != group[1].rises()) {  // the usual case
     const std::size_t rising = group[1].rises();
     edges.push_back({.a = smaller,
                      .b = group[0].larger(),
@@ -41,12 +41,12 @@ std::size_t pair_group(std::uint32_t smaller, std::span<const HalfEdge> group,
 
 struct Unpaired {
   std::size_t boundary = 0;     // edges with one half-edge
-  std::size_t misoriented = 0;  // edges with two of the same sense
+  std::size_t misoriented = 0;  // edges with two half-edges in the same direction
   std::size_t odd = 0;          // edges with three or more that do not pair
   std::size_t total() const { return boundary + misoriented + odd; }
 };
 
-// What would mend it.
+// Returns advice on how to repair the mesh.
 std::string advice(const Mesh& mesh, const Unpaired& unpaired) {
   const std::optional<double> tolerance =
       unpaired.boundary > 0 ? closing_tolerance(mesh) : std::nullopt;

@@ -14,13 +14,13 @@ struct Point2 {
   friend bool operator==(const Point2&, const Point2&) = default;
 };
 
-// Twice the signed area of a triangle; positive if counter-clockwise.
+// Returns twice the signed area of a triangle; positive if counter-clockwise.
 double turn(const Point2& a, const Point2& b, const Point2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Corners relative to the first, scaled to at most 1, so that no product over- or underflows;
-// empty if that is not possible (no extent, or one beyond the range of a double).
+// Returns the corners relative to the first, scaled to at most 1, so that no product overflows or
+// underflows. Returns nothing if the extent is zero or beyond the range of a double.
 std::vector<Vec3> scaled_corners(const std::vector<Vec3>& vertices,
                                  std::span<const std::uint32_t> corners) {
   const Vec3 origin = vertices[corners[0]];
@@ -37,15 +37,15 @@ std::vector<Vec3> scaled_corners(const std::vector<Vec3>& vertices,
   return points;
 }
 
-// The area vector (Newell): the sum over the fan from the first corner, which is at 0.
+// Returns the area vector (Newell): the sum over the fan from the first corner, which is at 0.
 Vec3 area_vector(const std::vector<Vec3>& points) {
   Vec3 sum;
   for (std::size_t i = 1; i + 1 < points.size(); ++i) sum += cross(points[i], points[i + 1]);
   return sum;
 }
 
-// Drops the coordinate along which the normal is longest: the projection of a flat simple polygon
-// is simple, and counter-clockwise seen against the normal stays counter-clockwise.
+// Drops the coordinate along which the normal is longest. The projection of a flat simple polygon
+// is simple; a polygon that is counter-clockwise against its normal stays counter-clockwise.
 std::vector<Point2> project(const std::vector<Vec3>& points, const Vec3& normal) {
   const Vec3 size = {std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
   std::vector<Point2> projected(points.size());
@@ -62,8 +62,8 @@ std::vector<Point2> project(const std::vector<Vec3>& points, const Vec3& normal)
   return projected;
 }
 
-// Strictly convex: every turn is to the left, and x runs up once and down once (a star
-// polygon, which only turns left too, does so more often).
+// Returns true if strictly convex: every turn is to the left, and x rises once and falls once. In a
+// star polygon, which also only turns left, x rises more often.
 bool is_convex(const std::vector<Point2>& p) {
   const std::size_t n = p.size();
   int changes = 0;
@@ -83,7 +83,7 @@ void append_fan(std::span<const std::uint32_t> corners, std::vector<Triangle>& t
   }
 }
 
-// A diagonal lies inside if both triangles it makes face as the whole does.
+// A diagonal lies inside if both of its triangles face in the direction of the whole polygon.
 void append_quadrilateral(const std::vector<Vec3>& vertices, std::span<const std::uint32_t> corners,
                           std::vector<Triangle>& triangles) {
   const Vec3 origin = vertices[corners[0]];
@@ -113,13 +113,13 @@ void append_quadrilateral(const std::vector<Vec3>& vertices, std::span<const std
   }
 }
 
-// The corners that are left, as a ring, with what is known of each.
+// Ring of the remaining corners, with the known facts about each.
 struct Ring {
   const std::vector<Point2>& points;
   std::vector<std::uint32_t> next;
   std::vector<std::uint32_t> previous;
-  std::vector<char> reflex;  // does not turn left: some such corner lies in any triangle
-                             // that is not an ear
+  std::vector<char> reflex;  // true if it does not turn left; any triangle that is not an
+                             // ear contains a reflex corner
   std::vector<char> ear;
 
   explicit Ring(const std::vector<Point2>& p)
@@ -137,8 +137,9 @@ struct Ring {
     return !(turn(points[previous[i]], points[i], points[next[i]]) > 0);
   }
 
-  // An ear turns left and has no other corner inside or on its border. Corners at the place of
-  // one of its own are those of a slit (a hole joined to the outside), which is no obstacle.
+  // Returns true if the corner turns left and no other corner is inside its triangle or on the
+  // border. A corner that coincides with one of the triangle's is part of a slit, which joins a
+  // hole to the outside; it is no obstacle.
   bool is_ear(std::uint32_t i) const {
     if (reflex[i]) return false;
     const Point2& a = points[previous[i]];
@@ -152,7 +153,7 @@ struct Ring {
     return true;
   }
 
-  // Only the two neighbours change: nothing that was inside another ear was this corner.
+  // Updates only both neighbours: the removed corner, an ear, was inside no other ear.
   void remove(std::uint32_t i) {
     const std::uint32_t a = previous[i];
     const std::uint32_t b = next[i];
@@ -170,7 +171,7 @@ void append_clipped_ears(const std::vector<Point2>& points, std::span<const std:
   Ring ring(points);
   std::size_t left = corners.size();
   std::uint32_t at = 0;
-  std::size_t in_vain = 0;  // corners passed since the last ear
+  std::size_t in_vain = 0;  // number of corners passed since the last ear
   while (left > 3 && in_vain < left) {
     if (!ring.ear[at]) {
       at = ring.next[at];
@@ -179,7 +180,7 @@ void append_clipped_ears(const std::vector<Point2>& points, std::span<const std:
     }
     triangles.push_back({corners[ring.previous[at]], corners[at], corners[ring.next[at]]});
     ring.remove(at);
-    at = ring.next[ring.next[at]];  // every second corner: fewer slivers than all from one
+    at = ring.next[ring.next[at]];  // every second corner: fewer slivers than at one corner
     --left;
     in_vain = 0;
   }

@@ -1,5 +1,5 @@
-// The gap of a seam: borders that face each other across less than they have between their own
-// vertices.
+// Finds the gap of a seam: two borders face each other at a smaller distance
+// than their own vertices have.
 #include <algorithm>
 #include <cmath>
 
@@ -10,18 +10,18 @@
 namespace rholm {
 namespace {
 
-// Of the border: tolerances that leave more open are not worth telling.
+// Largest fraction of a border that a useful tolerance may leave open.
 constexpr double kLeftOpen = 0.1;
-// Of the median edge of a border: smaller gaps are closed by the first try. Chosen: no shape has
-// detail so fine between its vertices.
+// Smallest tolerance relative to the border's median edge; smaller gaps are closed by the first
+// try. Chosen: no shape has such fine detail between its vertices.
 constexpr double kFinest = 0x1p-20;
 constexpr int kMoreTries = 3;  // chosen: gaps of a seam vary by a factor of a few
 
-// The triangles along a border.
+// The triangles along a border, as a mesh.
 struct Border {
   Mesh mesh;
-  std::size_t edges = 0;  // of the border
-  std::size_t inner = 0;  // of these triangles, in no other of them, but not of the border
+  std::size_t edges = 0;  // number of edges of the border
+  std::size_t inner = 0;  // number of edges of a single triangle, off the border
   double median = 0;      // length of an edge of the border
 };
 
@@ -51,20 +51,20 @@ Border border_of(const Mesh& mesh) {
   for (std::size_t t = 0; t < at_border.size(); ++t) {
     if (at_border[t]) border.mesh.triangles.push_back(mesh.triangles[t]);
   }
-  border.mesh = weld(border.mesh).mesh;  // drops the vertices of the others
+  border.mesh = weld(border.mesh).mesh;  // drops the vertices of other triangles
   border.inner = single_edges(border.mesh) - border.edges;
   std::sort(lengths.begin(), lengths.end());
   border.median = lengths[lengths.size() / 2];
   return border;
 }
 
-// Up, with two digits.
+// Rounds up to two digits.
 double rounded_up(double x) {
   const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
   return std::ceil(x / unit * (1 + 1e-9)) * unit;
 }
 
-// Edges of the border that are left when it is welded.
+// Returns the number of border edges that stay open when the border is welded.
 std::size_t left_open(const Border& border, double tolerance) {
   const std::size_t single = single_edges(weld(border.mesh, tolerance).mesh);
   return single - std::min(single, border.inner);
@@ -77,8 +77,8 @@ std::optional<double> closing_tolerance(const Mesh& mesh) {
   const Border border = border_of(mesh);
   if (border.edges == 0) return std::nullopt;
   const double enough = kLeftOpen * static_cast<double>(border.edges);
-  // From below what can be told apart, doubled: the first that is enough, and one of the next where
-  // it leaves less.
+  // Doubles the tolerance from the smallest one. Takes the first that closes enough, or one of the
+  // next kMoreTries if it leaves less open.
   std::optional<double> best;
   std::size_t least = border.edges;
   int more = kMoreTries;
@@ -91,7 +91,7 @@ std::optional<double> closing_tolerance(const Mesh& mesh) {
     }
     if (best && (least == 0 || --more == 0)) break;
   }
-  // The rest of the mesh must bear it.
+  // Rejects the tolerance if welding the whole mesh leaves too many edges open.
   if (!best || static_cast<double>(single_edges(weld(mesh, *best).mesh)) > enough) {
     return std::nullopt;
   }

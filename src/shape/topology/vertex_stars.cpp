@@ -9,8 +9,8 @@ namespace {
 
 using Link = std::vector<std::array<std::uint32_t, 2>>;
 
-// Sorts the edges of a link so that each begins where the one before it ends, from a border if
-// there is one. False if that does not use all of them.
+// Sorts the edges of a link so that each one begins where the last one ends, starting at a border
+// if there is one. Returns false if this does not use all edges.
 bool chain(Link& link, bool& open) {
   const auto has_end = [&](std::uint32_t v) {
     return std::any_of(link.begin(), link.end(), [&](const auto& edge) { return edge[1] == v; });
@@ -40,7 +40,7 @@ VertexStars make_vertex_stars(std::size_t n_vertices, std::span<const Triangle> 
   }
   for (std::size_t v = 0; v < n_vertices; ++v) stars.begin[v + 1] += stars.begin[v];
   stars.triangles.resize(3 * triangles.size());
-  // begin[v] moves to the end of v's part, which is where that of v + 1 begins.
+  // begin[v] moves to the end of the triangles of v, where the triangles of v + 1 begin.
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     poll();
     for (const std::uint32_t v : triangles[t]) stars.triangles[stars.begin[v]++] = t;
@@ -64,7 +64,7 @@ void find_ring(std::span<const Triangle> triangles, const VertexStars& stars, st
   if (ring.link.empty() || !chain(ring.link, open)) return;
   for (const auto& edge : ring.link) ring.neighbours.push_back(edge[0]);
   if (open) ring.neighbours.push_back(ring.link.back()[1]);
-  // One that comes twice is where two fans touch, or the end of an edge of three triangles.
+  // A neighbour occurs twice where two fans touch, or at the end of an edge of three triangles.
   for (auto at = ring.neighbours.begin(); at != ring.neighbours.end(); ++at) {
     if (std::find(ring.neighbours.begin(), at, *at) != at) return;
   }

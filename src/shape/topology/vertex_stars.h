@@ -1,4 +1,4 @@
-// The triangles around each vertex of a mesh.
+// Lists the triangles around each vertex of a mesh.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace rholm {
 
-// Triangles of v, in the order of the mesh: triangles[begin[v]] ... triangles[begin[v + 1] - 1].
+// The triangles of v, in mesh order, are triangles[begin[v]] ... triangles[begin[v + 1] - 1].
 struct VertexStars {
   std::vector<std::uint32_t> begin;  // n_vertices + 1
   std::vector<std::uint32_t> triangles;
@@ -25,17 +25,17 @@ VertexStars make_vertex_stars(std::size_t n_vertices, std::span<const Triangle> 
 enum class RingKind : std::uint8_t {
   kClosed,   // one fan all around
   kOpen,     // one fan from border to border
-  kComplex,  // anything else: none, several fans, edges of three triangles or of opposite senses
+  kComplex,  // no triangle, several fans, edges of three triangles or of two opposite orientations
 };
 
-// The neighbours of a vertex in the order of its fan, counter-clockwise; those of an open one begin
-// and end along the border. Not complete where it is complex.
+// Neighbours of a vertex in the order of its fan, counter-clockwise. The ring of an open fan begins
+// and ends at the border. The list is incomplete if the ring is complex.
 struct Ring {
   RingKind kind = RingKind::kComplex;
   std::vector<std::uint32_t> neighbours;
-  std::vector<std::array<std::uint32_t, 2>> link;  // scratch
+  std::vector<std::array<std::uint32_t, 2>> link;  // scratch memory of find_ring()
 };
-// Into a ring that is used again: memory is taken once. Triangles have three different corners.
+// Fills a ring whose memory is reused. Triangles have three different corners.
 void find_ring(std::span<const Triangle> triangles, const VertexStars& stars, std::uint32_t v,
                Ring& ring);
 

@@ -1,7 +1,7 @@
-// Welding. Identical vertices are found by a hash of their bits; vertices within a tolerance by a
-// tree over the remaining ones, walked against itself: node pairs farther apart than the tolerance
-// are left out, pairs that lie within it altogether become one set without looking inside. So
-// neither tiny tolerances nor ones as large as the shape cost more than about n log n.
+// Welds vertices. Identical vertices are found by a hash of their bits. Vertices within a tolerance
+// are found by a tree over the distinct ones, which is walked against itself. Pairs of nodes
+// farther apart than the tolerance are skipped. Pairs that lie wholly within it become one set at
+// once. So both tiny tolerances and tolerances as large as the shape cost about n log n.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -17,12 +17,12 @@
 namespace rholm {
 namespace {
 
-// A node of the tree: points begin ... end of the order, and their box.
+// A node of the tree: points begin ... end of the order, and their bounding box.
 struct Node {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
-  std::uint32_t children = 0;  // index of the first of two, 0 for a leaf
-  bool joined = false;         // its points are one set already
+  std::uint32_t children = 0;  // index of the first of two children, 0 for a leaf
+  bool joined = false;         // true if its points are already one set
   Bounds box;
 };
 
@@ -37,7 +37,7 @@ class Joiner {
   DisjointSets& sets() { return sets_; }
 
  private:
-  static constexpr std::uint32_t kLeaf = 8;  // points; chosen, the time is flat around it
+  static constexpr std::uint32_t kLeaf = 8;  // points; chosen: the time hardly depends on it
 
   void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
     Bounds box{.min = points_[order_[begin]], .max = points_[order_[begin]]};
@@ -139,7 +139,7 @@ class Joiner {
   CancelPoll poll_;
 };
 
-// For every vertex the one it becomes.
+// Returns for every vertex the vertex that it becomes.
 std::vector<std::uint32_t> representatives(const std::vector<Vec3>& vertices, double tolerance) {
   std::vector<std::uint32_t> first = first_identical(vertices);
   if (tolerance == 0 || vertices.empty()) return first;
@@ -147,7 +147,7 @@ std::vector<std::uint32_t> representatives(const std::vector<Vec3>& vertices, do
   for (std::uint32_t i = 0; i < first.size(); ++i) {
     if (first[i] == i) distinct.push_back(i);
   }
-  // Scaled, so that squares of distances stay in range.
+  // Scales the vertices, so that squares of distances stay in range.
   const UnitFrame frame = unit_frame(bounds(vertices));
   std::vector<Vec3> scaled(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) scaled[i] = frame.scale * vertices[i];
@@ -156,7 +156,7 @@ std::vector<std::uint32_t> representatives(const std::vector<Vec3>& vertices, do
   return first;
 }
 
-// Keeps the vertices that triangles use, in their order.
+// Copies the vertices that triangles use, in their order.
 void drop_unused(const Mesh& mesh, std::vector<Triangle>& triangles, Mesh& out) {
   constexpr std::uint32_t kUnused = 0xffffffff;
   std::vector<std::uint32_t> place(mesh.vertices.size(), kUnused);
@@ -213,7 +213,7 @@ Welded weld(const Mesh& mesh, double tolerance) {
 Outward outward(const Mesh& mesh, double tolerance) {
   Outward result{.welded = weld(mesh, tolerance)};
   Mesh& welded = result.welded.mesh;
-  // The volume of an open mesh has no meaning; the inspection costs more than the volume.
+  // The volume of an open mesh has no meaning. inspect() costs more, so the volume is tested first.
   result.flipped = enclosed_volume(welded) < 0 && inspect(welded).inside_out;
   if (result.flipped) flip(welded);
   return result;

@@ -50,7 +50,7 @@ std::vector<float> normals_of(std::span<const float> positions, std::span<const 
   }
   for (std::size_t i = 0; i < normals.size(); i += 3) {
     float* n = &normals[i];
-    // Squares of areas of small units are too small for single precision.
+    // In small units, squares of areas would underflow in single precision.
     const double length =
         std::sqrt(double{n[0]} * n[0] + double{n[1]} * n[1] + double{n[2]} * n[2]);
     const double factor = length > 0 ? 1 / length : 0;

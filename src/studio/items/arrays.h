@@ -10,15 +10,15 @@
 
 namespace rholm::studio {
 
-// Triangles whose corners are the first vertices of all at the same place: what a seam of the file
-// cuts is one surface.
+// Returns triangles whose corners are the first of all vertices at the
+// same place, so that a surface cut by a seam of the file is joined.
 std::vector<Triangle> joined_triangles(const Mesh& mesh);
-// Unit normals of vertices, weighted by areas; 0 where there is no area. positions and result
-// [n][3]. `joined`: joined_triangles() of the mesh; vertices that are in none of these have the
-// normal of the first one in their place.
+// Returns unit normals of vertices, weighted by areas; 0 where there is no area.
+// Positions and result are [n][3]. `joined` is joined_triangles() of the mesh;
+// vertices outside these triangles have the normal of the first vertex at their place.
 std::vector<float> normals_of(std::span<const float> positions, std::span<const Triangle> triangles,
                               std::span<const Triangle> joined);
-// Bytes red, green, blue [n][3]; empty if there are none.
+// Returns bytes red, green, blue [n][3]; empty if there are no colours.
 std::vector<std::uint8_t> colors_of(const Mesh& mesh);
 std::vector<std::uint8_t> colors_of(const PointCloud& cloud);
 

@@ -1,4 +1,4 @@
-// Answers that hold arrays. Layer: studio.
+// Answers that contain arrays. Layer: studio.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace rholm::studio {
 
 struct Binary : NamedArrays {
-  Json meta = Json::object();  // what else is to be said
+  Json meta = Json::object();  // further data
 
   std::string bytes() const { return NamedArrays::bytes(text_of(meta)); }
   Response response() const { return {.type = "application/octet-stream", .body = bytes()}; }

@@ -11,15 +11,15 @@
 namespace rholm::studio {
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{256} << 20;  // chosen: small against what pages take
+constexpr std::size_t kMaxBytes = std::size_t{256} << 20;  // chosen: small for a page's memory
 constexpr double kMaxWork = 2e9;  // terms; chosen: some two seconds on one processor
 
-// Directions of one block, and of their longitudes the multiple m phi that is worked on.
+// Directions of one block, with cosine and sine of m phi for the current order m.
 struct Waves {
   explicit Waves(std::span<const Vec3> directions)
       : block(directions), cosine(block.padded, 1.0), sine(block.padded, 0.0) {}
 
-  // From order m - 1 to m.
+  // Proceeds from order m - 1 to m.
   void next() {
     for (std::size_t k = 0; k < block.padded; ++k) {
       const double c = cosine[k] * block.cos_phi[k] - sine[k] * block.sin_phi[k];
@@ -32,10 +32,10 @@ struct Waves {
   std::vector<double> cosine, sine;
 };
 
-// What an order adds.
+// Coefficients and recurrence of one order.
 struct Terms {
   LegendreOrder order;
-  std::vector<double> cosine, sine;  // of l = m ... L
+  std::vector<double> cosine, sine;  // coefficients of l = m ... L
 };
 
 std::vector<Terms> terms_of(const Coefficients& coefficients) {
@@ -89,7 +89,7 @@ DegreeTable::DegreeTable(const Coefficients& coefficients, std::span<const Vec3>
   }
 }
 
-// By parts: sum g_l f_l = sum (g_l - g_l+1) F_l of the cut off F_l.
+// Uses summation by parts: sum g_l f_l = sum (g_l - g_l+1) F_l with the truncated sums F_l.
 std::vector<float> DegreeTable::filtered(std::span<const double> gains,
                                          std::span<const double> base) const {
   const std::size_t used = std::min(gains.size(), degree_ + std::size_t{1});

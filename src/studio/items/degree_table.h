@@ -1,5 +1,5 @@
-// One function on the sphere, cut off at each of its degrees, at the same directions again and
-// again. Layer: studio.
+// A function on the sphere, cut off at each of its
+// degrees, at fixed directions. Layer: studio.
 #pragma once
 
 #include <cstddef>
@@ -12,23 +12,23 @@
 
 namespace rholm::studio {
 
-// f_d(u_j) - base_j for all degrees d and directions j in single precision: what is left of the
-// function where it is near the base is exact to 1e-7 of itself, not of the function.
+// Stores f_d(u_j) - base_j for all degrees d and directions j in single precision. Near
+// the base, the error is therefore 1e-7 of the small difference, not of the function.
 class DegreeTable {
  public:
-  // Whether it is small enough, and soon enough made, to be worth it.
+  // Returns true if the table is small and quick enough to be useful.
   static bool fits(std::size_t directions, int degree);
 
-  // Directions are unit vectors; base has one value for each. About L^2 operations a direction.
+  // Takes unit directions with one base value each. About L^2 operations per direction.
   DegreeTable(const Coefficients& coefficients, std::span<const Vec3> directions,
               std::span<const double> base, const Context& context = {});
 
   int degree() const { return degree_; }
   std::size_t directions() const { return n_; }
-  // Of degree d <= degree(), by directions.
+  // Returns the values for degree d <= degree(), by direction.
   std::span<const float> cut_off_at(int d) const { return {&values_[d * n_], n_}; }
-  // sum_l gains_l f_l, less `base` as it was given, which must be given again: gains of degrees
-  // 0 ... at most degree(), those that follow are 0.
+  // Returns sum_l gains_l f_l - base. `base` must be the one given to the
+  // constructor. `gains` are for degrees 0 ... at most degree(); missing gains are 0.
   std::vector<float> filtered(std::span<const double> gains, std::span<const double> base) const;
 
  private:

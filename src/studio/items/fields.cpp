@@ -10,7 +10,7 @@
 namespace rholm::studio {
 namespace {
 
-// nullptr if it is not there, or null.
+// Returns nullptr if the field is missing or null.
 const Json* find(const Json& json, const char* name) {
   const auto found = json.find(name);
   return found == json.end() || found->is_null() ? nullptr : &*found;

@@ -1,7 +1,7 @@
 // One shape of a session. Layer: studio.
 //
-// Items never change: a step puts another one in the place of an item, and what was there is kept
-// by who can undo the step.
+// Items never change. A step replaces an item by another one; the owner of the undo history
+// keeps the old one.
 #pragma once
 
 #include <cstdint>
@@ -24,18 +24,18 @@ namespace rholm::studio {
 enum class Kind : std::uint8_t { kMesh, kPoints, kExpansion, kAtlas };
 const char* to_string(Kind kind);  // "mesh", "points", "expansion", "atlas"
 
-// What is known of a mesh.
+// Facts about a mesh.
 struct MeshFacts {
-  Inspection inspection;                 // of the mesh welded exactly
-  std::optional<StarReport> star;        // of one that is closed and oriented
-  std::vector<std::uint32_t> offending;  // triangles that turn their back to its centre
+  Inspection inspection;                 // inspection of the exactly welded mesh
+  std::optional<StarReport> star;        // set if the mesh is closed and oriented
+  std::vector<std::uint32_t> offending;  // triangles that face away from the centre
 };
 
-// The text table that points were read from, so that it can be read in another way.
+// Text table of which points were read; it can be read again with other columns.
 struct Table {
   std::shared_ptr<const std::string> bytes;
-  TableColumns told;  // what its columns were taken for, as text that prints
-  // Its file, and where the lines of the recipe have what was read of it first.
+  TableColumns told;  // meaning of its columns, as printable text
+  // Its file, and the names that the first reading has in the lines of the recipe.
   std::string name, file, variable;
 };
 
@@ -43,54 +43,54 @@ struct Item {
   int id = 0;
   std::string name;
   Kind kind = Kind::kMesh;
-  std::uint64_t revision = 0;  // of its surface: two surfaces of a session never have the same
-  std::string unit;            // of lengths, empty if unknown
+  std::uint64_t revision = 0;  // number of its surface, unique in a session
+  std::string unit;            // unit of lengths, empty if unknown
 
-  std::shared_ptr<const Mesh> original;     // of meshes: as read, or as the last edit left it
-  std::shared_ptr<const Model> model;       // of expansions, and meshes that were analysed
-  std::shared_ptr<const AtlasModel> atlas;  // of atlases
-  // Its file. What was read and written again may have other last digits: this is given back.
+  std::shared_ptr<const Mesh> original;     // meshes only: as read, or after the last edit
+  std::shared_ptr<const Model> model;       // expansions and analysed meshes only
+  std::shared_ptr<const AtlasModel> atlas;  // atlases only
+  // File of the atlas, returned as is, since rewriting may change the last digits.
   std::shared_ptr<const std::string> atlas_file;
-  std::shared_ptr<const PointCloud> points;  // of points
-  std::shared_ptr<const Table> table;        // of points as a table of text has them
-  std::vector<std::string> warnings;         // of the reader of its file
+  std::shared_ptr<const PointCloud> points;  // points only
+  std::shared_ptr<const Table> table;        // only for points read from a text table
+  std::vector<std::string> warnings;         // warnings by the reader of its file
   std::shared_ptr<const Mesh> shown;         // the surface with its look; nullptr for points
-  std::shared_ptr<const MeshFacts> facts;    // of `shown`, or of the original if it was analysed
-  Look look;                                 // with a model
-  std::optional<double> volume;  // signed, of `shown`, where that is not what `facts` are of
-  std::optional<int> limit;      // of the degree of the caps of an atlas
-  std::size_t caps = 0;          // of an atlas, or of a reconstruction
-  std::string placed;            // how it was laid on another one, for people; empty if it was not
+  std::shared_ptr<const MeshFacts> facts;    // facts of `shown`, or of the original once analysed
+  Look look;                                 // used with a model
+  std::optional<double> volume;  // signed, of `shown`; set if `facts` are of another mesh
+  std::optional<int> limit;      // degree limit of an atlas
+  std::size_t caps = 0;          // caps of an atlas, or of a reconstruction
+  std::string placed;            // text on how it was aligned; empty if it was not
 
-  // Where the lines of the recipe have it: the file of the shape and that of its coefficients or
-  // caps, the variable of Python of each. Empty if there is none.
+  // Names in the lines of the recipe: files of the shape and of its coefficients
+  // or caps, and their Python variables. Empty if they do not exist.
   std::string file, model_file, variable, model_variable;
 };
 using ItemPtr = std::shared_ptr<const Item>;
 
-// What every item of its kind has from the start; who calls gives it a number, a revision, its name
-// and names for the recipe. Throw what the library throws.
+// Return an item with what its kind has from the start. The caller sets its number,
+// revision, name and the names for the recipe. They throw the library's errors.
 Item item_of(Mesh mesh, const Context& context);
 Item item_of(PointCloud cloud);
 Item item_of(Expansion expansion, const Context& context);
 Item item_of(AtlasModel atlas, const Context& context);
 
-// Another look at the same model: the surface, and nothing else, is new.
+// Returns the item with another look at the same model; only the surface changes.
 Item with_look(const Item& item, const Look& look, const Context& context);
 
-// The same caps with no higher degrees; none: all of them.
+// Returns the item with caps up to a degree limit; nullopt means no limit.
 Item with_limit(const Item& item, std::optional<int> limit, const Context& context);
 
 MeshFacts facts_of(const Mesh& mesh, const Context& context);
 
-// As in the state, see docs/studio.md.
+// Returns an item as in the state, see docs/studio.md.
 Json json_of(const Item& item);
-// Rows of label and value for people.
+// Returns rows of label and value for display.
 Json facts_json(const Item& item);
-// Of Item::star in the state.
+// Returns Item::star of the state.
 Json star_json(const Item& item);
 
-// rms_beyond() of a model of the radius: a list, null where a figure is not known; null for others.
+// Returns rms_beyond() of a radius model, null for unknown figures; null for other models.
 Json rms_json(const Model& model);
 
 }  // namespace rholm::studio

@@ -1,4 +1,4 @@
-// What is found out about a mesh when it comes in, and how people are told.
+// Determines facts about a mesh when it is opened, and formats them.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace rholm::studio {
 namespace {
 
-// "24 503".
+// Returns a number in groups of digits, like "24 503".
 std::string grouped(std::size_t n) {
   std::string text = std::to_string(n);
   for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) {
@@ -51,7 +51,7 @@ void add_mesh_facts(const Item& item, Json& facts) {
   if (found.closed && found.manifold && found.genus > 0) {
     add(facts, "Handles", grouped(found.genus));
   }
-  // The surface of a model that is a signed sum is not that of the body.
+  // The surface of a signed sum is not the surface of the body.
   const bool of_sum = item.model && !item.model->original && item.model->expansion.signed_sum;
   if (found.closed && found.oriented) {
     const double volume = item.volume.value_or(found.volume);
@@ -61,12 +61,12 @@ void add_mesh_facts(const Item& item, Json& facts) {
   if (item.facts->star) add(facts, "Star-shaped", item.facts->star->star_shaped ? "yes" : "no");
 }
 
-// "8 of 32" where not all is shown.
+// Returns "8 of 32" if not everything is shown.
 std::string part(std::size_t shown, std::size_t all) {
   return shown == all ? grouped(all) : grouped(shown) + " of " + grouped(all);
 }
 
-// Of what is shown, which may be less than all.
+// Adds facts about the shown part of the model.
 void add_model_facts(const Item& item, Json& facts) {
   const Expansion& expansion = item.model->expansion;
   const auto all = static_cast<std::size_t>(expansion.coefficients.degree());
@@ -88,7 +88,7 @@ void add_atlas_facts(const Item& item, Json& facts) {
   const auto highest = static_cast<std::size_t>(highest_degree(item.atlas->atlas));
   add(facts, "Highest degree",
       part(static_cast<std::size_t>(item.limit.value_or(highest)), highest));
-  // Measured with all degrees.
+  // The errors were measured with all degrees.
   const auto& errors = item.atlas->errors;
   const bool known = errors && !item.limit;
   add(facts, "Error, rms", known ? length(errors->rms(), item.unit) : "not known");
@@ -104,7 +104,7 @@ std::string why_not(const Item& item) {
                        n == 1 ? "1 face is" : grouped(n) + " faces are");
   }
   if (star.rays > 0 && star.once_share < 1) {
-    // Rounded down: nearly all is not all.
+    // Rounded down, so that nearly all is not shown as 100 %.
     text += fmt::format(
         "{:.1f} % of the directions from it meet the surface exactly once; all of them "
         "should. ",

@@ -1,4 +1,4 @@
-// An item as the page is told of it.
+// Items as JSON for the page.
 #include <algorithm>
 
 #include "studio/items/item.h"
@@ -8,7 +8,7 @@
 namespace rholm::studio {
 namespace {
 
-// Degrees of a table that people read: all small ones, then six to an octave.
+// Returns the degrees of a table for display: all small ones, then six per octave.
 std::vector<int> shown_degrees(int last) {
   std::vector<int> degrees;
   for (int d = 0; d < last; d += std::max(1, d / 6)) degrees.push_back(d);

@@ -1,4 +1,4 @@
-// What is asked, what is answered, and what is refused. Layer: studio.
+// Requests, answers and refusals. Layer: studio.
 #pragma once
 
 #include <stdexcept>
@@ -12,7 +12,7 @@ using Request = StudioRequest;
 using Response = StudioResponse;
 using Event = StudioEvent;
 
-// A request that cannot be answered as it is. The code is for the page, the message for people.
+// Thrown for a request that cannot be answered. The code is for the page, the message for people.
 class Refusal : public std::runtime_error {
  public:
   Refusal(int status, std::string code, const std::string& message)
@@ -25,7 +25,7 @@ class Refusal : public std::runtime_error {
   std::string code_;
 };
 
-// 400: the request itself is wrong. 404: there is no such thing.
+// Status 400: the request is wrong. Status 404: the requested object does not exist.
 inline Refusal bad_request(const std::string& message) { return {400, "bad_request", message}; }
 inline Refusal not_found(const std::string& message) { return {404, "not_found", message}; }
 

@@ -23,7 +23,8 @@ std::optional<double> rms_at(const Model& model, int degree) {
 
 namespace {
 
-// As `rholm synthesize` does by default: two vertices a coefficient, 10 4^4 + 2 ... 10 4^7 + 2.
+// Equal to the default of `rholm synthesize`: two vertices per coefficient, 10 4^4 + 2 ... 10 4^7 +
+// 2.
 int subdivisions_for(int degree) {
   const double wanted = 2 * (degree + 1.0) * (degree + 1.0);
   int n = 4;
@@ -59,7 +60,7 @@ std::vector<double> largest_errors(const Model& model) {
   return largest;
 }
 
-// The function with that look, less the base.
+// Returns the function with this look, minus the base.
 std::vector<float> differences(const Model& model, const Look& look, const Context& context) {
   if (model.table && look.gains.empty()) {
     const std::span<const float> row = model.table->cut_off_at(look.degree);
@@ -113,7 +114,7 @@ std::vector<double> gains_of(const Look& look) {
 
 Expansion expansion_of(const Model& model, const Look& look) {
   if (look == whole(model)) return model.expansion;
-  // As `rholm filter` calls it.
+  // `rholm filter` uses the same name.
   const std::string name =
       look.gains.empty() ? "low-pass " + std::to_string(look.degree) + " ideal" : "own gains";
   return filter(model.expansion, gains_of(look), name);

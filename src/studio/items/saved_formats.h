@@ -1,4 +1,4 @@
-// The formats that an item can be saved in. Layer: studio.
+// Formats in which an item can be saved. Layer: studio.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 namespace rholm::studio {
 
 struct SavedFormat {
-  const FileFormat* file = nullptr;  // of a table of formats: good for ever
-  std::string label = {};            // for people: "Mesh, PLY"
-  bool is_shape = false;             // of meshes and points; false: of coefficients
+  const FileFormat* file = nullptr;  // entry of a table of formats; always valid
+  std::string label = {};            // for display: "Mesh, PLY"
+  bool is_shape = false;             // true for meshes and points, false for coefficients
 };
-// In the order in which they are offered.
+// Returns the formats in the order of the menu.
 std::vector<SavedFormat> saved_formats(const Item& item);
 
 }  // namespace rholm::studio

@@ -13,18 +13,18 @@
 namespace rholm {
 namespace {
 
-constexpr double kMostPoints = 20000;  // of a cap: bounds memory for odd resolutions
-constexpr double kLeastShare = 1e-3;   // of a point's area: less does not matter
+constexpr double kMostPoints = 20000;  // per cap: limits memory for extreme resolutions
+constexpr double kLeastShare = 1e-3;   // least share of a foot point's area; the others are skipped
 
 struct Feet {
   std::vector<Vec3> points, normals;
   std::vector<double> areas;
-  std::vector<double> own;  // weight of the cap they are of
+  std::vector<double> own;  // blend weight of the foot point's own cap
 };
 
-// On a sunflower in the tangent plane of the seed, equal areas there, carried along the rays. An
-// area dA at the distance R_0 straight ahead is dA (R_0 / q)^3 (r / R_0)^2 / (n . u) on the
-// surface, q the distance from the centre to the point in the plane.
+// Places foot points on a cap: a sunflower pattern of equal areas in the tangent plane of the
+// seed, carried along the rays. An area dA in the plane becomes dA (R_0 / q)^3 (r / R_0)^2 /
+// (n . u) on the surface. Here q is the distance from the centre to the point in the plane.
 Feet feet_of(const Cap& cap, std::span<const double> coefficients, double spacing) {
   const CapFrame& f = cap.frame;
   const double radius =
@@ -49,11 +49,11 @@ Feet feet_of(const Cap& cap, std::span<const double> coefficients, double spacin
     const Vec3 offset{at[k], at[stride + k], at[2 * stride + k]};
     const Vec3 normal{across[k], across[stride + k], across[2 * stride + k]};
     const double rest = 1 - place(cap, offset);
-    if (!(rest > 0)) continue;  // also where there is no surface
+    if (!(rest > 0)) continue;  // also skips rays that miss the surface
     const Vec3 ray = offset + f.radius * f.z;
     const Vec3 straight = plane.offset(k) + f.radius * f.z;
     const double facing = dot(normal, ray) / norm(ray);
-    if (!(facing > 0.1)) continue;  // steeper, areas are what rounding makes of them
+    if (!(facing > 0.1)) continue;  // on steeper rays rounding errors dominate the area
     const double q = f.radius / norm(straight), r = norm(ray) / f.radius;
     feet.points.push_back(f.seed() + offset);
     feet.normals.push_back(normal);
@@ -77,7 +77,7 @@ AtlasDipoles spread_dipoles(const Atlas& atlas, double spacing, double band,
   std::vector<Vec3> points;
   for (const Feet& own : feet) points.insert(points.end(), own.points.begin(), own.points.end());
   if (points.empty()) return dipoles;
-  // All caps' weights at all feet, in the order of a tree.
+  // Sums the weights of all caps at all foot points, in the tree's order.
   const PointTree tree(points, context);
   std::vector<Vec3> ordered;
   for (const std::uint32_t i : tree.order()) ordered.push_back(points[i]);

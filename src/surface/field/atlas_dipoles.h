@@ -1,4 +1,4 @@
-// An atlas as oriented points, each for its part of the surface. Layer: surface.
+// Represents an atlas by oriented points, each with its share of the area. Layer: surface.
 #pragma once
 
 #include <vector>
@@ -9,16 +9,16 @@
 
 namespace rholm {
 
-// What takes the place of an atlas's potential where no cap has a weight: foot points for the
-// borders of holes, and dipoles for the winding number, area_normals[i] at feet[i].at.
+// Replaces an atlas's potential where no cap has a weight. `feet` are foot points for the
+// borders of holes; `area_normals[i]` is the dipole at points[i], for the winding number.
 struct AtlasDipoles {
   std::vector<FootPoint> feet;
   std::vector<Vec3> points, area_normals;
 };
 
-// Points about `spacing` apart on each cap's surface, where it has a weight within `band` of
-// itself; where several caps have one they share the area by their weights. A support is the
-// spacing at most.
+// Spreads points about `spacing` apart over each cap's surface, where the cap
+// has a weight within `band`. Where several caps have a weight, they share the
+// area by their weights. The support of a foot point is at most `spacing`.
 AtlasDipoles spread_dipoles(const Atlas& atlas, double spacing, double band,
                             const Context& context);
 

@@ -1,4 +1,4 @@
-// How far from its surface each cap has a weight.
+// Determines up to which distance from its surface each cap has a weight.
 #include "surface/field/cap_field.h"
 
 #include <algorithm>
@@ -13,16 +13,18 @@
 namespace rholm {
 namespace {
 
-// Of a small cap's support. Of even points the steps are more: 2.5 of 0.6 spacings, in supports of
-// 2.8. Chosen: three times what one in ten caps is off by where density falls 300 times.
+// Band of a small cap as a share of its support. On even points the grid's band is larger: 2.5
+// steps of 0.6 spacings, at supports of 2.8 spacings. Chosen: three times the error that one cap in
+// ten exceeds where density falls 300 times.
 constexpr double kBandOfSupport = 0.35;
-// Caps lie half a support apart, those of another sheet among them: so many reach as far as one.
+// Number of nearest caps searched. Caps lie half a support apart, other sheets included, so these
+// caps cover one support.
 constexpr std::size_t kBeside = 24;
 
 bool is_small(const Cap& cap) { return cap.area > 0; }
 
-// Along the normal, the median to those of the caps beside it that are on another sheet: some may
-// have normals that are wrong.
+// Returns the median distance, along the normal, to nearby caps on another
+// sheet. The median is used because some of these caps may have a wrong normal.
 double other_sheet(const std::vector<CapFoot>& feet, const PointTree& tree, std::size_t cap,
                    std::vector<Neighbor>& near) {
   std::vector<double> distances;

@@ -27,10 +27,10 @@ using D = hn::CappedTag<float, 16>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 
-// A cap in steps, relative to the first node of a block.
+// Holds a cap in units of steps, relative to the first node of a block.
 struct LaneCap {
   const CapLane& cap;
-  V sx, sy, sz;  // seed
+  V sx, sy, sz;  // position of the seed
 
   HWY_INLINE LaneCap(D d, const CapLane& c, const Vec3& first) : cap(c) {
     const Vec3 s = c.seed - first;
@@ -40,8 +40,8 @@ struct LaneCap {
   }
 };
 
-// (1 - s^2)^3, or the quadratic B-spline of t = 3 s / 2: 3/4 - t^2 up to 1/2, then (3/2 - t)^2 / 2,
-// both over its value at 0.
+// Returns the blend weight: (1 - s^2)^3, or the quadratic B-spline of t = 3 s / 2
+// over its value at 0. The spline is 3/4 - t^2 up to t = 1/2, then (3/2 - t)^2 / 2.
 HWY_INLINE V WeightAt(D d, bool spline, V near) {
   if (!spline) return hn::Mul(near, hn::Mul(near, near));
   const V square = hn::Sub(hn::Set(d, 1.0f), near);
@@ -51,21 +51,21 @@ HWY_INLINE V WeightAt(D d, bool spline, V near) {
   return hn::IfThenElse(hn::Lt(square, hn::Set(d, 1.0f / 9)), inner, outer);
 }
 
-// A cap's potential and blend weight at points, and the normal in space where asked for.
+// Holds a cap's potential g and blend weight w at points, and the normal in space if requested.
 struct Contribution {
   V g, w;
   V nx, ny, nz;
 };
 
-// Where points lie with respect to a cap: in its frame, 1 - s^2 of its support, and whether they
-// are within that and not too far from the tangent plane.
+// Position of points relative to a cap: `at` in its frame, `near` = 1 - s^2 of its
+// support. `within` is true inside the support and near enough to the tangent plane.
 struct Place {
   Lanes3<V> at;
   V near;
   M within;
 };
 
-// The ellipse's form, with the height as third axis.
+// Evaluates the quadratic form of the support's ellipse, with the height as third axis.
 HWY_INLINE V FormOf(D d, const CapLane& cap, V p, V q, V height) {
   V square =
       hn::MulAdd(hn::Set(d, cap.xx), hn::Mul(p, p), hn::Mul(hn::Set(d, cap.xy2), hn::Mul(p, q)));
@@ -112,9 +112,9 @@ HWY_INLINE void Contribute(D d, const CapLane& cap, const Place& place, Contribu
   }
 }
 
-// The nodes of a block that lie within a cap, by their indices; how many. Rows along x, a lane
-// each, meet the support and the slab around the tangent plane in one interval. `chosen` has room
-// for a row, or a vector, more.
+// Lists the indices of a block's nodes within a cap and returns their number.
+// Each lane handles one row along x; the support and the slab at the tangent
+// plane cut it in one interval. `chosen` needs room for one more row or vector.
 HWY_INLINE std::size_t NodesWithin(D d, const LaneCap& lane, const NodeSlices& slices,
                                    std::int32_t* chosen) {
   const hn::RebindToSigned<D> di;
@@ -128,7 +128,7 @@ HWY_INLINE std::size_t NodesWithin(D d, const LaneCap& lane, const NodeSlices& s
     const auto row = hn::Add(ascending, hn::Set(di, static_cast<std::int32_t>(r)));
     const V y = hn::ConvertTo(d, hn::And(row, hn::Set(di, 7)));
     const V z = hn::ConvertTo(d, hn::ShiftRight<3>(row));
-    // The form is square x^2 + 2 half x + rest along a row.
+    // Along a row, the form is square x^2 + 2 half x + rest.
     const Lanes3<V> at =
         ToFrame(d, cap.frame, hn::Neg(lane.sx), hn::Sub(y, lane.sy), hn::Sub(z, lane.sz));
     const V p = hn::Sub(at.x, hn::Set(d, cap.px)), q = hn::Sub(at.y, hn::Set(d, cap.py));
@@ -168,7 +168,7 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
   const D d;
   const hn::RebindToSigned<D> di;
   const hn::CappedTag<float, 2> both;
-  // w g and w of each node beside each other.
+  // Pairs (w g, w) of each node.
   alignas(64) float sums[2 * 512], own[2 * 16];
   std::int32_t chosen[512 + 16];
   for (std::size_t i = 0; i < 2 * 512; i += hn::Lanes(d)) hn::Store(hn::Zero(d), d, sums + i);
@@ -215,8 +215,8 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
   }
 }
 
-// The same at scattered points, in steps from the block's first node; sums of w g, w and w n, five
-// rows.
+// Sums the caps at scattered points, given in steps from the block's first
+// node. `sums` has five rows: w g, w, and the three components of w n.
 void ContributeAt(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps,
                   const Vec3& first_node, const float* points, std::size_t n, std::size_t stride,
                   float* sums) {
@@ -257,7 +257,7 @@ namespace {
 HWY_EXPORT(FillBlock);
 HWY_EXPORT(ContributeAt);
 
-// Rows that rise by less across a plane run along it.
+// Least slope of a row across the tangent plane; flatter rows count as this steep.
 constexpr double kFlat = 1e-4;
 
 struct Lanes {
@@ -322,7 +322,7 @@ Lanes make_lanes(const Atlas& atlas, const CapBands& bands, const BlockGrid& gri
   return lanes;
 }
 
-// Of a block, in steps from the grid's origin.
+// Returns the first node of a block, in steps from the grid's origin.
 Vec3 first_node(const BlockGrid& grid, std::size_t block) {
   const BlockCoordinates& b = grid.blocks[block];
   return {8.0 * b[0], 8.0 * b[1], 8.0 * b[2]};
@@ -348,14 +348,14 @@ std::vector<Disc> discs_of(const Atlas& atlas, const CapBands& bands) {
 
 namespace {
 
-// Calls visit(block) for the blocks of the grid, one step wider than their nodes, that a disc may
-// touch.
+// Calls visit(block) for each block of the grid that a disc may
+// touch. Each block is extended by one step beyond its nodes.
 template <class Visit>
 void visit_blocks(const BlockGrid& grid, const Disc& disc, const Visit& visit) {
   const double side = BlockGrid::kSide;
   const Vec3 c = (disc.center - grid.origin) / grid.step;
   const double radius = disc.radius / grid.step, thickness = disc.half_thickness / grid.step;
-  // Nodes 0 ... 8 of block b: 8 b <= c + radius and 8 b + 8 >= c - radius.
+  // Block b with nodes 0 ... 8: 8 b <= c + radius and 8 b + 8 >= c - radius.
   const auto low = [&](double x) {
     return static_cast<std::int32_t>(std::ceil((x - radius - side) / side));
   };
@@ -384,7 +384,7 @@ void visit_blocks(const BlockGrid& grid, const Disc& disc, const Visit& visit) {
 
 CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs, const Context& context) {
   constexpr std::size_t kGrain = 256;
-  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // block, cap
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // pairs of block and cap
   std::vector<Pairs> found((discs.size() + kGrain - 1) / kGrain);
   parallel_for(discs.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     Pairs pairs;
@@ -430,8 +430,8 @@ std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapBands& bands,
 
 namespace {
 
-// Steps that a vertex may move, and the squared mean of normals below which caps contradict each
-// other.
+// Largest move of a vertex in steps, and the squared length
+// of the mean normal below which caps contradict each other.
 constexpr double kLargestMove = 0.5;
 constexpr double kLeastNormal = 0.25;
 
@@ -450,7 +450,7 @@ struct VertexRows {
   }
 };
 
-// nx, ny, nz of `mesh`, zero.
+// Adds the attributes nx, ny, nz to `mesh`, all zero.
 std::array<double*, 3> add_vertex_normals(Mesh& mesh, const Context& context) {
   const std::size_t n = mesh.vertices.size();
   for (const char* name : {"nx", "ny", "nz"}) {
@@ -493,8 +493,7 @@ void project_vertices(const Atlas& atlas, const CapBands& bands, const CapLists&
             if (!(w > kNoWeight)) continue;
             const Vec3 normal =
                 Vec3{s[2 * rows.stride], s[3 * rows.stride], s[4 * rows.stride]} / w;
-            // The vertex moves by a small part of a step: its normal is that of where it
-            // was.
+            // The move is a small part of a step, so the normal before the move is kept.
             const Vec3 unit = normalized(normal);
             normals[0][first + i] = unit.x, normals[1][first + i] = unit.y;
             normals[2][first + i] = unit.z;

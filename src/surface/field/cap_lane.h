@@ -1,5 +1,5 @@
-// Caps as the kernels of cap_field.cpp see them: single precision, in steps of the grid; places
-// from its origin.
+// Caps in the form that the kernels of cap_field.cpp use: single
+// precision, in steps of the grid, with positions relative to its origin.
 #pragma once
 
 #include <cstddef>
@@ -10,39 +10,39 @@
 
 namespace rholm {
 
-// That of the caps that reconstruct() makes of points.
+// Degree of the caps that reconstruct() makes from points.
 inline constexpr int kSmallDegree = 3;
 
 struct CapLane {
   Vec3 seed;
   LaneFrame<float> frame;
   float px, py, xx, xy2, yy, hh;  // CapSupport, hh = 1 / support^2
-  double middle;                  // z of the ellipse's
-  float extent;                   // of the part of space in its support along z from there
-  // Of the form along a row of nodes: half its derivative is row . (p, q, height), half its second
-  // row_square. The row crosses the tangent plane at -row_crossing times its height at x = 0.
+  double middle;                  // z of the ellipse's centre
+  float extent;                   // half extent of the support along z, measured from `middle`
+  // Half the form's derivative along a row of nodes is row . (p, q, height), half its second
+  // row_square. The row meets the tangent plane at x = -row_crossing times its height at x = 0.
   float row[3], row_square, row_crossing;
-  float reach;         // from the tangent plane: nodes beyond cannot be within the band
+  float reach;         // largest distance from the tangent plane within the band
   float inverse_band;  // 1 / T
-  float trust;         // times the weight: less for a cap that fits its points worse
+  float trust;         // factor of the weight: smaller for a cap with a larger fit error
   int degree;
   bool even;
-  bool spline;  // CapBlend::kSpline
-  bool noisy;   // its weight falls where it leans
+  bool spline;  // true for CapBlend::kSpline
+  bool noisy;   // weight decreases where the surface leans
   const float* coefficients;
-  bool by_powers;  // to_powers() of kSmallDegree
+  bool by_powers;  // coefficients are in to_powers() form of kSmallDegree
 };
 
-// Slices of a block across z.
+// Range of a block's slices across z.
 struct NodeSlices {
   std::size_t first, end;
 };
-// Those that may be in a cap's support.
+// Returns the slices that may be in a cap's support.
 NodeSlices slices_near(const CapLane& cap, const Vec3& first_node);
 
 inline constexpr auto kNoWeight = static_cast<float>(kLeastWeight);
-// Sums of weights below it, within so many steps of the surface, are those of caps that end there.
-// Measured: three times the weight finds few more and asks for far more winding numbers.
+// A node is doubtful if its sum of weights is less and the surface is within kDoubtfulSteps: the
+// caps end there. Measured: three times the weight finds hardly more, for far more winding numbers.
 inline constexpr float kDoubtfulWeight = 0.1f;
 inline constexpr double kDoubtfulSteps = 1;
 

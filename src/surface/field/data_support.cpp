@@ -9,16 +9,16 @@
 namespace rholm {
 namespace {
 
-// s^2 of CapSupport on the rim of the data: half a disc of points, at the edge of a hole, has a
-// mean at 0.42 R from it, and an ellipse of half axis 0.53 R.
+// s^2 of CapSupport at the rim of the data. At the edge of a hole the points fill half
+// a disc: their mean is 0.42 R from the edge, and the ellipse's half axis is 0.53 R.
 constexpr double kRim = 0.63;
-// Beyond the rim caps hand over to the fill of a hole, up to here. Measured: a tenth farther they
-// bend on their own, and flares and steps stand around the fill.
+// s^2 up to which caps fade to the fill of a hole beyond the rim (chosen: with a tenth
+// more, caps bend on their own, and flares and steps appear around the fill).
 constexpr double kEnd = 0.7;
-// More than either, where no cap is near.
+// Value of s^2 where no cap is near; above kRim and kEnd.
 constexpr double kNone = 2;
 
-// The least s^2 of the caps that reach a block and count.
+// Returns the least s^2 among the caps that reach a block and for which `counts` is true.
 template <typename Counts>
 double least_place(const Atlas& atlas, const CapLists& lists, std::size_t block, const Vec3& x,
                    const Counts& counts) {
@@ -31,8 +31,8 @@ double least_place(const Atlas& atlas, const CapLists& lists, std::size_t block,
   return least;
 }
 
-// Behind an open sheet the fill begins where the band of its caps ends: beside their data, but not
-// of it.
+// Returns true if x is within `near` of the cap's surface. Behind an open sheet the
+// fill begins where the band of its caps ends: near their data, but not on them.
 bool lies_on(const Atlas& atlas, const Cap& cap, const Vec3& x, double near) {
   const std::span<const double> coefficients(atlas.coefficients);
   const CapValue value =
@@ -69,7 +69,7 @@ NodeSupport node_support(const Atlas& atlas, const CapLists& lists, const BlockG
         const auto cell = [](double c) { return static_cast<std::int32_t>(std::floor(c + 1e-6)); };
         const std::int32_t b = find_block(grid, {cell(p.x), cell(p.y), cell(p.z)});
         support[i] = 0;
-        // Blocks that came later, for the holes, have no caps.
+        // Blocks added later for the holes have no caps.
         if (b == kNoBlock || static_cast<std::size_t>(b) + 1 >= lists.first.size()) continue;
         const double nearest = least_place(atlas, lists, static_cast<std::size_t>(b), x[i],
                                            [](std::uint32_t) { return true; });

@@ -1,5 +1,5 @@
-// How far within the data a place is: where surfaces are cut open, and what holes are made of
-// (method 7.10). Layer: surface.
+// Measures how far within the data a position is: it decides where surfaces are
+// cut open, and which values holes take over (method 7.10). Layer: surface.
 #pragma once
 
 #include <vector>
@@ -13,15 +13,15 @@
 
 namespace rholm {
 
-// For each vertex, how far within the data it is: 1 in the middle of a cap's points, 0 on their
-// rim, negative beyond all. Guessed vertices (ExtractedSurface::filled) also have to lie on a cap,
-// as closely as half of its band.
+// Returns for each vertex how far within the data it is: 1 in the middle of a cap's
+// points, 0 on their rim, negative beyond. A guessed vertex (ExtractedSurface::filled)
+// counts only caps whose surface is within half their band.
 std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
                                  const ExtractedSurface& surface, const CapBands& bands,
                                  const Context& context);
 
-// The same at nodes of the grid, as what they are worth to a hole beside them: 1 within the data, 0
-// where caps end. Refers to its arguments.
+// Returns a function that measures the support of grid nodes for the holes beside them:
+// 1 within the data, 0 where caps end. The function refers to the arguments given here.
 NodeSupport node_support(const Atlas& atlas, const CapLists& lists, const BlockGrid& grid,
                          const Context& context);
 

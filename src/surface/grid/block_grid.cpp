@@ -15,16 +15,16 @@ namespace {
 
 constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15ULL;  // 2^64 / golden ratio, odd
 constexpr std::uint64_t kEmpty = ~std::uint64_t{0};       // no key has its highest bit set
-// Discs, and blocks, that are worked on at a time.
+// Number of discs, and of blocks, per task.
 constexpr std::size_t kDiscGrain = 2048;
 constexpr std::size_t kBlockGrain = 64;
-// Copied between two questions whether to cancel: 8 MB.
+// Number of blocks (8 MB) copied between two checks for cancellation.
 constexpr std::size_t kBlocksPerQuestion = 4096;
-// Room for one more block in so many: what holes and sharp edges ask for. It costs nothing as long
-// as it is not touched, but a grid that is moved is paged in twice.
+// One block in kRoom is reserved for blocks that holes and sharp edges add.
+// Untouched reserve costs nothing, but a grid that is moved is paged in twice.
 constexpr std::size_t kRoom = 16;
-// A disc may be compared with this many times the blocks allowed in all: a disc is flat, its box
-// is not. Chosen: bounds the time of a hopeless request.
+// The box of a disc may have this many times the allowed blocks, because a disc
+// is flat and its box is not. Chosen: it limits the time of a hopeless request.
 constexpr double kBoxPerBlock = 64;
 
 std::uint64_t key_of(const BlockCoordinates& b) {
@@ -39,13 +39,13 @@ BlockCoordinates coordinates_of(std::uint64_t key) {
   return {part(key), part(key >> 21), part(key >> 42)};
 }
 
-// A hash table has a power of two of slots, at least twice as many as entries.
+// Returns the size of a hash table of n entries: a power of two, at least twice n.
 std::size_t n_slots(std::size_t n) { return std::bit_ceil(2 * n + 16); }
 std::size_t first_slot(std::uint64_t key, std::size_t n) {
   return static_cast<std::size_t>((key * kGolden) >> (64 - std::countr_zero(n)));
 }
 
-// A set of keys that grows.
+// Hash set of keys that grows.
 class KeySet {
  public:
   KeySet() : slots_(n_slots(1000), kEmpty) {}
@@ -82,7 +82,7 @@ class KeySet {
                   max_blocks, static_cast<double>(block_grid_bytes(max_blocks)) / (1 << 20)));
 }
 
-// A disc in units of the step.
+// Disc in units of the step.
 struct LocalDisc {
   std::array<double, 3> center, normal;
   double radius, half_thickness;
@@ -96,7 +96,7 @@ LocalDisc localize(const Disc& disc, const Vec3& origin, double step) {
           disc.half_thickness / step};
 }
 
-// Blocks whose nodes 8 b ... 8 b + 7 meet the box around a disc.
+// Range of blocks whose nodes 8 b ... 8 b + 7 meet the box around a disc.
 struct BlockBox {
   std::array<std::int32_t, 3> low, high;
 };
@@ -106,7 +106,7 @@ BlockBox box_of(const LocalDisc& disc, std::size_t max_blocks) {
   double volume = 1;
   for (std::size_t a = 0; a < 3; ++a) {
     const double n = disc.normal[a];
-    // How far the flat disc reaches along the axis, and the slab's thickness beyond.
+    // The flat disc reaches `flat` along the axis; the slab's thickness adds to it.
     const double flat = disc.radius * std::sqrt(std::max(0.0, 1 - n * n));
     const double reach = std::min(disc.radius, flat + disc.half_thickness * std::abs(n));
     const double low = std::ceil((disc.center[a] - reach - 7) / 8);
@@ -126,9 +126,9 @@ BlockBox box_of(const LocalDisc& disc, std::size_t max_blocks) {
 }
 
 bool meets(const LocalDisc& disc, const BlockCoordinates& b) {
-  double along = 0;      // of the block's centre over the plane
-  double half_side = 0;  // of the block along the normal
-  double distance = 0;   // squared, of the block to the disc's centre
+  double along = 0;      // height of the block's centre over the plane
+  double half_side = 0;  // half extent of the block along the normal
+  double distance = 0;   // squared distance of the block from the disc's centre
   for (std::size_t a = 0; a < 3; ++a) {
     const double d = 8.0 * b[a] + 3.5 - disc.center[a];
     along += disc.normal[a] * d;
@@ -185,7 +185,7 @@ std::int32_t find_block(const BlockGrid& grid, const BlockCoordinates& coordinat
     if (std::abs(c) > kBlockLimit + 1) return kNoBlock;
   }
   std::size_t slot = first_slot(key_of(coordinates), n);
-  // Not by the arrays' own comparison, which is a call.
+  // Comparing arrays with != would be a function call.
   const auto is_other = [&](const BlockCoordinates& b) {
     return ((b[0] ^ coordinates[0]) | (b[1] ^ coordinates[1]) | (b[2] ^ coordinates[2])) != 0;
   };

@@ -1,4 +1,4 @@
-// A grid of values that exists only near a surface: blocks of 8 x 8 x 8 nodes.
+// Grid of values that exists only near a surface: blocks of 8 x 8 x 8 nodes.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@ namespace rholm {
 using BlockCoordinates = std::array<std::int32_t, 3>;  // x, y, z
 inline constexpr std::int32_t kNoBlock = -1;
 
-// Node (i, j, k) of block b, 0 <= i, j, k < 8, is at origin + step (8 b + (i, j, k)).
-// A node whose value is not finite is unknown. The mark is a quiet NaN rather than a large number:
-// one that slips into arithmetic is found by whatever looks at the result, where a large number
-// gives a plausible vertex. (Nothing here may be compiled with -ffast-math.)
+// Node (i, j, k) of block b, 0 <= i, j, k < 8, is at origin + step (8 b +
+// (i, j, k)). A node whose value is not finite is unknown. Unknown is a
+// quiet NaN, not a large number: arithmetic on it shows in the result, while
+// a large number gives a plausible vertex. (So -ffast-math is not allowed.)
 struct BlockGrid {
   static constexpr int kSide = 8;
   static constexpr std::size_t kNodes = 512;
@@ -28,18 +28,18 @@ struct BlockGrid {
 
   Vec3 origin;
   double step = 1;
-  // No two alike; as listed by list_blocks() they are sorted by z, y, x, blocks that are added
-  // later stand behind them.
+  // Distinct. Blocks from list_blocks() are sorted
+  // by z, y, x; blocks added later follow them.
   std::vector<BlockCoordinates> blocks;
-  // 512 per block, x fastest, room for more than there are blocks: the signed distance, positive
-  // outside, or kUnknown. Zero counts as outside.
+  // 512 values per block, x fastest, with room for further blocks: the
+  // signed distance, positive outside, or kUnknown. Zero counts as outside.
   AlignedArray<float> values;
-  // One bit per node in the order of the values, 8 words per block; empty while all are 0. Set
-  // where a value is a guess and not measured (see close_grid.h).
+  // One bit per node in the order of the values, 8 words per block; empty while all bits
+  // are 0. A bit is set where the value is a guess, not measured (see close_grid.h).
   std::vector<std::uint64_t> filled;
-  // Block at b + (dx, dy, dz), kNoBlock where there is none, at [(dx+1) + 3 (dy+1) + 9 (dz+1)].
+  // Block at b + (dx, dy, dz), or kNoBlock, at index (dx+1) + 3 (dy+1) + 9 (dz+1).
   std::vector<std::array<std::int32_t, 27>> neighbours;
-  std::vector<std::int32_t> slots;  // of a hash table: see find_block()
+  std::vector<std::int32_t> slots;  // hash table of find_block()
 
   std::size_t n_blocks() const { return blocks.size(); }
   float* block_values(std::size_t block) { return values.data() + block * kNodes; }
@@ -60,11 +60,11 @@ struct BlockGrid {
 // Block coordinates must lie in +-kBlockLimit; 21 bits each make one key.
 inline constexpr std::int32_t kBlockLimit = (1 << 20) - 2;
 
-// The block with those coordinates, or kNoBlock.
+// Returns the index of the block with these coordinates, or kNoBlock.
 std::int32_t find_block(const BlockGrid& grid, const BlockCoordinates& coordinates);
 
-// The part of a slab within a ball: |x - center| <= radius, |normal . (x - center)| <=
-// half_thickness; the normal has length 1.
+// Part of a slab within a ball: |x - center| <= radius and |normal
+// . (x - center)| <= half_thickness. The normal has length 1.
 struct Disc {
   Vec3 center;
   Vec3 normal;
@@ -72,21 +72,21 @@ struct Disc {
   double half_thickness = 0;
 };
 
-// The blocks (sorted by z, y, x) that have a node near a disc: all with a node in it, and a few
-// more. Throws InvalidInput if there are more than `max_blocks` (8 bytes each are used meanwhile,
-// 2.5 KiB each by a grid), or the grid would not reach the discs.
+// Returns the blocks (sorted by z, y, x) near a disc: all with a node in it,
+// and some others. Throws OutOfMemory above `max_blocks`, each 8 bytes here
+// and 2.5 KiB in a grid. Throws InvalidInput if a disc is beyond kBlockLimit.
 std::vector<BlockCoordinates> list_blocks(const Vec3& origin, double step,
                                           std::span<const Disc> discs, std::size_t max_blocks,
                                           const Context& context = {});
 
-// A grid of these blocks, all values unknown. `blocks` must have no two alike.
+// Makes a grid of these blocks with unknown values. `blocks` must be distinct.
 BlockGrid make_block_grid(const Vec3& origin, double step, std::vector<BlockCoordinates> blocks,
                           const Context& context = {});
 
-// Appends blocks that the grid does not have (checked), all values unknown.
+// Appends the blocks that the grid lacks (checked), with unknown values.
 void add_blocks(BlockGrid& grid, std::span<const BlockCoordinates> blocks);
 
-// Bytes of a grid of n blocks: values, coordinates, neighbours, hash table.
+// Returns the bytes of a grid of n blocks: values, coordinates, neighbours, hash table.
 std::size_t block_grid_bytes(std::size_t n_blocks);
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// Signs of the nodes of a block as bit masks.
+// Bit masks of the signs of a block's nodes.
 #pragma once
 
 #include <array>
@@ -11,15 +11,15 @@ namespace rholm {
 using NodeBits = std::array<std::uint64_t, 8>;
 
 struct NodeMasks {
-  NodeBits known = {};   // finite
-  NodeBits inside = {};  // finite and below zero: zero of either sign is outside
+  NodeBits known = {};   // finite values
+  NodeBits inside = {};  // finite values below zero: both zeros count as outside
 };
 
-// Of blocks that stand one behind the other, 512 values each.
+// Computes the masks of consecutive blocks of 512 values each.
 void node_masks(const float* values, std::size_t n_blocks, NodeMasks* masks);
 
-// Shifts within a slice: bit (x, y) of the result is bit (x + 1, y) of `bits`, column 8 being
-// column 0 of `next`; and so on.
+// Shifts within a slice: bit (x, y) of from_next_x() is bit (x + 1, y) of `bits`, where
+// column 8 is column 0 of `next`. The other three functions shift along the other directions.
 inline constexpr std::uint64_t kFirstColumn = 0x0101010101010101ULL;
 inline std::uint64_t from_next_x(std::uint64_t bits, std::uint64_t next) {
   return ((bits >> 1) & ~(kFirstColumn << 7)) | ((next & kFirstColumn) << 7);

@@ -19,12 +19,12 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kGrain = 64;  // blocks
-// The winding number refutes a side if it is so far beyond 1/2. Horns at edges are fewer with 0.15
-// than with 0.2 or 0.3; with 0.1 corners are cut as well (scripts/constants).
+constexpr std::size_t kGrain = 64;  // blocks per task
+// The winding number refutes a sign if it differs from 1/2 by more, to the other side. With 0.15
+// fewer horns appear at edges than with 0.2 or 0.3; 0.1 also cuts corners (scripts/constants).
 constexpr double kRefuted = 0.15;
-// That bound is coarse: the winding number may be off by a few hundredths. 2, the default, takes
-// three times as long and refutes the same but for some nodes in a thousand (scripts/constants).
+// Opening for refuting; coarse, so the winding number may be off by some hundredths. The default
+// 2 takes three times as long, and differs at some nodes in a thousand (scripts/constants).
 constexpr double kRefutingOpening = 1.3;
 
 bool is_complete(const BlockGrid& grid, const std::vector<char>& fully_known, std::size_t b) {
@@ -32,12 +32,12 @@ bool is_complete(const BlockGrid& grid, const std::vector<char>& fully_known, st
                      [&](std::int32_t n) { return n != kNoBlock && fully_known[n] != 0; });
 }
 
-// The state of the search.
+// State of the search for open cubes.
 struct Search {
   std::vector<NodeMasks> masks;
   std::vector<char> fully_known;
-  std::vector<Wanted> wanted;       // of the blocks in `open`
-  std::vector<std::uint32_t> open;  // to look at in this round, ascending
+  std::vector<Wanted> wanted;       // wanted values of the blocks in `open`
+  std::vector<std::uint32_t> open;  // blocks to search in this round, ascending
 };
 
 bool is_fully_known(const NodeMasks& masks) {
@@ -45,7 +45,7 @@ bool is_fully_known(const NodeMasks& masks) {
                      [](std::uint64_t word) { return ~word == 0; });
 }
 
-// The masks of the blocks that have none yet.
+// Computes the masks of the blocks that have none yet.
 void take_blocks(const BlockGrid& grid, Search& search, const Context& context) {
   const std::size_t before = search.masks.size(), n = grid.n_blocks() - before;
   search.masks.resize(grid.n_blocks());
@@ -70,7 +70,7 @@ Search start_search(const BlockGrid& grid, const GridPart* part, const Context& 
   return search;
 }
 
-// All that the open blocks have around them.
+// Adds everything around the open blocks, if the grid is a part.
 void complete(const GridPart* part, BlockGrid& grid, Search& search, Closing& closing,
               const Context& context) {
   if (part == nullptr) return;
@@ -94,7 +94,7 @@ void look_for_wanted(const BlockGrid& grid, Search& search, const Context& conte
   });
 }
 
-// Adds the blocks that are missing.
+// Adds the missing blocks.
 void add_wanted_blocks(BlockGrid& grid, Search& search, std::size_t max_blocks) {
   std::vector<BlockCoordinates> missing;
   for (std::size_t i = 0; i < search.open.size(); ++i) {
@@ -161,7 +161,7 @@ void set_nodes(BlockGrid& grid, const NodeList& list, std::span<const double> va
   }
 }
 
-// The blocks whose cubes have changed: those with new nodes, new blocks, and all around them.
+// Opens the blocks whose cubes have changed: blocks around new nodes and new blocks.
 void open_changed(const BlockGrid& grid, const NodeList& list, std::size_t blocks_before,
                   Search& search) {
   std::vector<std::uint32_t> changed;

@@ -18,8 +18,8 @@ Vec3 hessian_times(const Vec3& d, const Vec3& v) {
 Vec3 unit(int k) { return {k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0}; }
 double part(const Vec3& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
 
-// Unknowns alpha_j, beta_j (4 j ...), then a, b; equations s(x_i) = 0, grad s(x_i) = n_i, and
-// sum alpha = 0, sum alpha x + beta = 0, which keep the polynomials out of the sums.
+// Unknowns: alpha_j, beta_j (from 4 j), then a, b. Equations: s(x_i) = 0, grad s(x_i) =
+// n_i, and sum alpha = 0, sum (alpha x + beta) = 0, which keep polynomials out of the sums.
 Eigen::MatrixXd system_of(std::span<const Vec3> x) {
   const auto n = static_cast<Eigen::Index>(x.size());
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(4 * n + 4, 4 * n + 4);
@@ -81,7 +81,7 @@ HermiteRbf::Value HermiteRbf::at(const Vec3& x) const {
     const Vec3 d = local - term.center;
     const double square = dot(d, d), length = std::sqrt(square), along = dot(term.beta, d);
     sum += length * (term.alpha * square - 3 * along);
-    // grad |d|^3 = 3 |d| d, and grad (|d| beta . d) = |d| beta + (beta . d) d / |d|.
+    // Uses grad |d|^3 = 3 |d| d and grad (|d| beta . d) = |d| beta + (beta . d) d / |d|.
     const double across = length > 0 ? along / length : 0;
     gradient += 3 * ((term.alpha * length - across) * d - length * term.beta);
   }

@@ -1,4 +1,4 @@
-// A smooth function with given zeros and gradients there. Layer: surface.
+// Smooth function with given zeros and given gradients at them. Layer: surface.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,17 @@
 
 namespace rholm {
 
-// s(x) = sum_j [alpha_j phi(x - x_j) - beta_j . grad phi(x - x_j)] + a + b . x, phi(d) = |d|^3: of
-// all functions with s(x_i) = 0 and grad s(x_i) = n_i the one that bends least (its natural
-// semi-norm; Macedo, Gois, Velho 2011).
+// s(x) = sum_j [alpha_j phi(x - x_j) - beta_j . grad phi(x - x_j)] + a + b . x
+// with phi(d) = |d|^3. Among all functions with s(x_i) = 0 and grad s(x_i) = n_i
+// this one bends least (by its natural semi-norm; Macedo, Gois, Velho 2011).
 class HermiteRbf {
  public:
-  // At most kMaxCenters distinct centres with unit normals. Solves a dense system of
-  // 4 n + 4 equations.
+  // Takes at most kMaxCenters distinct centres with unit
+  // normals. Solves a dense system of 4 n + 4 equations.
   static constexpr std::size_t kMaxCenters = 400;
   HermiteRbf(std::span<const Vec3> centers, std::span<const Vec3> normals);
 
-  // False if the system has no useful solution (centres that all but coincide): do not use it.
+  // Returns false if the system has no useful solution, e.g. for nearly coincident centres.
   bool valid() const { return valid_; }
   double operator()(const Vec3& x) const { return at(x).value; }
   struct Value {
@@ -30,7 +30,7 @@ class HermiteRbf {
 
  private:
   struct Term {
-    Vec3 center;  // in the frame of the centres: their middle at 0, their extent 1
+    Vec3 center;  // position in the centres' frame: mean at 0, extent 1
     double alpha = 0;
     Vec3 beta;
   };

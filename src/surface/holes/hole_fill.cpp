@@ -17,44 +17,44 @@ namespace {
 
 using std::numbers::pi;
 
-// Centres (method 7.10): within this part of the hole's radius of its rim,
+// Centres of the RBF (method 7.10) lie within this part of the hole's radius from its rim.
 constexpr double kBorder = 0.4;
-// so far apart: as the caps allow, 36 around a round hole, and wider away from the rim.
+// Spacing of centres: in supports of caps, at most 36 around a round hole, wider off the rim.
 constexpr double kCapSpacing = 0.6;
 constexpr double kAroundRim = 36;
 constexpr double kWidening = 0.4;
-// Values are distances, to first order, if their slope is near 1.
+// A value divided by its slope is a distance, to first order, if the slope is near 1.
 constexpr double kLeastSteep = 0.6;
 constexpr double kMostSteep = 1.5;
-// Too many are thinned out by this until they fit. Chosen: a few rounds at most.
+// Factor of the spacing while there are too many centres. Chosen: a few rounds at most.
 constexpr double kThinning = 1.2;
-// Fewer cannot tell more than a plane.
+// Least number of centres; fewer determine no more than a plane.
 constexpr std::size_t kLeastCenters = 6;
-// Smaller holes are left to the winding number: there its roughness is below a step or two, and a
-// surface full of gaps has very many. Chosen.
+// Smaller holes keep the winding number: its roughness there is below a step
+// or two, and a surface full of gaps has very many small holes. Chosen.
 constexpr std::size_t kLeastNodes = 64;
 constexpr double kLeastRadiusSteps = 2.5;
-// Unless it lies between two sheets: midway between discs missing in both, t apart, the number is
-// t / sqrt(t^2 + 4 r^2), and bridges them from the radius r = sqrt(3) / 2 t on. Sheets are apart
-// from two steps on.
+// Least radius of a smooth fill between two sheets. Midway between discs
+// missing in both sheets, t apart, the winding number is t / sqrt(t^2 + 4 r^2);
+// it bridges them if r >= sqrt(3) / 2 t. Sheets are at least two steps apart.
 constexpr double kLeastBridgeSteps = std::numbers::sqrt3;
-// The distance to a rim is that to so many of its nodes: 1/40 of the radius apart on a round hole.
+// Number of rim nodes for distances to a rim: 1/40 of the radius apart on a round hole.
 constexpr std::size_t kRimSamples = 256;
-// The fill fades to the winding number from here to there, in units of the hole's reach.
+// The fill fades to the winding number between these distances, in units of the hole's reach.
 constexpr double kFadeFrom = 1.3;
 constexpr double kFadeTo = 1.8;
-// The winding number is sure of its side if it differs from 1/2 by more (method 7.10).
+// The winding number determines the sign if it differs from 1/2 by more (method 7.10).
 constexpr double kSure = 0.3;
-// Where it is unsure its bounds are this many times as far as its own values, beyond a step: they
-// must not cut values next to the surface, from which its place is interpolated.
+// Where it does not, its bounds are this many times its own values, offset by a step. The
+// bounds must not cut values next to the surface, from which the surface is interpolated.
 constexpr double kBoundSlope = 2;
-// Seen by as much of its surroundings a place is empty. A line marks the whole of every cube that
-// it goes through, half a cube too much on either side: with 1/2 fills beside a surface that lines
-// pass closely lose up to two spacings (scripts/scan-limits --scans, the knot).
+// A position is empty if more than this share around it was seen. A line marks each whole
+// cube it crosses, so half a cube too much on either side. With 1/2, fills beside a surface
+// that lines pass closely lose up to two spacings (scripts/scan-limits --scans, the knot).
 constexpr double kEmpty = 0.75;
-// A slope of less is a saddle's or an extremum's: no distance follows from it.
+// Smaller slopes occur at saddles and extrema; no distance follows from them.
 constexpr double kLeastSlope = 0.05;
-// Fills are cut off at so many steps: a distance beyond means nothing.
+// Fills are cut off at this many steps; larger distances have no meaning.
 constexpr double kLargestSteps = 2.5;
 
 bool is_large(const Hole& hole, double step) {
@@ -65,10 +65,10 @@ bool may_bridge(const BlockGrid& grid, const Hole& hole) {
   return hole.radius >= kLeastBridgeSteps * grid.step && count_borders(grid, hole) > 1;
 }
 
-// Foot points by the block of the grid they lie in, or would.
+// Foot points, sorted by the block of grid coordinates in which they lie.
 struct FeetOfBlocks {
-  std::vector<BlockCoordinates> blocks;  // that have some
-  std::vector<std::uint32_t> first;      // of each, and the end
+  std::vector<BlockCoordinates> blocks;  // blocks with foot points
+  std::vector<std::uint32_t> first;      // first foot of each block, and the end
   std::vector<std::uint32_t> feet;
 };
 
@@ -103,7 +103,7 @@ struct Candidate {
   std::uint32_t foot = 0;
 };
 
-// Median of the supports of those that have one, caps; 0 if there are none.
+// Returns the median of the positive supports (the supports of caps), or 0 without any.
 double typical_support(std::span<const FootPoint> feet, const std::vector<Candidate>& candidates) {
   std::vector<double> supports;
   for (const Candidate& c : candidates) {
@@ -115,7 +115,7 @@ double typical_support(std::span<const FootPoint> feet, const std::vector<Candid
   return *middle;
 }
 
-// Foot points near the rim, nearest first.
+// Returns the foot points near the rim, nearest first.
 std::vector<Candidate> candidates_of(const BlockGrid& grid, const Hole& hole,
                                      std::span<const FootPoint> feet, const FeetOfBlocks& feet_of) {
   std::vector<Vec3> rim;
@@ -134,7 +134,7 @@ std::vector<Candidate> candidates_of(const BlockGrid& grid, const Hole& hole,
       double square = std::numeric_limits<double>::infinity();
       for (const Vec3& at : rim) square = std::min(square, dot(at - foot.at, at - foot.at));
       const double d = std::sqrt(square);
-      // Caps end up to their support before the rim.
+      // The foot of a cap may be up to its support away from the rim.
       if (d < kBorder * hole.radius + foot.support) {
         found.push_back({d, feet_of.feet[i]});
       } else if (foot.support == 0) {
@@ -142,8 +142,8 @@ std::vector<Candidate> candidates_of(const BlockGrid& grid, const Hole& hole,
       }
     }
   }
-  // A hole smaller than the caps around it goes on as they do: their surface within a support
-  // counts, since their feet are too few.
+  // A hole smaller than the surrounding caps continues their surface. These
+  // caps have too few feet, so the grid's surface within a support counts too.
   const double support = typical_support(feet, found);
   if (hole.radius < support) {
     for (const Candidate& c : of_grid) {
@@ -156,7 +156,7 @@ std::vector<Candidate> candidates_of(const BlockGrid& grid, const Hole& hole,
   return found;
 }
 
-// The candidates that keep their distance from those before them.
+// Returns the candidates that keep the spacing from all earlier ones.
 std::vector<std::uint32_t> thin_out(const std::vector<Candidate>& candidates, double radius,
                                     std::span<const FootPoint> feet, double widen) {
   std::vector<std::uint32_t> chosen;
@@ -175,14 +175,14 @@ std::vector<std::uint32_t> thin_out(const std::vector<Candidate>& candidates, do
   return chosen;
 }
 
-// A hole and its smooth function.
+// Hole with its smooth function.
 struct Fill {
   Hole hole;
   std::optional<HermiteRbf> smooth;
   bool wanted = false;
 };
 
-// The blocks of the rims, and those next to them.
+// Returns the blocks of the rims and their neighbours.
 std::vector<std::uint32_t> blocks_around(const BlockGrid& grid, const std::vector<Fill>& fills) {
   std::vector<char> near(grid.n_blocks(), 0);
   for (const Fill& fill : fills) {
@@ -199,7 +199,7 @@ std::vector<std::uint32_t> blocks_around(const BlockGrid& grid, const std::vecto
   return blocks;
 }
 
-// The measured nodes there.
+// Returns the measured nodes in these blocks.
 std::vector<NodeId> nodes_around(const BlockGrid& grid, const std::vector<Fill>& fills) {
   std::vector<NodeId> nodes;
   for (const std::uint32_t b : blocks_around(grid, fills)) {
@@ -210,7 +210,7 @@ std::vector<NodeId> nodes_around(const BlockGrid& grid, const std::vector<Fill>&
   return nodes;
 }
 
-// The value of a measured node; not finite for others.
+// Returns the value of a measured node, and NaN for other nodes.
 float measured(const BlockGrid& grid, const NodeId& id, int dx, int dy, int dz) {
   NodeId at;
   if (!step_to(grid, id, dx, dy, dz, at) || grid.is_filled(at.block, at.node)) {
@@ -219,8 +219,8 @@ float measured(const BlockGrid& grid, const NodeId& id, int dx, int dy, int dz) 
   return grid.block_values(at.block)[at.node];
 }
 
-// By the six nodes around a measured one; not finite if one is not measured. Differences to one
-// side only would tilt all normals of a rim the same way.
+// Returns the gradient by central differences; not finite if one of the six nodes around
+// is not measured. One-sided differences would tilt all normals of a rim the same way.
 Vec3 gradient_at(const BlockGrid& grid, const NodeId& id) {
   const auto slope = [&](int dx, int dy, int dz) {
     return (measured(grid, id, dx, dy, dz) - measured(grid, id, -dx, -dy, -dz)) / (2 * grid.step);
@@ -228,11 +228,11 @@ Vec3 gradient_at(const BlockGrid& grid, const NodeId& id) {
   return {slope(1, 0, 0), slope(0, 1, 0), slope(0, 0, 1)};
 }
 
-// The surface as the grid has it up to the end of the data: the feet of caps end before.
+// Adds feet on the grid's surface up to the end of the data, beyond the feet of caps.
 void add_feet_of_grid(const BlockGrid& grid, const std::vector<Fill>& fills,
                       const NodeSupport& support_of, std::vector<FootPoint>& feet) {
   std::vector<FootPoint> found;
-  std::vector<Vec3> around;  // seven for each
+  std::vector<Vec3> around;  // seven for each foot
   for (const NodeId& id : nodes_around(grid, fills)) {
     const float value = grid.block_values(id.block)[id.node];
     if (std::abs(value) >= grid.step) continue;
@@ -282,25 +282,25 @@ double smooth_step(double t) {
   return t * t * (3 - 2 * t);
 }
 
-// The smooth function, faded to the winding number away from the hole, and where that is sure.
+// Returns the smooth function, faded to the winding number far away and bounded by it.
 double fill_value(const Fill& fill, const Vec3& x, double winding, double step) {
   const double by_winding = winding_value(winding, step);
   const double away = norm(x - fill.hole.center) / fill.hole.reach;
   const double share = 1 - smooth_step((away - kFadeFrom) / (kFadeTo - kFadeFrom));
   if (share == 0) return by_winding;
-  // Far from its centres the function is steep or flat: a distance, to first order.
+  // Far from its centres the function is steep or flat; divided by its slope it is a distance.
   const HermiteRbf::Value smooth = fill.smooth->at(x);
   const double distance = smooth.value / std::max(norm(smooth.gradient), kLeastSlope);
   const double s = std::clamp(distance, -kLargestSteps * step, kLargestSteps * step);
-  // Never inside where the winding number is sure of outside, nor the other way round: bounds that
-  // cross zero where it becomes sure, so that the surface is as smooth there as the number.
+  // The sign must not contradict a clear winding number. Each bound crosses zero
+  // where the number becomes clear, so the surface is as smooth there as the number.
   const double outside = kBoundSlope * winding_value(winding + kSure, step);
   const double inside = kBoundSlope * winding_value(winding - kSure, step);
   const double bounded = std::min(std::max(s, outside), inside);
   return share * bounded + (1 - share) * by_winding;
 }
 
-// The smooth fill whose hole is nearest, relative to its reach; nullptr if x is far from all.
+// Returns the fill with the hole nearest to x relative to its reach, nullptr if all are far.
 const Fill* fill_at(const std::vector<Fill>& fills, const Vec3& x) {
   const Fill* nearest = nullptr;
   double least = kFadeTo;
@@ -326,7 +326,7 @@ NodeValues smooth_values(const std::vector<Fill>& fills, const WindingNumbers& w
   };
 }
 
-// Outside where it has been seen to be empty: a bound as by a winding number that is sure of it.
+// Makes values positive where seen space is empty, like a winding number clearly outside.
 NodeValues carved(NodeValues values, const SeenSpace* seen, double step) {
   if (seen == nullptr) return values;
   return [values = std::move(values), seen, step](std::span<const Vec3> x, std::span<double> out) {
@@ -346,8 +346,8 @@ void clear(BlockGrid& grid, const Hole& hole) {
   }
 }
 
-// Values that are guesses of caps are handed over to the fill. Those count as filled from then on:
-// a vertex there is where the blend is zero, not where the caps are.
+// Blends values with weak support into the fill. These nodes count as filled from
+// now on, since a vertex there lies at the zero of the blend, not on the caps.
 void hand_over(BlockGrid& grid, const std::vector<Fill>& fills, const NodeSupport& support_of,
                const NodeValues& values) {
   const std::vector<NodeId> nodes = nodes_around(grid, fills);
@@ -376,7 +376,7 @@ void hand_over(BlockGrid& grid, const std::vector<Fill>& fills, const NodeSuppor
 
 }  // namespace
 
-// 14 steps is a block's diagonal: supports of caps are shorter.
+// 14 steps are a block's diagonal, and supports of caps are shorter: 28 steps cover both.
 double reach_of_feet(const Hole& hole, double step) {
   return hole.reach + kBorder * hole.radius + 28 * step;
 }

@@ -9,10 +9,10 @@
 namespace rholm {
 namespace {
 
-// The filled nodes in the grid's order, and the way back.
+// Filled nodes in the grid's order, with the inverse mapping.
 struct FilledNodes {
   std::vector<NodeId> nodes;
-  std::vector<std::uint32_t> before;  // filled nodes before each word of grid.filled
+  std::vector<std::uint32_t> before;  // number of filled nodes before each word of grid.filled
 
   std::uint32_t index_of(const BlockGrid& grid, const NodeId& id) const {
     const std::size_t word = 8 * std::size_t{id.block} + (id.node >> 6);
@@ -35,7 +35,7 @@ FilledNodes list_filled(const BlockGrid& grid) {
   return list;
 }
 
-// Calls visit(neighbour) for the 26 nodes around one.
+// Calls visit(neighbour) for the 26 nodes around `id`.
 template <typename Visit>
 void for_each_neighbour(const BlockGrid& grid, const NodeId& id, Visit visit) {
   for (int n = 0; n < 27; ++n) {
@@ -61,7 +61,7 @@ bool is_inside(const BlockGrid& grid, const NodeId& id) {
   return grid.block_values(id.block)[id.node] < 0;
 }
 
-// Whether a measured node has one of the other side beside it, along an axis.
+// Returns true if a measured neighbour along an axis has the other sign.
 bool touches_surface(const BlockGrid& grid, const NodeId& id) {
   for (int k = 0; k < 6; ++k) {
     const int d = k % 2 == 0 ? 1 : -1;
@@ -76,7 +76,7 @@ bool touches_surface(const BlockGrid& grid, const NodeId& id) {
 
 std::uint64_t key_of(const NodeId& id) { return std::uint64_t{id.block} << 9 | id.node; }
 
-// Connected sets of nodes, by their sorted keys.
+// Counts the connected sets of nodes, given by their sorted keys.
 std::size_t count_sets(const BlockGrid& grid, const std::vector<std::uint64_t>& keys) {
   DisjointSets sets(keys.size());
   std::size_t n = keys.size();
@@ -149,7 +149,7 @@ std::vector<Hole> find_holes(const BlockGrid& grid) {
   std::vector<Hole> holes;
   std::vector<std::uint32_t> hole_of(filled.nodes.size());
   for (std::uint32_t i = 0; i < filled.nodes.size(); ++i) {
-    const std::uint32_t first = sets.find(i);  // the smallest of the set
+    const std::uint32_t first = sets.find(i);  // smallest index of the set
     if (first == i) {
       hole_of[i] = static_cast<std::uint32_t>(holes.size());
       holes.emplace_back();

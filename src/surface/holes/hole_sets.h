@@ -1,4 +1,4 @@
-// The holes of a closed grid: connected sets of filled nodes. Layer: surface.
+// Holes of a closed grid: connected sets of filled nodes. Layer: surface.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +15,22 @@ struct NodeId {
 };
 
 struct Hole {
-  std::vector<NodeId> nodes;  // in the grid's order
-  std::vector<NodeId> rim;    // of those, the ones next to a measured node
+  std::vector<NodeId> nodes;  // all nodes in the grid's order
+  std::vector<NodeId> rim;    // nodes of the hole next to a measured node
   Vec3 center;                // mean of the rim
-  double radius = 0;          // mean distance of the rim from it
-  double reach = 0;           // largest distance of a node from it
+  double radius = 0;          // mean distance of the rim from `center`
+  double reach = 0;           // largest distance of a node from `center`
 };
 
-// How many pieces the surface beside a hole has, by the measured nodes next to its rim that are
-// next to the surface: the larger number of connected sets of those outside and of those inside,
-// since between two sheets near each other one of these touches both. Of a hole in one sheet 1.
+// Counts the connected parts of the surface beside a hole: 1 for a hole in one sheet. It counts
+// connected sets of measured nodes next to rim and surface, outside and inside separately. The
+// larger count is returned: between two close sheets, nodes of one sign touch both.
 std::size_t count_borders(const BlockGrid& grid, const Hole& hole);
 
-// Filled nodes are connected to the 26 around them. Ordered by the first node.
+// Finds the holes, ordered by first node. Filled nodes connect to the 26 nodes around them.
 std::vector<Hole> find_holes(const BlockGrid& grid);
 
-// The node at `node`'s place + (dx, dy, dz), each -1, 0 or 1; false if its block is missing.
+// Finds the node at `node` + (dx, dy, dz), each -1, 0 or 1; false if its block is missing.
 bool step_to(const BlockGrid& grid, const NodeId& node, int dx, int dy, int dz, NodeId& result);
 
 }  // namespace rholm

@@ -9,7 +9,7 @@ namespace {
 // Rows of ten nodes along x around a block: bit 1 + x of row [z + 1][y + 1], -1 <= x, y, z <= 8.
 using PaddedBits = std::array<std::array<std::uint16_t, 10>, 10>;
 
-// Where place p = 0 ... 9 of a padded row lies: which block (0 the one below) and which node in it.
+// Place p = 0 ... 9 of a padded row lies in block side_of(p) (0 is the one below), node node_of(p).
 constexpr int side_of(int p) { return p == 0 ? 0 : p == 9 ? 2 : 1; }
 constexpr int node_of(int p) { return (p + 7) & 7; }
 
@@ -29,10 +29,10 @@ PaddedBits padded_bits(const BlockGrid& grid, const std::vector<NodeMasks>& mask
   return rows;
 }
 
-// Cubes with a corner in a block, by their lowest nodes -1 ... 7: bit 1 + x of [z + 1][y + 1].
+// Cubes with a corner in a block, by lowest nodes -1 ... 7: bit 1 + x of [z + 1][y + 1].
 using PaddedCubes = std::array<std::array<std::uint16_t, 9>, 9>;
 
-// Cubes that have one of the nodes. To the nodes' right, above and behind.
+// Returns the cubes that have at least one of the nodes as a corner.
 PaddedCubes cubes_with(const PaddedBits& nodes) {
   PaddedCubes cubes;
   for (int z = 0; z < 9; ++z) {
@@ -58,7 +58,7 @@ constexpr PaddedBits all_nodes() {
   return all;
 }
 
-// Notes the node at padded place (x, y, z).
+// Records that the node at padded place (x, y, z) needs a value.
 void note(const BlockGrid& grid, std::size_t b, int x, int y, int z, Wanted& wanted) {
   const int neighbour = side_of(x) + 3 * side_of(y) + 9 * side_of(z);
   wanted.any = true;
@@ -69,24 +69,24 @@ void note(const BlockGrid& grid, std::size_t b, int x, int y, int z, Wanted& wan
   }
 }
 
-// A slice of 10 x 10 nodes around a block as 12 rows of 16 bits, in three words: rows y = 0 ... 3;
-// 4 ... 7; 8, nothing, nothing, -1. So the row after each, cyclically, is the next in y. Bit 1 + x.
+// Slice of 10 x 10 nodes around a block: 12 rows of 16 bits in three words, bit 1 + x. Their
+// y are 0 ... 3; 4 ... 7; 8, unused, unused, -1. The next row, cyclically, is the next y.
 using Slice = std::array<std::uint64_t, 3>;
 
-// The low four bytes of a word, to 16 bits each.
+// Widens the low four bytes of a word to 16 bits each.
 std::uint64_t widen(std::uint64_t bytes) {
   bytes = (bytes | bytes << 16) & 0x0000ffff0000ffffULL;
   return (bytes | bytes << 8) & 0x00ff00ff00ff00ffULL;
 }
 
-// Rows of which the middle eight bits, and the ones beside them, come from three blocks.
+// Returns four rows: eight bits of `middle`, and the bit on either side from its neighbours.
 std::uint64_t four_rows(std::uint64_t left, std::uint64_t middle, std::uint64_t right) {
   constexpr std::uint64_t kBytes = 0xffffffffULL;
   return widen(left >> 7 & kFirstColumn & kBytes) | widen(middle & kBytes) << 1 |
          widen(right & kFirstColumn & kBytes) << 9;
 }
 
-// around[n]: the bits of neighbour n (13 is the block itself).
+// Returns slice z; around[n] are the bits of neighbour n (13 is the block itself).
 Slice slice_of(const std::array<const NodeBits*, 27>& around, int z) {
   const int side = 9 * side_of(z);
   const auto word = [&](int n) { return (*around[side + n])[node_of(z)]; };
@@ -96,7 +96,7 @@ Slice slice_of(const std::array<const NodeBits*, 27>& around, int z) {
           four_rows(word(3) >> 32, word(4) >> 32, word(5) >> 32), after | before << 48};
 }
 
-// Bit of each square of a slice, by its lowest node, that has one of the nodes.
+// Returns the squares of a slice, by lowest node, with at least one of the nodes.
 Slice squares_with(const Slice& nodes) {
   Slice pairs;
   for (int w = 0; w < 3; ++w) pairs[w] = nodes[w] | nodes[w] >> 1;
@@ -105,7 +105,7 @@ Slice squares_with(const Slice& nodes) {
   return squares;
 }
 
-// Squares by what they have.
+// Squares that contain an inside, an outside, or an unknown node.
 struct Squares {
   Slice inside, outside, unknown;
 };
@@ -123,10 +123,10 @@ Squares squares_of(const std::array<const NodeBits*, 27>& known,
   return {squares_with(inside_nodes), squares_with(outside_nodes), squares_with(unknown_nodes)};
 }
 
-// Whether find_wanted() has to look closer: nearly all blocks are done here.
+// Returns true if a cube of the block is open; nearly all blocks have none.
 bool has_open_cube(const BlockGrid& grid, const std::vector<NodeMasks>& masks, std::size_t b) {
   constexpr NodeBits kNoBits = {};
-  // Squares from x = -1 ... 7, y = -1 ... 7.
+  // Selects squares with x = -1 ... 7, y = -1 ... 7.
   constexpr Slice kValid = {0x01ff01ff01ff01ffULL, 0x01ff01ff01ff01ffULL, 0x01ff000000000000ULL};
   std::array<const NodeBits*, 27> known;
   std::array<const NodeBits*, 27> inside;
@@ -150,7 +150,7 @@ bool has_open_cube(const BlockGrid& grid, const std::vector<NodeMasks>& masks, s
 
 }  // namespace
 
-// Unknown corners of the cubes around the block with both signs.
+// Returns the unknown corners of cubes around the block that have both signs.
 Wanted find_wanted(const BlockGrid& grid, const std::vector<NodeMasks>& masks, std::size_t b) {
   if (!has_open_cube(grid, masks, b)) return {};
   const PaddedBits known = padded_bits(grid, masks, b, &NodeMasks::known);

@@ -1,4 +1,4 @@
-// Cubes of nodes where the surface would end: with both signs and an unknown corner.
+// Open cubes, where the surface would end: both signs and an unknown corner. Layer: surface.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 
 namespace rholm {
 
-// What a block lacks for its open cubes: nodes of its own, and neighbours (bit as in
-// BlockGrid::neighbours) that have a node that is asked for.
+// Missing values of a block's open cubes: its own nodes, and missing
+// neighbours (bits as in BlockGrid::neighbours) with a needed node.
 struct Wanted {
   NodeBits nodes = {};
   std::uint32_t neighbours = 0;
   bool any = false;
 };
 
-// Looks at the cubes with a corner in the block; `masks` are those of all blocks. Nodes of missing
-// blocks are unknown.
+// Searches the cubes with a corner in block b. `masks` are the
+// masks of all blocks. Nodes of missing blocks are unknown.
 Wanted find_wanted(const BlockGrid& grid, const std::vector<NodeMasks>& masks, std::size_t block);
 
 }  // namespace rholm

@@ -13,12 +13,12 @@ namespace rholm {
 namespace {
 
 constexpr double kMostCubes = 256;  // along an axis; chosen: 16 MiB
-// Weights 1, 2, 1 along each axis: an edge of the seen space is smooth over two cubes, and a cube
-// that all lines have missed among seen ones stays empty.
+// Sum of the weights 1, 2, 1 along each axis. Smoothing blurs an edge of seen
+// space over two cubes, and keeps a single unseen cube among seen ones empty.
 constexpr int kAll = 64;
-constexpr std::size_t kGrain = 1024;  // lines
+constexpr std::size_t kGrain = 1024;  // lines per task
 
-// The part of the line from p to q within the box from 0 to `size`, as parameters; false if none.
+// Clips the line from p to q to the box from 0 to `size`; returns false if it misses the box.
 bool clip(const Vec3& p, const Vec3& q, const std::array<double, 3>& size, double& first,
           double& last) {
   first = 0, last = 1;
@@ -61,7 +61,7 @@ SeenSpace::SeenSpace(const SeenCubes& kept, const Context& context)
 SeenSpace::SeenSpace(const Bounds& box, double edge) {
   const Vec3 extent = box.max - box.min;
   edge_ = std::max(edge, std::max({extent.x, extent.y, extent.z}) / (kMostCubes - 3));
-  // A layer of cubes all around.
+  // One layer of cubes is added all around.
   origin_ = box.min - edge_ * Vec3{1, 1, 1};
   const double sides[3] = {extent.x, extent.y, extent.z};
   for (std::size_t k = 0; k < 3; ++k) size_[k] = static_cast<std::size_t>(sides[k] / edge_) + 3;
@@ -93,7 +93,7 @@ void SeenSpace::add_cubes(std::span<const std::uint64_t> cubes) {
   }
 }
 
-// Amanatides and Woo (1987). Cubes are only ever set, so that the order of lines does not matter.
+// Amanatides and Woo (1987). Cubes are only set, never cleared, so the order is irrelevant.
 void SeenSpace::go_through(Vec3 from, Vec3 to) {
   from = (from - origin_) / edge_, to = (to - origin_) / edge_;
   double first = 0, last = 0;
@@ -148,7 +148,7 @@ void SeenSpace::smooth(const Context& context) {
 }
 
 double SeenSpace::emptiness(const Vec3& x) const {
-  const Vec3 p = (x - origin_) / edge_ - Vec3{0.5, 0.5, 0.5};  // from the middle of the first cube
+  const Vec3 p = (x - origin_) / edge_ - Vec3{0.5, 0.5, 0.5};  // from the first cube's centre
   const double places[3] = {p.x, p.y, p.z};
   std::size_t at[3];
   double part[3];

@@ -14,29 +14,29 @@
 
 namespace rholm {
 
-// Cubes that lines of sight from a sensor to its point go through, but for the end of each line.
+// Cubes crossed by the lines of sight from sensors to points, without the end of each line.
 class SeenSpace {
  public:
-  // One sensor a point. Cubes have at least this edge, and are at most 256 along each axis of the
-  // points' box. Lines count up to `margin` before their points.
+  // Takes one sensor per point. Cubes have at least this edge; at most 256 fit
+  // along each axis of the points' box. Lines end `margin` before their points.
   SeenSpace(std::span<const Vec3> points, std::span<const Vec3> sensors, double edge, double margin,
             const Context& context = {});
 
-  // As another one was, by its kept().
+  // Restores the space from another one's kept().
   explicit SeenSpace(const SeenCubes& kept, const Context& context = {});
 
-  // Of points that are not there all at once: nothing has been seen in their box. Lines are added,
-  // or the cubes that were seen in parts of the same box and edge; smooth() ends that.
+  // Starts with unseen cubes in `box`, for points that come in parts. Lines are added,
+  // or cubes that parts with the same box and edge have seen; smooth() ends this phase.
   SeenSpace(const Bounds& box, double edge);
   void add_lines(std::span<const Vec3> points, std::span<const Vec3> sensors, double margin,
                  const Context& context = {});
-  std::vector<std::uint64_t> cubes() const;  // a bit each
+  std::vector<std::uint64_t> cubes() const;  // one bit per cube
   void add_cubes(std::span<const std::uint64_t> cubes);
   void smooth(const Context& context = {});
-  // What makes the same space again, once it is smooth.
+  // Returns the data that restore this space, after smooth().
   SeenCubes kept() const { return {origin_, edge_, size_, bits_}; }
 
-  // How empty it is at x: 1 where all cubes around have been seen, 0 where none has; continuous.
+  // Returns the emptiness at x: 1 if all cubes around are seen, 0 if none is; continuous.
   double emptiness(const Vec3& x) const;
 
  private:
@@ -48,8 +48,8 @@ class SeenSpace {
   Vec3 origin_;
   double edge_ = 1;
   std::array<std::size_t, 3> size_ = {};
-  std::vector<std::uint8_t> seen_;  // then how much of the cubes around has been, of kAll
-  std::vector<std::uint8_t> bits_;  // of SeenCubes: before that
+  std::vector<std::uint8_t> seen_;  // after smooth(): sum over the cubes around, up to kAll
+  std::vector<std::uint8_t> bits_;  // bits of SeenCubes: `seen_` before smoothing
 };
 
 }  // namespace rholm

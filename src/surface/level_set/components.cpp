@@ -12,8 +12,8 @@
 namespace rholm {
 namespace {
 
-// The area vectors of a closed surface cancel. What rounding leaves of them is far below this part
-// of the area, what an opening leaves is far above unless it is of no account.
+// Area vectors of a closed surface cancel. Rounding leaves far less than this
+// part of the area; an opening leaves far more, unless it is negligible.
 constexpr double kClosed = 1e-9;
 
 struct Component : ComponentSize {
@@ -22,7 +22,7 @@ struct Component : ComponentSize {
 
 constexpr std::size_t kGrain = 8192;  // vertices or triangles; chosen
 
-// Component of each vertex, numbered by their first vertices.
+// Returns the component of each vertex; components are numbered by first vertex.
 std::vector<std::uint32_t> number_components(SharedSets& sets,
                                              const std::vector<std::uint32_t>& first,
                                              const Context& context) {
@@ -41,7 +41,7 @@ std::vector<Component> measure(const Mesh& mesh, const std::vector<std::uint32_t
                                const std::vector<std::uint32_t>& first, const Context& context) {
   std::vector<Component> measures(first.size());
   for (std::size_t c = 0; c < first.size(); ++c) measures[c].origin = mesh.vertices[first[c]];
-  // Sums over triangles one after the other of one component.
+  // Sums over consecutive triangles of the same component.
   using Run = std::pair<std::uint32_t, Component>;
   std::vector<std::vector<Run>> runs((mesh.triangles.size() + kGrain - 1) / kGrain);
   parallel_for(mesh.triangles.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
@@ -69,7 +69,8 @@ std::vector<Component> measure(const Mesh& mesh, const std::vector<std::uint32_t
   return measures;
 }
 
-// Keeps the vertices of components that stay, and tells the new index of each.
+// Returns the new index of each vertex after dropping components; entries of dropped vertices
+// repeat the next index.
 std::vector<std::uint32_t> renumber(const std::vector<std::uint32_t>& component,
                                     const std::vector<char>& stays) {
   std::vector<std::uint32_t> renumbered(component.size() + 1);
@@ -114,7 +115,7 @@ std::vector<char> large_components(std::span<const ComponentSize> sizes, double 
   std::vector<char> stays(sizes.size());
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const ComponentSize& c = sizes[i];
-    // A vertex without a triangle has no area.
+    // A vertex without triangles forms a component of area 0.
     stays[i] = c.area > 0 && c.area >= least_share * largest_area &&
                (!is_closed(c) || std::abs(c.volume) >= least_volume);
   }

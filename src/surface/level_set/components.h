@@ -1,4 +1,4 @@
-// Pieces of an extracted surface that are too small to be meant. Layer: surface.
+// Removes small components of an extracted surface. Layer: surface.
 #pragma once
 
 #include <cstddef>
@@ -12,31 +12,31 @@
 
 namespace rholm {
 
-// Vertices that triangles connect.
+// Returns the sets of vertices that triangles connect.
 SharedSets connected_vertices(const Mesh& mesh, const Context& context);
-// The first of each set.
+// Returns the first member of each set.
 std::vector<std::uint32_t> first_members(const SharedSets& sets, const Context& context);
 
-// Of a component's triangles.
+// Sums over the triangles of a component.
 struct ComponentSize {
   Vec3 area_vector;
   double area = 0;
-  double volume = 0;  // if it is closed
+  double volume = 0;  // valid if the component is closed
 };
 
-// Which stay, 1 or 0 each, by the rule below.
+// Returns 1 for each component that stays by the rule below, and 0 for the others.
 std::vector<char> large_components(std::span<const ComponentSize> sizes, double least_share);
 
 struct DroppedComponents {
-  std::size_t components = 0;  // before
+  std::size_t components = 0;  // number before dropping
   std::size_t dropped = 0;
-  double dropped_area = 0;  // as a part of the area before
+  double dropped_area = 0;  // share of the total area before dropping
 };
 
-// Drops components (of triangles connected through vertices) whose area is below `least_share` of
-// the largest area, and closed ones whose enclosed volume is below least_share^(3/2) of the largest
-// volume: of bodies of one shape, the two agree, but a flat bubble has little
-// volume. 0 drops nothing. What is left keeps its order, vertices in no triangle go.
+// Drops components (triangles connected through vertices) with an area below `least_share`
+// of the largest, and closed ones with a volume below least_share^(3/2) of the largest
+// volume. Both rules agree for bodies of one shape, but a flat bubble has little volume. 0
+// drops nothing. The order is kept; vertices without triangles are removed.
 DroppedComponents drop_small_components(Mesh& mesh, double least_share,
                                         const Context& context = {});
 

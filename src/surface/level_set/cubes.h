@@ -1,4 +1,4 @@
-// Cubes of space, hashed.
+// Cubes of space with hash keys.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace rholm {
 using Cube = std::array<std::int64_t, 3>;
 
 inline Cube cube_of(const Vec3& x, double edge) {
-  // std::floor is a call where the processor is not known to have it; this is not.
+  // std::floor may be a function call, depending on the processor; this code is not.
   const auto floor_of = [](double c) {
     const auto whole = static_cast<std::int64_t>(c);
     return whole - (static_cast<double>(whole) > c ? 1 : 0);
@@ -19,7 +19,7 @@ inline Cube cube_of(const Vec3& x, double edge) {
   return {floor_of(x.x / edge), floor_of(x.y / edge), floor_of(x.z / edge)};
 }
 
-// Two cubes of one key only make what is looked at larger.
+// Two cubes with equal keys only enlarge the searched region.
 inline std::uint64_t key_of(const Cube& cube) {
   std::uint64_t bits = 0;
   for (const std::int64_t c : cube) {
@@ -28,7 +28,7 @@ inline std::uint64_t key_of(const Cube& cube) {
   return bits;
 }
 
-// Calls visit(key) for the cube and those around.
+// Calls visit(key) for the cube and the 26 cubes around it.
 template <typename Visit>
 void for_each_near(const Cube& cube, Visit visit) {
   for (const int z : {-1, 0, 1}) {

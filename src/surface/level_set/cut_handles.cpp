@@ -21,26 +21,26 @@
 namespace rholm {
 namespace {
 
-// All in resolutions. Loops are at most so long: with 4 three of 120 inputs keep handles
-// (scripts/scan-figures --inputs 1k,3k --seeds 1,2,3,4,5, true normals), with 5 none; true tubes of
-// three spacings' width have 8.5.
+// Longest loop, in resolutions like all lengths here. With 4, three of 120
+// inputs keep handles (scripts/scan-figures --inputs 1k,3k --seeds 1,2,3,4,5,
+// true normals), with 5 none. True tubes three spacings wide have loops of 8.5.
 constexpr double kGirth = 5;
-// A surface opens if within this distance of the loop it has, on each side, the area of a tube of
-// that girth and so much of a disc more; of those inputs none needs less than half a disc. Rings of
-// rods 1.6 spacings wide lose their handle more often with a quarter than with 0.4
-// (scripts/scan-limits --rods).
+// On each side of the loop, within kBeside of it, the surface must have the
+// area of a tube of this girth plus kOpen of a disc. None of the 120 inputs
+// needs less than half a disc. Rings of rods 1.6 spacings wide lose their
+// handle more often with a quarter than with 0.4 (scripts/scan-limits --rods).
 constexpr double kBeside = 3;
 constexpr double kOpen = 0.4;
-// Of the piece of surface around a place that a loop goes through: half of the loop, and what is
-// beside its middle.
+// Reach of the mesh piece around a vertex on a loop: half
+// of the loop, and the surface beside the loop's middle.
 constexpr double kReach = kGirth / 4 + kBeside + kGirth / (2 * std::numbers::pi);
-// Local resolutions count up to this part of the typical one: what is large there may be small
-// elsewhere.
+// Local resolutions are limited to this factor of the typical one,
+// because a feature that is small here may be large elsewhere.
 constexpr double kCoarsest = 1.5;
-// Chosen: the ends of what was cut are smooth to the eye, and what is around is not moved.
+// Chosen: cut ends look smooth, and the surface around them does not move.
 constexpr std::size_t kRings = 3, kRounds = 8;
 
-// Sums, by exclusive or, of vectors of 64 bits. Once there are 64 of them it has all.
+// Span of 64-bit vectors under exclusive or; 64 independent vectors span everything.
 class BitBasis {
  public:
   bool is_full() const { return n_ == of_.size(); }
@@ -61,17 +61,17 @@ class BitBasis {
     }
     return bits;
   }
-  std::array<std::uint64_t, 64> of_{};  // each with its highest bit at its place
+  std::array<std::uint64_t, 64> of_{};  // vector k has its highest bit at k
   std::size_t n_ = 0;
 };
 
-// V - E + F against two for each part.
+// Compares the Euler characteristic V - E + F with two per component.
 bool has_handles(const Mesh& mesh, const Context& context) {
   const std::size_t parts = first_members(connected_vertices(mesh, context), context).size();
   return 2 * mesh.vertices.size() < mesh.triangles.size() + 4 * parts;
 }
 
-// Area of the triangles that are joined to the left side of the loop within a ball, or `enough`.
+// Returns the area joined to the left of the loop within a ball; stops at `enough`.
 double area_beside(const Mesh& mesh, const std::vector<std::uint32_t>& mates,
                    const std::vector<std::uint32_t>& loop, const Vec3& middle, double radius,
                    double enough) {
@@ -114,13 +114,13 @@ bool opens_on_both_sides(const Mesh& mesh, const std::vector<std::uint32_t>& mat
 
 struct Candidate {
   double length = 0;
-  std::uint32_t base = 0;  // vertex
+  std::uint32_t base = 0;  // vertex where the loop begins
   friend bool operator<(const Candidate& a, const Candidate& b) {
     return a.length != b.length ? a.length < b.length : a.base < b.base;
   }
 };
 
-// Loops of one piece.
+// Finds the loops of one mesh piece.
 class LoopsOfPiece {
  public:
   LoopsOfPiece(const MeshPiece& piece, const Resolution& resolution)
@@ -130,8 +130,9 @@ class LoopsOfPiece {
         outgoing_(inner_outgoing(mesh_.vertices.size(), mesh_.triangles, mates_)),
         graph_(make_cut_graph(mesh_, mates_)) {}
 
-  // Open on both sides, the shortest first, none beside another; `left_out` gets vertices of those
-  // that are. Parallel loops of a tube are not told apart where there are very many.
+  // Chooses loops that are open on both sides, shortest first, with no two adjacent. `left_out`
+  // receives the base vertices of adjacent ones. Once 64 independent loops are chosen, parallel
+  // loops of a tube are no longer recognised.
   std::vector<LoopSides> choose(std::vector<std::uint32_t>& left_out,
                                 const Context& context) const {
     std::vector<LoopSides> loops;
@@ -167,7 +168,7 @@ class LoopsOfPiece {
     return std::min(resolution_.at(mesh_.vertices[v]), kCoarsest * resolution_.typical);
   }
 
-  // The bases of short loops.
+  // Returns the base vertices of short loops.
   std::vector<Candidate> candidates(const Context& context) const {
     if (resolution_.foresee) {
       std::vector<Vec3> places;
@@ -196,18 +197,18 @@ class LoopsOfPiece {
   CutGraph graph_;
 };
 
-// The same loop on the whole mesh.
+// Converts a loop of the piece to the indices of the whole mesh.
 LoopSides on_whole(const MeshPiece& piece, LoopSides loop) {
   for (std::uint32_t& v : loop.vertices) v = piece.vertices[v];
   for (auto& [i, c] : loop.right) c = 3 * piece.triangles[c / 3] + c % 3;
   return loop;
 }
 
-// Which may be cut together without parting the mesh: a spanning forest, of the longest, of the
-// parts that all of them leave is kept.
+// Returns 1 for loops whose common cut keeps the mesh connected. A spanning forest of
+// the longest loops, between the parts that all cuts together would leave, stays uncut.
 std::vector<std::uint8_t> without_parting(const Mesh& mesh, const std::vector<LoopSides>& loops,
                                           const JoinedOutside& outside, const Context& context) {
-  std::unordered_map<std::uint32_t, std::uint32_t> right;  // corners of the mesh, new vertices
+  std::unordered_map<std::uint32_t, std::uint32_t> right;  // corners of the mesh to new vertices
   std::unordered_set<std::uint32_t> cut;
   auto n = static_cast<std::uint32_t>(mesh.vertices.size());
   std::vector<std::uint32_t> first;
@@ -249,8 +250,8 @@ std::vector<std::uint8_t> without_parting(const Mesh& mesh, const std::vector<Lo
   return may_be_cut;
 }
 
-// Cuts as many loops near `centers` as do not touch each other; those that do are the next centers.
-// Returns how many; `copies` and `middles` get vertices of the mesh.
+// Cuts non-adjacent loops near `centers`; the bases of loops left out become the next
+// centres. Returns the number of cuts; `copies` and `middles` receive vertices of the mesh.
 std::size_t cut_once(Mesh& mesh, const Resolution& resolution, std::vector<std::uint32_t>& centers,
                      std::vector<std::uint32_t>& copies, std::vector<std::uint32_t>& middles,
                      const std::function<const JoinedOutside&()>& outside, const Context& context) {
@@ -274,8 +275,8 @@ std::size_t cut_once(Mesh& mesh, const Resolution& resolution, std::vector<std::
   return n_cut;
 }
 
-// Moves the vertices at the ends of what was cut to the means of those around, some times. `ends`:
-// their middles.
+// Moves vertices at cut ends to the means of their neighbours,
+// kRounds times. `ends`: the middle vertices of the cut ends.
 void smooth_ends(Mesh& mesh, std::vector<std::uint32_t> ends, double reach,
                  const Context& context) {
   const MeshPiece piece = piece_around(mesh, ends, reach, context);
@@ -328,12 +329,12 @@ double length_of_tight_places(double typical) { return kGirth * kCoarsest * typi
 // piece_around() takes less than twice its reach along each axis.
 double reach_of_cuts(double typical) { return 2 * std::max(kReach, kGirth) * typical; }
 
-// What decides on a loop lies within kBeside local resolutions and half its length of it, in the
-// piece around the places within kReach of that.
+// A loop is judged by the mesh within kBeside local resolutions plus half its
+// length. The piece within kReach of the given vertices contains this mesh.
 std::vector<std::uint32_t> places_to_cut(const Mesh& mesh, const std::vector<std::uint32_t>& places,
                                          const Resolution& resolution, const Context& context) {
   const MeshPiece piece = piece_around(mesh, places, kReach * resolution.typical, context);
-  std::vector<std::uint32_t> left_out;  // beside what is chosen
+  std::vector<std::uint32_t> left_out;  // loops adjacent to chosen ones
   std::vector<Vec3> on_loops;
   for (const LoopSides& loop : LoopsOfPiece(piece, resolution).choose(left_out, context)) {
     for (const std::uint32_t v : loop.vertices) on_loops.push_back(piece.mesh.vertices[v]);
@@ -362,7 +363,7 @@ CutHandles cut_handles_at(Mesh& mesh, std::vector<std::uint32_t> places,
     if (n == 0) break;
     result.handles += n;
   }
-  // A loop may go along copies that an earlier one has made.
+  // A loop may contain copies made by an earlier cut.
   for (std::uint32_t& v : result.copies) {
     if (v >= n_given) v = result.copies[v - n_given];
   }

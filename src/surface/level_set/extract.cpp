@@ -17,26 +17,26 @@
 namespace rholm {
 namespace {
 
-// A vertex stays this far, in steps, from the nodes: else the triangles around a node would shrink
-// to nothing when its value does. It moves a vertex by a hundredth of a step at most, and keeps the
-// ratio of the sides of a triangle within about 1 : 100.
+// A vertex keeps this distance, in steps, from the nodes; otherwise triangles around a
+// node shrink to nothing as its value approaches zero. The rule moves a vertex by at most
+// a hundredth of a step, and bounds the ratio of a triangle's sides by about 1 : 100.
 constexpr double kClosest = 0.01;
 
-// Blocks that are worked on at a time: about 10 us of work and more.
+// Number of blocks per task: at least about 10 us of work.
 constexpr std::size_t kGrain = 64;
 
-// What is known of a block before anything is written. All bits as in NodeBits: a cube by its
-// lowest node, an edge by its lower end.
+// Facts about a block that are computed before output is written. Bits are as in
+// NodeBits: a cube has the bit of its lowest node, an edge the bit of its lower end.
 struct BlockSurface {
   NodeMasks nodes;
-  NodeBits cubes = {};                                      // with triangles
-  std::array<NodeBits, 3> edges = {};                       // with a vertex, per axis
-  std::array<std::array<std::uint16_t, 3>, 8> before = {};  // vertices before [slice][axis]
+  NodeBits cubes = {};                                      // cubes with triangles
+  std::array<NodeBits, 3> edges = {};                       // edges with a vertex, per axis
+  std::array<std::array<std::uint16_t, 3>, 8> before = {};  // vertices that precede [slice][axis]
   std::uint32_t n_vertices = 0;
   std::uint32_t n_triangles = 0;
 };
 
-// std::popcount is a call where the processor is not known to count; this is not.
+// std::popcount may be a function call, depending on the processor; this code is not.
 int count_bits(std::uint64_t x) {
   x -= (x >> 1) & 0x5555555555555555ULL;
   x = (x & 0x3333333333333333ULL) + ((x >> 2) & 0x3333333333333333ULL);
@@ -49,7 +49,7 @@ void for_each_bit(std::uint64_t bits, Visit visit) {
   for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
 }
 
-// The block itself and the seven above it: [dx + 2 dy + 4 dz], or the seven below it.
+// The block and the seven blocks above it, at [dx + 2 dy + 4 dz], or the seven below it.
 using Octet = std::array<std::int32_t, 8>;
 Octet octet(const BlockGrid& grid, std::size_t block, int direction) {
   Octet result;
@@ -62,7 +62,7 @@ Octet octet(const BlockGrid& grid, std::size_t block, int direction) {
 
 constexpr NodeBits kNoBits = {};
 
-// Words [o] of one slice: the bits of node (x, y) + (o & 1, o >> 1).
+// Four words of one slice: word [o] has the bits of node (x, y) + (o & 1, o >> 1).
 using Corners = std::array<std::uint64_t, 4>;
 Corners corners_of_slice(const std::array<const NodeBits*, 8>& bits, int z) {
   const int up = z == 8 ? 4 : 0;
@@ -71,7 +71,7 @@ Corners corners_of_slice(const std::array<const NodeBits*, 8>& bits, int z) {
   return {word(0), x, from_next_y(word(0), word(2)), from_next_y(x, from_next_x(word(2), word(3)))};
 }
 
-// Nine slices of corners of the block's cubes.
+// Corners of the block's cubes in nine slices.
 using CornerSlices = std::array<Corners, 9>;
 CornerSlices corner_slices(const std::vector<BlockSurface>& blocks, const Octet& above,
                            NodeBits NodeMasks::*which) {
@@ -87,7 +87,7 @@ CornerSlices corner_slices(const std::vector<BlockSurface>& blocks, const Octet&
 std::uint64_t all_of(const Corners& c) { return c[0] & c[1] & c[2] & c[3]; }
 std::uint64_t any_of(const Corners& c) { return c[0] | c[1] | c[2] | c[3]; }
 
-// The case (see marching_cubes_table.h) of the cube whose bit is `bit` of slice z.
+// Returns the case (see marching_cubes_table.h) of the cube with bit `bit` of slice z.
 unsigned case_of(const CornerSlices& inside, int z, int bit) {
   unsigned result = 0;
   for (int o = 0; o < 4; ++o) {
@@ -112,8 +112,8 @@ void find_cubes(const BlockGrid& grid, std::size_t b, std::vector<BlockSurface>&
   }
 }
 
-// Edges between the signs that lie in a cube with triangles: an edge along x from node (x, y, z) is
-// in the cubes of (x, y, z) - {(0,0,0), (0,1,0), (0,0,1), (0,1,1)}.
+// Finds edges with both signs in cubes with triangles. An edge along x from node (x,
+// y, z) belongs to the cubes at (x, y, z) - {(0,0,0), (0,1,0), (0,0,1), (0,1,1)}.
 void find_edges(const BlockGrid& grid, std::size_t b, std::vector<BlockSurface>& blocks) {
   const Octet above = octet(grid, b, 1);
   const Octet below = octet(grid, b, -1);
@@ -148,12 +148,12 @@ void find_edges(const BlockGrid& grid, std::size_t b, std::vector<BlockSurface>&
   }
 }
 
-// Where the grid's vertices and triangles go.
+// Output positions of the grid's vertices and triangles.
 struct Places {
   std::vector<std::uint32_t> vertices, triangles;  // first of each block, and the end
 };
 
-// Triangles of the first `n_own` blocks.
+// Computes the positions; only the first `n_own` blocks have triangles.
 Places places_of(const std::vector<BlockSurface>& blocks, std::size_t n_own) {
   Places places;
   places.vertices.assign(blocks.size() + 1, 0);
@@ -166,7 +166,7 @@ Places places_of(const std::vector<BlockSurface>& blocks, std::size_t n_own) {
     places.vertices[b + 1] = static_cast<std::uint32_t>(vertices);
     places.triangles[b + 1] = static_cast<std::uint32_t>(triangles);
   }
-  // What the half-edges of a mesh can be numbered with.
+  // Half-edges, three per triangle, must have numbers below 2^31.
   constexpr std::uint64_t kLimit = (std::uint64_t{1} << 31) / 3;
   if (triangles > kLimit || vertices > kLimit) {
     throw Error(ErrorCode::kUnsupported,
@@ -187,7 +187,7 @@ void write_vertices(const BlockGrid& grid, std::size_t b, const BlockSurface& bl
       const int stride = 1 << 3 * axis;
       for_each_bit(block.edges[axis][z], [&](int bit) {
         const int node = 64 * z + bit;
-        // The other end: in this block, or on the first layer of the next.
+        // The other end lies in this block, or in the first layer of the next block.
         const bool last = (node >> 3 * axis & 7) == 7;
         const std::size_t other_block = last ? static_cast<std::size_t>(above[1 << axis]) : b;
         const int other = last ? node - 7 * stride : node + stride;
@@ -212,14 +212,14 @@ void write_vertices(const BlockGrid& grid, std::size_t b, const BlockSurface& bl
 
 constexpr std::ptrdiff_t kRow = 9;  // edges of a row
 
-// Vertices by the place of their edges, for the cubes of one slice of a block: rows of 9 edges, the
-// last row and column of the next blocks. Only edges that are crossed are set.
+// Vertices of a slice of cubes, by position of their edges: rows of 9 edges, where
+// the last row and column belong to the next blocks. Only crossed edges are set.
 class SliceVertices {
  public:
   SliceVertices(const std::vector<BlockSurface>& blocks, const Places& places, const Octet& above)
       : blocks_(blocks), places_(places), above_(above) {}
 
-  // Before the cubes of slice z, ascending.
+  // Must be called with ascending z before the cubes of slice z.
   void set_slice(int z) {
     for (int s = std::max(z, next_layer_); s <= z + 1; ++s) {
       fill(0, s, layer(0, s));
@@ -233,7 +233,7 @@ class SliceVertices {
                     kRow * (corner >> 1 & 1);
     }
   }
-  // On edge e of the cube at `bit`.
+  // Returns the vertex on edge e of the cube at `bit`.
   std::uint32_t on(int bit, int e) const {
     return vertices_[static_cast<std::size_t>(offsets_[e] + (bit & 7) + kRow * (bit >> 3))];
   }
@@ -244,7 +244,7 @@ class SliceVertices {
     return vertices_.data() + kRow * kRow * which;
   }
 
-  // Edges along `axis` from the nodes of a slice 0 ... 8.
+  // Sets the edges along `axis` from the nodes of a slice 0 ... 8.
   void fill(int axis, int slice, std::uint32_t* rows) {
     const int s = slice & 7;
     for (int o = 0; o < 4; ++o) {
@@ -253,7 +253,7 @@ class SliceVertices {
       const std::uint64_t all = blocks_[b].edges[axis][s];
       const std::uint32_t first = places_.vertices[b] + blocks_[b].before[s][axis];
       std::uint32_t* const to = rows + std::ptrdiff_t{8} * (o & 1) + 8 * kRow * (o >> 1);
-      if ((o & 1) == 0) {  // rows: all of them, or the first one; they stand behind each other
+      if ((o & 1) == 0) {  // consecutive rows: all of them, or only the first
         std::uint32_t v = first;
         for_each_bit(o == 0 ? all : all & 0xff,
                      [&](int bit) { to[(bit & 7) + kRow * (bit >> 3)] = v++; });
@@ -271,7 +271,7 @@ class SliceVertices {
   const Octet& above_;
   int next_layer_ = 0;
   std::array<std::ptrdiff_t, 12> offsets_ = {};
-  std::array<std::uint32_t, 5 * 81> vertices_;  // along x of two slices, along y of two, along z
+  std::array<std::uint32_t, 5 * 81> vertices_;  // along x in two slices, y in two, z in one
 };
 
 void write_triangles(const BlockGrid& grid, const std::vector<BlockSurface>& blocks,
@@ -310,8 +310,8 @@ std::vector<BlockSurface> scan_blocks(const BlockGrid& grid, const Context& cont
 
 constexpr std::size_t kAllBlocks = ~std::size_t{0};
 
-// Triangles of the first `n_own` blocks. `values_are_done` is called once vertices are known: no
-// value is asked for after that.
+// Makes triangles of the first `n_own` blocks. Calls `values_are_done` once
+// the vertices are written, because the values are not read afterwards.
 ExtractedSurface extract(const BlockGrid& grid, std::size_t n_own,
                          const std::function<void()>& values_are_done, const Context& context) {
   const std::vector<BlockSurface> blocks = scan_blocks(grid, context);

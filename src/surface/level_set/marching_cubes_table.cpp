@@ -20,7 +20,7 @@ int edge_between(int a, int b) {
   return -1;
 }
 
-// Whether both edges lie in one face of the cube.
+// Returns true if one face of the cube contains both edges.
 bool share_face(int e, int f) {
   const auto touches = [](int edge, const std::array<int, 4>& face) {
     const int from = kEdgeCorner[edge];
@@ -32,17 +32,17 @@ bool share_face(int e, int f) {
                      [&](const auto& face) { return touches(e, face) && touches(f, face); });
 }
 
-// next[e] is the crossing that follows e on its loop, -1 where e is not crossed. On the
-// counter-clockwise walk around a face, the segment of an inside corner (or of two or three in a
-// row) runs from where the walk enters the inside to where it leaves it: loops are then
-// counter-clockwise seen from where the values are positive.
+// next[e] is the crossing that follows e on its loop, -1 where e is not crossed.
+// On the counter-clockwise walk around a face, a segment runs from the entry
+// into the inside to the exit, around one, two or three consecutive corners.
+// Loops are then counter-clockwise seen from where the values are positive.
 std::array<int, 12> segments_of(int inside) {
   std::array<int, 12> next;
   next.fill(-1);
   for (const auto& face : kFaces) {
     const auto is_inside = [&](int k) { return (inside >> face[k % 4] & 1) != 0; };
     for (int k = 0; k < 4; ++k) {
-      if (is_inside(k) || !is_inside(k + 1)) continue;  // not where the walk enters the inside
+      if (is_inside(k) || !is_inside(k + 1)) continue;  // the walk does not enter the inside here
       int leave = k + 1;
       while (is_inside(leave + 1)) ++leave;
       const int entered = edge_between(face[k], face[(k + 1) % 4]);
@@ -53,7 +53,7 @@ std::array<int, 12> segments_of(int inside) {
   return next;
 }
 
-// Squared distance of the middles of two edges, times 4.
+// Returns the squared distance of the middles of two edges, times 4.
 int middle_distance(int e, int f) {
   int sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -66,8 +66,8 @@ int middle_distance(int e, int f) {
   return sum;
 }
 
-// The triangulation of a loop with the shortest diagonals, none of them in a face of the cube.
-// cost[i][j]: of the part of the loop from its i-th to its j-th edge (by the usual recursion).
+// Triangulates a loop with the shortest diagonals, none of them in a face of the cube. The
+// array cost_[i][j] is the cost from the loop's i-th to its j-th edge (by the usual recursion).
 class LoopTriangulation {
  public:
   explicit LoopTriangulation(const std::vector<int>& loop) : loop_(loop) {
@@ -107,8 +107,8 @@ class LoopTriangulation {
   int best_[12][12] = {};
 };
 
-// False if some loop has no triangulation that is allowed, which the rule of segments_of() rules
-// out: the tests look at all cases.
+// Returns false if the loop has no allowed triangulation. The
+// rule of segments_of() excludes this; the tests check all cases.
 bool append_loop(const std::vector<int>& loop, SurfaceCase& result) {
   result.n_edges = static_cast<std::uint8_t>(result.n_edges + loop.size());
   const LoopTriangulation triangulation(loop);

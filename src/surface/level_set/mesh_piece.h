@@ -1,4 +1,4 @@
-// A part of a mesh as a mesh of its own. Layer: surface.
+// Copies a part of a mesh to a mesh of its own. Layer: surface.
 #pragma once
 
 #include <bitset>
@@ -14,18 +14,18 @@
 namespace rholm {
 
 struct MeshPiece {
-  Mesh mesh;                                       // without attributes
-  std::vector<std::uint32_t> vertices, triangles;  // of the whole mesh, ascending
+  Mesh mesh;                                       // a mesh without attributes
+  std::vector<std::uint32_t> vertices, triangles;  // indices in the whole mesh, ascending
 };
 
-// Which places piece_around() takes.
+// Decides which positions piece_around() includes.
 class NearPlaces {
  public:
   NearPlaces(std::span<const Vec3> centers, double reach);
   bool has(const Vec3& place) const;
 
  private:
-  // Most places are in no cube, and most of these are told by one bit of the key's.
+  // Most positions lie in no cube; one bit of their key's hash usually shows this.
   static constexpr int kFilterBits = 16;
   static std::size_t filter_of(std::uint64_t key) {
     return (key * 0x9E3779B97F4A7C15u) >> (64 - kFilterBits);
@@ -35,7 +35,7 @@ class NearPlaces {
   double reach_;
 };
 
-// All triangles within `reach` of some vertices, and some more.
+// Returns all triangles within `reach` of the vertices `centers`, and some others.
 MeshPiece piece_around(const Mesh& mesh, const std::vector<std::uint32_t>& centers, double reach,
                        const Context& context);
 

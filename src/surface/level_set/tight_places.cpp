@@ -11,21 +11,21 @@
 namespace rholm {
 namespace {
 
-// Chosen: of the cosine, for normals that are not those of the loop itself.
+// Chosen: bound of the cosine, with a margin because normals are not exactly the loop's.
 constexpr double kOneSide = 0.2;
 
 double square_of(const Vec3& x) { return dot(x, x); }
 
 }  // namespace
 
-// Normals turn by 2 pi at least, as the curve itself does (Fenchel 1929) if it is the shortest.
-// Edges much shorter than others do not count more.
+// Along the shortest curve, normals turn by at least 2 pi, as the curve does (Fenchel
+// 1929). Edges much shorter than others are treated as edges of the length `least`.
 std::vector<std::uint32_t> sharp_vertices(const Mesh& mesh, const NormalAttributes& normals,
                                           double length, std::size_t n_own,
                                           const Context& context) {
   constexpr std::size_t kChunk = 16384;
   const double least = length / 30;  // chosen: a third of a usual edge
-  // Chords of turns up to pi are longer than this part of the turn: 1 - pi^2 / 24.
+  // The chord of a turn up to pi is at least this part of the turn: 1 - pi^2 / 24.
   constexpr double kChord = 0.58;
   const double slow = kChord * 2 * std::numbers::pi / length;
   const std::size_t n = mesh.triangles.size();
@@ -35,7 +35,7 @@ std::vector<std::uint32_t> sharp_vertices(const Mesh& mesh, const NormalAttribut
     for (std::size_t t = begin; t < end; ++t) {
       const Triangle& corners = mesh.triangles[t];
       const Vec3 own[3] = {normals[corners[0]], normals[corners[1]], normals[corners[2]]};
-      // Nearly all turn less than the shortest edge may.
+      // In nearly all triangles the normals turn less than the shortest edge allows.
       const double most = std::max(
           {square_of(own[1] - own[0]), square_of(own[2] - own[1]), square_of(own[0] - own[2])});
       const double shortest = std::min({square_of(own[0]), square_of(own[1]), square_of(own[2])});
@@ -63,8 +63,8 @@ std::vector<std::uint32_t> sharp_vertices(const Mesh& mesh, const NormalAttribut
   return all;
 }
 
-// Those of the vertices around which, as far as half of such a loop reaches, normals are on all
-// sides: those of a closed curve that is the shortest are in no half-space.
+// Keeps vertices around which normals point in all directions within half
+// a loop. The normals along a shortest closed curve lie in no half-space.
 std::vector<std::uint32_t> turning_around(const std::vector<SharpVertex>& sharp, double length) {
   struct Group {
     Cube cube;

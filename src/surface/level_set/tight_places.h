@@ -1,4 +1,4 @@
-// Where a surface turns around within a length. Layer: surface.
+// Finds where a surface turns around within a given length. Layer: surface.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,16 @@ namespace rholm {
 struct SharpVertex {
   Vec3 at, normal;
 };
-// Vertices, ascending, from which an edge leaves along which the normal turns as fast as, on the
-// average, along a closed curve of a length. Of a part of a mesh, whose edges to vertices from
-// `n_own` on may have one triangle only.
+// Returns, ascending, the ends of edges along which the normal turns
+// as fast as the average on a closed curve of `length`. In a part of a
+// mesh, edges to vertices from `n_own` on may have one triangle only.
 std::vector<std::uint32_t> sharp_vertices(const Mesh& mesh, const NormalAttributes& normals,
                                           double length, std::size_t n_own, const Context& context);
-// Those of all sharp vertices of a mesh, ascending, that are in the places below.
+// Returns, ascending, the indices of sharp vertices that are tight places as defined below.
 std::vector<std::uint32_t> turning_around(const std::vector<SharpVertex>& sharp, double length);
 
-// Vertices, ascending, of which every closed curve on the surface of at most that length that is
-// the shortest around something passes one, more or less: found by normals.
+// Returns vertices, ascending, found by their normals. Nearly every closed curve
+// of at most `length` that is the shortest around something passes one of them.
 std::vector<std::uint32_t> tight_places(const Mesh& mesh, const NormalAttributes& normals,
                                         double length, const Context& context);
 

@@ -14,16 +14,16 @@
 namespace rholm {
 namespace {
 
-// Part of an edge that is left at least on either side of a cut: the border is off by a tenth of a
-// triangle at most, and no triangle is thinner than a tenth of another by the cut.
+// Least part of an edge on either side of a cut. It moves the border by at most a
+// tenth of a triangle, and no cut makes a triangle thinner than a tenth of another.
 constexpr double kLeastPart = 0.1;
-// Averages along the border that take away the zigzag of the cuts. Chosen: it is of the length of
-// an edge or two, and a border of many edges does not shrink by them.
+// Number of averages along the border, which remove the zigzag of the cuts. Chosen:
+// the zigzag is one or two edges long, and a border of many edges does not shrink.
 constexpr int kBorderRounds = 3;
-// A triangle may shrink to this part of its area meanwhile.
+// Least ratio of a triangle's area after a move of a border vertex to its area before.
 constexpr double kLeastShrink = 0.2;
 
-// An edge with one end on each side, by its lower and upper vertex.
+// Returns the key of an edge: its lower and upper vertex.
 std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
 }
@@ -41,8 +41,8 @@ void check(const Mesh& mesh, std::span<const double> support) {
   }
 }
 
-// Means over the triangles around a vertex, weighted with their areas: tiny triangles, of which a
-// mesh of marching cubes has many, do not pull.
+// Averages over the triangles around a vertex, weighted by area, so
+// that the many tiny triangles of marching cubes have little influence.
 std::vector<double> smoothed(const Mesh& mesh, std::span<const double> support,
                              const std::vector<std::uint8_t>& fixed, int rounds) {
   std::vector<double> values(support.begin(), support.end());
@@ -68,7 +68,7 @@ std::vector<double> smoothed(const Mesh& mesh, std::span<const double> support,
   return values;
 }
 
-// Cuts, sorted by edge: their place is the place of their vertex behind those that stay.
+// Returns the cut edges, sorted; cut i becomes vertex i after the vertices that stay.
 std::vector<std::uint64_t> find_cuts(const Mesh& mesh, const std::vector<double>& support) {
   std::vector<std::uint64_t> cuts;
   for (const Triangle& t : mesh.triangles) {
@@ -83,7 +83,7 @@ std::vector<std::uint64_t> find_cuts(const Mesh& mesh, const std::vector<double>
   return cuts;
 }
 
-// Where the vertices of the result come from: from + part (to - from).
+// Origin of a vertex of the result: from + part (to - from).
 struct Source {
   std::uint32_t from = 0;
   std::uint32_t to = 0;
@@ -118,7 +118,7 @@ class Trimmer {
     return std::move(result_);
   }
 
-  // As TrimmedPart has them.
+  // Returns the vertices as TrimmedPart has them.
   std::vector<std::uint32_t> vertices() const {
     std::vector<std::uint32_t> old;
     old.reserve(n_old_);
@@ -127,7 +127,7 @@ class Trimmer {
   }
   std::vector<std::uint32_t>& triangles() { return of_; }
 
-  // Edges along the cut, by the vertices of the result.
+  // Returns the edges along the cut, by vertices of the result.
   const std::vector<std::array<std::uint32_t, 2>>& border() const { return border_; }
 
  private:
@@ -165,7 +165,7 @@ class Trimmer {
       result_.triangles.push_back({renumbered_[t[0]], renumbered_[t[1]], renumbered_[t[2]]});
       return;
     }
-    // a is the corner that is alone on its side; b and c follow it.
+    // Corner a is alone on its side; b and c follow it.
     int lone = 0;
     while (stays(t[lone]) != (n == 1)) ++lone;
     const std::uint32_t a = t[lone];
@@ -186,7 +186,7 @@ class Trimmer {
     return from + sources_[v].part * (mesh_.vertices[sources_[v].to] - from);
   }
 
-  // Two triangles along the shorter diagonal.
+  // Adds two triangles along the shorter diagonal.
   void push_quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
     if (norm(place(a) - place(c)) <= norm(place(b) - place(d))) {
       result_.triangles.push_back({a, b, c});
@@ -205,10 +205,10 @@ class Trimmer {
   std::uint32_t n_old_ = 0;
   std::vector<std::array<std::uint32_t, 2>> border_;
   Mesh result_;
-  std::vector<std::uint32_t> of_;  // which triangle each of the result is of
+  std::vector<std::uint32_t> of_;  // source triangle of each triangle of the result
 };
 
-// Neighbours along the border, and triangles, of the vertices of a cut.
+// Neighbours along the border, and triangles, of a cut vertex.
 struct BorderVertex {
   std::vector<std::uint32_t> neighbours;
   std::vector<std::uint32_t> triangles;
@@ -223,7 +223,7 @@ BorderVertices find_border(const Mesh& mesh,
     border[b].neighbours.push_back(a);
   }
   if (border.empty()) return border;
-  const std::uint32_t first = border.begin()->first;  // vertices of cuts stand last
+  const std::uint32_t first = border.begin()->first;  // cut vertices come last
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const std::uint32_t v : mesh.triangles[t]) {
       if (v >= first) border[v].triangles.push_back(t);
@@ -232,7 +232,7 @@ BorderVertices find_border(const Mesh& mesh,
   return border;
 }
 
-// Moves a vertex unless a triangle would turn over, or shrink to less than a part of its height.
+// Moves a vertex unless a triangle would turn over, or lose too much of its area.
 void move_vertex(Mesh& mesh, std::uint32_t vertex, const BorderVertex& around, const Vec3& to) {
   const auto twice_area = [&](std::uint32_t t) {
     const Triangle& c = mesh.triangles[t];
@@ -257,7 +257,7 @@ void smooth_border(Mesh& mesh, const std::vector<std::array<std::uint32_t, 2>>& 
   for (int round = 0; round < kBorderRounds; ++round) {
     std::vector<Vec3> targets;
     for (const auto& [v, around] : border) {
-      // One neighbour only where the cut ends at a border the mesh had before.
+      // A vertex has one neighbour only where the cut ends at an earlier border of the mesh.
       Vec3 target = mesh.vertices[v];
       if (around.neighbours.size() == 2) {
         target = 0.5 * target +

@@ -1,4 +1,4 @@
-// Open surfaces with clean borders. Layer: surface.
+// Cuts surfaces open with clean borders. Layer: surface.
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,22 @@
 
 namespace rholm {
 
-// Cuts away where `support` (one value per vertex) is at most 0, along the line where it is 0 by
-// linear interpolation on the edges: of a 2-manifold a 2-manifold with borders is left. The
-// support is averaged with its neighbours' `smoothing` times first, so that the border is a smooth
-// curve at the scale of the mesh, and the cut is evened out along itself. Cuts keep a tenth of the
-// edge from its ends. Attributes are interpolated; vertices in no triangle go. Throws InvalidInput
-// if the number of values is not that of the vertices, or one is not finite.
+// Removes the surface where `support` (one value per vertex) is at most 0. It cuts along
+// the zero line of linear interpolation; a 2-manifold stays a 2-manifold with borders.
+// First the support is averaged `smoothing` times with its neighbours, so that the border
+// is smooth at the mesh's scale. Then the cut is smoothed along itself. Cuts keep a tenth
+// of the edge from its ends. Attributes are interpolated; vertices without triangles are
+// removed. Throws InvalidInput for a wrong number of values, or a value that is not finite.
 Mesh trim(const Mesh& mesh, std::span<const double> support, int smoothing = 2);
 
-// What is left of a part of a mesh.
+// Remainder of a part of a mesh.
 struct TrimmedPart {
   Mesh mesh;
-  std::vector<std::uint32_t> vertices;   // of the part, that the first ones are; others are new
-  std::vector<std::uint32_t> triangles;  // of the part, that each is of
+  std::vector<std::uint32_t> vertices;   // source vertices of the first ones; others are new
+  std::vector<std::uint32_t> triangles;  // source triangle of each triangle
 };
-// The same in a part: the support of vertices that others' triangles have too, of which there is a
-// flag, stays what it is.
+// Acts as trim() on a part of a mesh. `fixed` flags the vertices
+// whose support stays unchanged, because other parts share them.
 TrimmedPart trim_part(const Mesh& mesh, std::span<const double> support,
                       const std::vector<std::uint8_t>& fixed, int smoothing = 2);
 

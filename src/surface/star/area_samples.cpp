@@ -12,7 +12,7 @@
 namespace rholm {
 namespace {
 
-// Uniform over the triangle: with sqrt(u) the density grows like the width seen from corner 0.
+// Uniform in the triangle: with sqrt(u) the density grows like the width seen from corner 0.
 Vec3 point_of_triangle(const Mesh& mesh, const Triangle& t, double u, double v) {
   const double root = std::sqrt(u);
   return (1 - root) * mesh.vertices[t[0]] + (root * (1 - v)) * mesh.vertices[t[1]] +
@@ -29,7 +29,7 @@ std::vector<double> AreaSum::add(const Mesh& part) {
     poll();
     const FaceNormal face = face_normal(scaled_corners(part, t, scale_));
     if (!face.degenerate) sum_.add(norm(face.twice_area));
-    largest_ = std::max(largest_, sum_.value());  // rounding might take it back
+    largest_ = std::max(largest_, sum_.value());  // rounding might decrease the sum
     sums.push_back(largest_);
   }
   return sums;
@@ -48,8 +48,8 @@ AreaSamples AreaSampling::draw(const Mesh& part, std::span<const double> sums, s
   samples.points.reserve(count);
   samples.triangles.reserve(count);
   const double share = twice_area / static_cast<double>(n);
-  // The first triangle whose sum exceeds the target has area. Rounding may lift the last target to
-  // the total: that belongs to the last triangle with area.
+  // The first triangle whose sum exceeds the target has positive area. Rounding may
+  // lift the last target to the total; it then belongs to the last triangle with area.
   const auto last = std::lower_bound(sums.begin(), sums.end(), twice_area);
   auto triangle = std::upper_bound(sums.begin(), last, static_cast<double>(first) * share);
   CancelPoll poll;

@@ -31,7 +31,7 @@ double share_within(const std::vector<double>& distances, double threshold) {
   return static_cast<double>(n) / static_cast<double>(distances.size());
 }
 
-// The middle value, or the mean of the two middle ones; 0 for none.
+// Returns the middle value, or the mean of the two middle ones; 0 if there are none.
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -82,7 +82,7 @@ Comparison compare(CompareSamples& samples, const Context& context, Executor* ex
   SampleDistances forth(samples.options().samples), back(samples.options().samples);
   const std::size_t n = samples.n_parts();
   SharedProgress progress(context, "compare", 0, 1, static_cast<double>(n));
-  // Dealt: a process that has samples of one way only needs one of the two trees.
+  // Parts are dealt, so a process with samples of one way needs only one of the two trees.
   executor->run(
       {.count = n, .dealt = true}, [&](std::size_t part, int) { return samples.work(part); },
       [&](std::size_t part, const std::string& bytes) {

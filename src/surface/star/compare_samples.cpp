@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t kSamplesOfPart = std::size_t{1} << 13;  // chosen: some 20 ms and 130 kB
 
-// The power of two that brings shapes with these bounds to the order of 1, so that squares can be
-// formed.
+// Returns the power of two that brings shapes with these bounds to
+// the order of 1, so that squares of coordinates do not overflow.
 double common_scale(const Bounds& a, const Bounds& b) {
   return unit_frame(bounds({a.min, a.max, b.min, b.max})).scale;
 }

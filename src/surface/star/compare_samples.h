@@ -1,4 +1,4 @@
-// The samples of a comparison of two surfaces, both ways.
+// Samples of a comparison of two surfaces, in both directions.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace rholm {
 enum class Way { kForth, kBack };  // from A to B, from B to A
 
 struct SampleDistances {
-  std::vector<double> distances, angles;  // as DistancesOut has them
+  std::vector<double> distances, angles;  // values as in DistancesOut
 
   explicit SampleDistances(std::size_t n) : distances(n), angles(n) {}
   DistancesOut range(std::size_t first, std::size_t n) {
@@ -26,26 +26,26 @@ struct SampleDistances {
 
 class CompareSamples {
  public:
-  // Of meshes that are kept. Throws InvalidInput for options and meshes as compare().
+  // Takes meshes that stay in memory. Throws InvalidInput for options and meshes like compare().
   CompareSamples(const Mesh& a, const Mesh& b, const CompareOptions& options);
-  // Of meshes that are gone through in portions of so many triangles.
+  // Takes meshes that are read in portions of this many triangles.
   CompareSamples(const MeshInPlace& a, const MeshInPlace& b, std::size_t triangles,
                  const CompareOptions& options, const Context& context);
 
-  // All samples of one way, on the threads of `context`.
+  // Measures all samples of one direction, on the threads of `context`.
   SampleDistances measure(Way way, const Context& context, const ParallelStage& stage);
 
-  // All samples there and back, in parts: those of one way come before those of the other.
+  // Returns the number of parts of all samples: first direction first, then the other.
   std::size_t n_parts() const { return 2 * parts_of_way(); }
-  // The bytes of the part of that number. Any thread.
+  // Computes a part and returns its bytes. Any thread may call it.
   std::string work(std::size_t number);
-  // Puts them where they belong. Throws Io for other bytes.
+  // Stores the bytes of a part in the distances. Throws Io for bytes that do not fit.
   void take(std::size_t number, std::string_view bytes, SampleDistances& forth,
             SampleDistances& back) const;
 
   const CompareOptions& options() const { return options_; }
-  double scale() const { return scale_; }                      // of lengths: a power of two
-  double diagonal() const { return a_->bounds().diagonal(); }  // of A's bounding box, scaled
+  double scale() const { return scale_; }                      // factor of lengths: a power of two
+  double diagonal() const { return a_->bounds().diagonal(); }  // diagonal of A's box, scaled
 
  private:
   struct Part {
@@ -63,8 +63,8 @@ class CompareSamples {
   std::optional<ComparedSurface> a_, b_;
 };
 
-// The comparison by these samples. With an executor, other processes work parts too, by work() of
-// samples of their own, of the same surfaces and options.
+// Compares by these samples. With an executor, other processes compute parts
+// too, by work() of their own samples of the same surfaces and options.
 Comparison compare(CompareSamples& samples, const Context& context, Executor* executor = nullptr);
 
 }  // namespace rholm

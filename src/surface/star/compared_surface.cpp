@@ -13,13 +13,13 @@
 namespace rholm {
 namespace {
 
-// Of a triangle of a portion: 12 of its corners, 79 of the tree, and 24 of each vertex, of which
-// there are three where triangles are not joined.
+// Bytes per triangle of a portion: 12 for its corners, 79 for the tree, and
+// 24 per vertex. Triangles that are not joined have three vertices each.
 constexpr std::size_t kBytesPerTriangle = 12 + 79 + 3 * 24;
 constexpr std::size_t kFewestTriangles = std::size_t{1} << 14;  // chosen: 3 MB
 
-// Unit normals, zero for degenerate triangles, which have none. Samples that follow each other are
-// on one triangle as a rule.
+// Returns unit normals, zero for degenerate triangles. Caches the last
+// normal, because consecutive samples usually lie on one triangle.
 class LastNormal {
  public:
   explicit LastNormal(const Mesh& mesh) : mesh_(mesh) {}
@@ -38,13 +38,13 @@ class LastNormal {
   Vec3 normal_;
 };
 
-// As in DistancesOut.
+// Returns the angle in degrees as DistancesOut defines it.
 double angle_between(const Vec3& here, const Vec3& there) {
   if (there == Vec3{}) return -1;
   return std::atan2(norm(cross(here, there)), dot(here, there)) * (180 / std::numbers::pi);
 }
 
-// The closest points of all parts so far.
+// Closest points over all parts searched so far.
 class PartSearch {
  public:
   PartSearch(const SurfaceSamples& samples, const UnitFrame& frame, const DistancesOut& out,
@@ -55,7 +55,7 @@ class PartSearch {
         context_(context),
         closest_(samples.points.size()) {}
 
-  // Whether a part in that box may be the nearest to some samples: they are asked for next.
+  // Returns true if a part in `box` may be nearest to some samples; ask() searches for these.
   bool concerns(const Bounds& box) {
     concerned_.clear();
     for (std::uint32_t k = 0; k < closest_.size(); ++k) {
@@ -83,7 +83,7 @@ class PartSearch {
                std::uint32_t k, std::uint32_t before) {
     ClosestSoFar& closest = closest_[k];
     const Vec3& point = samples_.points[k];
-    // No farther than the mesh is from the one before, and that from this one.
+    // The bound is the previous sample's distance plus the distance between both samples.
     const double at_most = closest_[before].distance + norm(point - samples_.points[before]);
     if (!tree.improve(point, at_most, closest)) return;
     const std::uint64_t triangle = (closest.triangle - numbers.first) / numbers.step;
@@ -103,7 +103,7 @@ class PartSearch {
 }  // namespace
 
 std::size_t triangles_of_portion(std::size_t n_vertices, std::size_t memory) {
-  const std::size_t numbers = n_vertices / 16 * 3;  // of a RankedSet
+  const std::size_t numbers = n_vertices / 16 * 3;  // bytes of a RankedSet
   const std::size_t rest = memory > numbers ? memory - numbers : 0;
   return std::clamp(rest / kBytesPerTriangle, kFewestTriangles, std::size_t{1} << 31);
 }
@@ -112,8 +112,8 @@ struct ComparedSurface::Part {
   explicit Part(MeshPortion portion) : triangles(std::move(portion)) {}
 
   MeshPortion triangles;
-  std::vector<double> areas;         // sums of AreaSum, to draw
-  std::optional<TriangleTree> tree;  // of these triangles, to measure
+  std::vector<double> areas;         // sums of AreaSum, for drawing
+  std::optional<TriangleTree> tree;  // tree of these triangles, for measuring
 };
 
 ComparedSurface::ComparedSurface(const Mesh& mesh, double scale) {
@@ -202,8 +202,8 @@ void ComparedSurface::measure(const SurfaceSamples& samples, const DistancesOut&
     report_progress(context, stage.name, stage.from + (stage.to - stage.from) * part);
   };
   progress(0);
-  // Some triangles from everywhere say how far away the surface is at most: few portions are within
-  // that of a sample.
+  // Triangles spread over the mesh first bound the distance of each
+  // sample; then only a small number of portions lie within these bounds.
   if (n_parts() > 1) search.ask_of_all(portions_->scouts());
   for (std::size_t p = 0; p < n_parts(); ++p) {
     if (search.concerns(boxes_[p])) {

@@ -1,4 +1,4 @@
-// One surface of a comparison: its samples, and its closest points to the samples of the other.
+// One surface of a comparison: its samples, and its closest points to the other's samples.
 #pragma once
 
 #include <cstddef>
@@ -18,47 +18,47 @@
 
 namespace rholm {
 
-// Samples whose closest points a thread looks for at a time; chosen: some 50 ms where the shapes
-// are far apart.
+// Number of samples per task when searching closest points;
+// chosen: some 50 ms where the shapes are far apart.
 inline constexpr std::size_t kQueriesOfChunk = 256;
 
-// How many triangles a portion has, of meshes of so many vertices, in that many bytes.
+// Returns the triangles per portion of a mesh with `n_vertices` vertices, in `memory` bytes.
 std::size_t triangles_of_portion(std::size_t n_vertices, std::size_t memory);
 
 struct SurfaceSamples {
   std::vector<Vec3> points, normals;  // normals have unit length
 };
 
-// Of samples: the distance to the other surface, and the angle between the normals here and there,
-// in degrees; negative where the closest triangle is degenerate, it has no normal.
+// Per sample, the distance to the other surface, and the angle between both normals in degrees.
+// The angle is negative where the closest triangle is degenerate, since it has no normal.
 struct DistancesOut {
   std::span<double> distances, angles;
 };
 
-// A mesh in parts: one that is kept, or portions that are loaded whenever they are needed. Results
-// have the same bits for any parts. Once prepared, any thread may ask.
+// Mesh in parts: it stays in memory, or its portions are loaded when needed. Results have
+// the same bits for any parts. Once prepared, any thread may call the const functions.
 class ComparedSurface {
  public:
-  // Keeps a copy of a valid mesh, its coordinates times `scale`. Throws InvalidInput for a mesh
-  // without triangles.
+  // Keeps a copy of a valid mesh, with coordinates times
+  // `scale`. Throws InvalidInput for a mesh without triangles.
   ComparedSurface(const Mesh& mesh, double scale);
-  // Portions of at most so many triangles of a valid mesh with these bounds, to which it keeps a
-  // reference.
+  // Uses portions of at most `triangles` triangles of a valid
+  // mesh with these bounds. Keeps a reference to the mesh.
   ComparedSurface(const MeshInPlace& mesh, const Bounds& bounds, double scale,
                   std::size_t triangles);
   ~ComparedSurface();
 
   bool is_kept() const { return kept_ != nullptr; }
-  const Bounds& bounds() const { return bounds_; }  // scaled
+  const Bounds& bounds() const { return bounds_; }  // box of the scaled vertices
 
-  // Make what draw() and measure() need, once. Any thread, but not within a loop if on several. The
-  // first throws InvalidInput for a mesh without area.
+  // Prepare draw() and measure(), once. Any thread may call them; within a parallel loop `context`
+  // must have one thread. prepare_to_draw() throws InvalidInput for a mesh without area.
   void prepare_to_draw();
   void prepare_to_measure(const Context& context);
 
-  // Samples first ... first + n - 1 of those that the options tell.
+  // Draws the samples first ... first + n - 1 of the samples defined by `options`.
   SurfaceSamples draw(const CompareOptions& options, std::size_t first, std::size_t n) const;
-  // From each sample to this surface, on the threads of `context`.
+  // Measures from each sample to this surface, on the threads of `context`.
   void measure(const SurfaceSamples& samples, const DistancesOut& out, const Context& context,
                const ParallelStage& stage) const;
 
@@ -72,10 +72,10 @@ class ComparedSurface {
   Bounds bounds_;
   UnitFrame frame_;
   std::shared_ptr<Part> kept_;
-  std::optional<MeshPortions> portions_;  // of a surface that is not kept
-  std::vector<Bounds> boxes_;             // of parts, in the frame
-  std::vector<AreaSum> sums_;             // before each part
-  double twice_area_ = 0;                 // in the units of AreaSum
+  std::optional<MeshPortions> portions_;  // used if the surface is not kept in memory
+  std::vector<Bounds> boxes_;             // boxes of the parts, in the frame
+  std::vector<AreaSum> sums_;             // sum of the areas before each part
+  double twice_area_ = 0;                 // value in the units of AreaSum
   std::once_flag to_draw_, to_measure_;
 };
 

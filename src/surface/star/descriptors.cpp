@@ -1,4 +1,4 @@
-// The table of descriptors: all that anybody knows of one stands in its row.
+// Table of descriptors; each row has everything about one descriptor.
 #include "rholm/descriptors.h"
 
 namespace rholm {

@@ -1,7 +1,7 @@
 // Volume, area and centroid of the solid under a harmonic surface, on a Gauss-Legendre grid:
-//   V = int r^3/3 dOmega,   V c = int r^4/4 u dOmega,   A = int r sqrt(r^2 + |grad_S r|^2) dOmega.
-// With r of degree L the first two integrands are polynomials of degree 3L and 4L + 1, which the
-// grid integrates exactly.
+// V = int r^3/3 dOmega, V c = int r^4/4 u dOmega, A = int r sqrt(r^2 + |grad_S r|^2) dOmega.
+// If r has degree L, the first two integrands are polynomials of degree 3L and 4L + 1, which
+// the grid integrates exactly.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,18 +21,18 @@
 namespace rholm {
 namespace {
 
-// What integrals over a star-shaped solid have in common: the expansion in units of its mean
-// radius, and a Gauss-Legendre grid that is gone through by blocks of rings.
+// Integrals over a star-shaped solid share the expansion in units of its mean
+// radius, and a Gauss-Legendre grid that is processed by blocks of rings.
 
-// Powers of radii might overflow: sums are formed of `coefficients`, whose mean is 1, and lengths
-// multiplied by `scale` after.
+// Powers of radii might overflow. Sums are therefore formed from `coefficients`,
+// whose mean is 1, and lengths are multiplied by `scale` afterwards.
 struct UnitExpansion {
   Coefficients coefficients;
-  bool gauge = false;  // 1/r
+  bool gauge = false;  // true if the coefficients expand 1/r
   double scale = 1;
 };
 
-// Throws Unsupported for what is no surface, InvalidInput where the mean is zero.
+// Throws Unsupported if there is no surface, InvalidInput if the mean is zero.
 inline UnitExpansion unit_expansion(const Expansion& expansion) {
   require_surface(expansion);
   UnitExpansion unit{.coefficients = expansion.coefficients,
@@ -44,12 +44,13 @@ inline UnitExpansion unit_expansion(const Expansion& expansion) {
   return unit;
 }
 
-// Calls evaluate(colatitudes, n_phi) for some rings of Gauss-Legendre at a time, then
-// visit(values, i, u, weight) for each node i of them, ring by ring: its direction u, and weights
-// whose sum is 4 pi. n_phi is twice the number of rings.
+// Calls evaluate(colatitudes, n_phi) for some Gauss-Legendre rings at a time. Then calls
+// visit(values, i, u, weight) for each node i of these rings, ring by ring. Vector u is the
+// direction of the node. The sum of all weights is 4 pi. The number n_phi is twice the number of
+// rings.
 template <typename Evaluate, typename Visit>
 void for_each_node(int n_rings, const Evaluate& evaluate, const Visit& visit) {
-  constexpr std::size_t kRingsAtOnce = 64;  // chosen: bounds the memory at high degrees
+  constexpr std::size_t kRingsAtOnce = 64;  // chosen: limits memory at high degrees
   const GaussRule rule = gauss_legendre(n_rings);
   const std::size_t n_theta = rule.nodes.size();
   const int n_phi = 2 * n_rings;
@@ -70,8 +71,8 @@ void for_each_node(int n_rings, const Evaluate& evaluate, const Visit& visit) {
   }
 }
 
-// Rings beyond the 2L + 1 that make volume and centroid exact, for the area and for a gauge, whose
-// integrands are not polynomials (chosen: an ellipsoid's area then converges to 1e-12).
+// Rings beyond the 2L + 1 that make volume and centroid exact. The area and a gauge need them,
+// because their integrands are not polynomials (chosen: an ellipsoid's area converges to 1e-12).
 constexpr int kMoreRings = 48;
 
 struct Sums {
@@ -147,7 +148,7 @@ struct Moments {
     for (std::size_t k = 0; k < 6; ++k) second[k].add(r5 * products[k]);
   }
 
-  // About the centroid, I = tr(M) 1 - M with M = int (x - c)(x - c)^T dV.
+  // Returns I = tr(M) 1 - M about the centroid, with M = int (x - c)(x - c)^T dV.
   std::array<Vec3, 3> inertia() const {
     const double v = volume.value();
     const double x = first[0].value(), y = first[1].value(), z = first[2].value();

@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::size_t kBlock = std::size_t{1} << 20;  // rows read before they are released: 24 MB
 
-// Chosen: some 11 MB with their tree, and a 256th of the mesh from one to the next.
+// Chosen: about 11 MB with the tree; neighbouring scouts are 1/256 of the mesh's size apart.
 constexpr std::size_t kMostScouts = std::size_t{1} << 16;
 
-// Rows that are used in their order, released in blocks.
+// Tracks rows that are read in order, and releases them in blocks.
 class RowsUsed {
  public:
   using Release = std::function<void(std::size_t first, std::size_t n)>;
@@ -37,8 +37,8 @@ class RowsUsed {
   }
 
  private:
-  static constexpr std::size_t kRowsOfPage = 128;  // or more
-  // Chosen: with what the system brings around each page, some 64 MB.
+  static constexpr std::size_t kRowsOfPage = 128;  // rows per page, at least
+  // Chosen: about 64 MB, with the pages that the system loads around each page.
   static constexpr std::size_t kMostJumps = 1024;
   const Release& release_;
   std::size_t first_ = 0, last_ = 0, jumps_ = 0;
@@ -78,7 +78,7 @@ std::uint32_t largest_index(const MeshInPlace& mesh) {
 Bounds checked_bounds(const MeshInPlace& mesh, const Context& context) {
   const VertexRange range = range_of_vertices(mesh, context);
   const bool in_range = mesh.mesh.n_triangles == 0 || largest_index(mesh) < mesh.mesh.n_vertices;
-  if (!range.finite || !in_range) validate(mesh.mesh);  // throws, and says which
+  if (!range.finite || !in_range) validate(mesh.mesh);  // throws and names the wrong element
   if (mesh.mesh.n_vertices == 0) return {};
   return {.min = {range.min[0], range.min[1], range.min[2]},
           .max = {range.max[0], range.max[1], range.max[2]}};

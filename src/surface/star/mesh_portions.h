@@ -1,5 +1,5 @@
-// A mesh that need not fit in memory, in portions that do: its triangles as they lie, so many at a
-// time, each portion with its own vertices.
+// Splits a mesh that may exceed memory into portions that fit:
+// consecutive triangles of the mesh, each portion with its own vertices.
 #pragma once
 
 #include <cstddef>
@@ -12,24 +12,24 @@
 
 namespace rholm {
 
-// The box of all vertices. Throws as validate() of the mesh.
+// Returns the box of all vertices. Throws the same errors as validate().
 Bounds checked_bounds(const MeshInPlace& mesh, const Context& context);
 
 struct MeshPortion {
-  Mesh mesh;  // scaled; vertices are in the order of the whole mesh
+  Mesh mesh;  // scaled mesh; vertices keep the order of the whole mesh
   PortionNumbers numbers;
 };
 
 class MeshPortions {
  public:
-  // Of a valid mesh whose coordinates are taken times `scale`, in portions of at most so many
-  // triangles. Keeps a reference to the mesh.
+  // Splits a valid mesh into portions of at most `triangles` triangles,
+  // with coordinates times `scale`. Keeps a reference to the mesh.
   MeshPortions(const MeshInPlace& mesh, double scale, std::size_t triangles);
 
   std::size_t size() const { return (n_triangles() + triangles_ - 1) / triangles_; }
   std::size_t n_triangles() const { return mesh_.mesh.n_triangles; }
   MeshPortion load(std::size_t p) const;
-  // Triangles from all over the mesh, no more than of a portion, and 2^16.
+  // Returns triangles from all over the mesh: at most a portion's number, and at most 2^16.
   MeshPortion scouts() const;
 
  private:

@@ -30,8 +30,8 @@ void set_normals(Mesh& mesh, const std::vector<Vec3>& normals) {
                   ": no surface point lies there; take another degree, or the radius");
 }
 
-// x = center + r u with the normal along r u - grad_S r, of length 1; with q = 1/r that is
-// q u + grad_S q.
+// x = center + r u, and the unit normal is along r u -
+// grad_S r; with q = 1/r it is along q u + grad_S q.
 Mesh surface_of_degree(const Expansion& expansion, const Mesh& sphere, int degree,
                        const Context& context) {
   require_surface(expansion);
@@ -84,7 +84,7 @@ Mesh directions_of(const Mesh& mesh, const Vec3& center) {
   sphere.vertices.reserve(mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3 x = mesh.vertices[i] - center;
-    // Scaled first: squares of coordinates beyond 1e150 would overflow.
+    // Scaled first, because squares of coordinates beyond 1e150 would overflow.
     const double largest = std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
     if (!(largest > 0)) {
       throw Error(

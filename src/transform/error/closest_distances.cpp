@@ -13,19 +13,20 @@
 namespace rholm {
 namespace {
 
-// Steps from the closest point of the model's triangles, which is off by their flatness: each step
-// leaves the distance times the curvature of what there is (0.001 of the distance after three on
-// random polyhedra to degree 64 against pattern search; scripts/constants).
+// Number of steps from the closest point of the model's triangles, which is off by their flatness.
+// Each step reduces the error by the factor distance times curvature. Three steps leave 0.001 of
+// the distance (random polyhedra to degree 64, against pattern search; scripts/constants).
 constexpr int kSteps = 3;
-// Edges of the model's triangles are 1.1 / 2^level; waves of degree L have five of them.
+// Edges of the model's triangles are 1.1 / 2^level, at most kEdge / L: a wave of degree L has five
+// of them.
 constexpr double kEdge = 1.3;
 constexpr int kCoarsest = 4, kFinest = 7;
-// So many times more points to first order, which cost a hundredth.
+// Number of points to first order for each closest point; they cost a hundredth.
 constexpr std::size_t kDense = 12;
 constexpr std::uint64_t kSeed = 4;
-// Coarse meshes have a peak at each vertex and others along their edges.
+// Number of climbs: coarse meshes have a peak at each vertex and others along their edges.
 constexpr std::size_t kPeaks = 16;
-// Extreme points are taken so many at a time.
+// Extreme points are measured in batches of this size, up to this number in all.
 constexpr std::size_t kBatch = 500, kMostExtreme = 10'000;
 
 double squared_norm(const Vec3& v) { return dot(v, v); }
@@ -86,7 +87,8 @@ std::vector<double> RadialSurface::distances(const std::vector<Vec3>& x, std::ve
 
 namespace {
 
-// What pieces of the mesh are of the model: area, and distances to first order.
+// For each piece of the mesh: its area on the model, and the distances to the model and back, to
+// first order.
 struct PieceModel {
   const SurfacePieces& pieces;
   std::vector<double> model_areas, to_model, to_shape;
@@ -109,8 +111,8 @@ struct PieceModel {
       back.first += model_areas[i] * to_shape[i] * to_shape[i];
     }
   }
-  // One half for the areas, so that no place is missed; the other for the squares to first order,
-  // as a few places may have most of the sum.
+  // One half of the sample is for the areas, so that no place is missed. The other half is for the
+  // squares to first order, because a few places may have most of the sum.
   ProportionalSample sample(std::size_t n) const {
     const double mean_there = area > 0 ? there.first / area : 0;
     const double mean_back = model_area > 0 ? back.first / model_area : 0;
@@ -134,7 +136,7 @@ struct PieceModel {
       back.add(sample.stand_for[k] * model_areas[i] * change(closest_back[k], to_shape[i]));
     }
   }
-  // Over area, the larger of both ways.
+  // Returns the rms over the area, the larger one of mesh to model and model to mesh.
   double rms() const {
     return std::sqrt(std::max(area > 0 ? there.value() / area : 0,
                               model_area > 0 ? back.value() / model_area : 0));
@@ -143,7 +145,7 @@ struct PieceModel {
 
 }  // namespace
 
-// A model as triangles: where to begin on its surface.
+// The model as triangles, which give the start points on its surface.
 struct ClosestDistances::Model {
   const RadialSurface& surface;
   const Context& context;
@@ -156,7 +158,7 @@ struct ClosestDistances::Model {
     tree = std::make_unique<TriangleTree>(mesh);
   }
 
-  // Of points on rays, the model's point on the same ray being `opposite`.
+  // Returns the distances of points x on rays; `opposite` is the model's point on the same ray.
   std::vector<double> distances(const std::vector<Vec3>& x,
                                 const std::vector<Vec3>& opposite) const {
     std::vector<Vec3> from(x.size());
@@ -195,8 +197,8 @@ const Mesh& ClosestDistances::sphere(int degree) {
   return sphere_;
 }
 
-// Where distances of both ways were found: the model's at points of the mesh, and back at the
-// points of the model opposite to them.
+// Points at which distances were measured. Distances to the model are from points of the mesh;
+// distances to the shape are from the opposite points of the model.
 struct ClosestDistances::Seen {
   ErrorPoints points;  // lengths scaled
   std::vector<double> to_model, to_shape;
@@ -205,7 +207,7 @@ struct ClosestDistances::Seen {
 
 namespace {
 
-// Those of the largest values, in descending order.
+// Returns the indices of the largest values, in descending order.
 std::vector<std::size_t> largest_first(const std::vector<double>& values, std::size_t most) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -238,7 +240,7 @@ ClosestDistances::Seen ClosestDistances::see_pieces(const Model& model,
   return seen;
 }
 
-// No distance is above the radial error: the largest of these first.
+// No distance is above the radial error, so points with the largest radial errors come first.
 void ClosestDistances::see_extreme(const Model& model, const ErrorPoints& extreme,
                                    const Context& context, Seen& seen) const {
   const std::vector<Vec3> models = model.surface.points(extreme.directions);
@@ -269,7 +271,7 @@ void ClosestDistances::see_extreme(const Model& model, const ErrorPoints& extrem
 
 double ClosestDistances::highest(const Model& model, const RadialSurface& surface, int degree,
                                  const Seen& seen) const {
-  const Context alone{.threads = 1};  // a hundred points at a time
+  const Context alone{.threads = 1};  // one thread, for a hundred points at a time
   const auto there_at = [&](const ErrorPoints& at) {
     std::vector<Vec3> points(at.size());
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = at.radii[i] * at.directions[i];

@@ -1,5 +1,5 @@
-// Distances between a mesh and the surface of an expansion by closest points, where those to first
-// order are not enough: method 5.
+// Distances between a mesh and the surface of an expansion by closest points, where distances to
+// first order are not exact enough: method 5.
 #pragma once
 
 #include <cstddef>
@@ -31,9 +31,9 @@ class RadialSurface {
 
   std::vector<Vec3> points(const std::vector<Vec3>& directions) const;
   RadialPoints at(const std::vector<Vec3>& directions) const;
-  // How far points x are from the surface, beginning at the directions `from`: so many steps along
-  // its tangent planes, each halved until it comes nearer. From near the closest point to second
-  // order after one step; never too small but for the rounding.
+  // Returns the distances of points x from the surface. Makes `steps` steps along its tangent
+  // planes, beginning at the directions `from`; each step is halved until it comes nearer. Near the
+  // closest point one step is exact to second order. No result is too small except for rounding.
   std::vector<double> distances(const std::vector<Vec3>& x, std::vector<Vec3> from,
                                 int steps) const;
 
@@ -44,18 +44,18 @@ class RadialSurface {
 };
 
 struct SurfaceDistances {
-  double rms = 0, max = 0;  // the larger of both ways
+  double rms = 0, max = 0;  // the larger one of mesh to model and model to mesh
 };
 
-// Keeps the tree of a mesh for several models. Memory: about 120 bytes per face of the mesh, and
-// 40 MB for the model's tree at most.
+// Keeps the tree of a mesh for several models. Memory: about 120 bytes per face of the mesh, and at
+// most 40 MB for the model's tree.
 class ClosestDistances {
  public:
-  // `n_points`: so many on each surface, and to first order more; see surface_pieces().
+  // Measures `n_points` points on each surface, and more to first order; see surface_pieces().
   ClosestDistances(const MeshView& mesh, const Vec3& center, std::size_t n_points);
 
-  // In the mesh's unit. Model and mesh must have sizes that compare. The largest is one over the
-  // pieces and over `extreme`, points of the mesh.
+  // Returns distances in the mesh's unit. The sizes of model and mesh must be comparable. The
+  // maximum is over the pieces and over `extreme`, points of the mesh.
   SurfaceDistances measure(const Expansion& expansion, int degree, const ErrorPoints& extreme,
                            double precision, const Context& context);
 
@@ -63,8 +63,8 @@ class ClosestDistances {
   struct Model;
   struct Seen;
   const Mesh& sphere(int degree);
-  // At some pieces; then at extreme points, those that may be farther than what has been seen; then
-  // the largest distance uphill from there.
+  // Measures at some pieces, then at extreme points that may be farther than the points before.
+  // Then climbs from all of these points to the largest distance.
   Seen see_pieces(const Model& model, const RadialPoints& opposite,
                   const std::vector<std::size_t>& indices, const Context& context) const;
   void see_extreme(const Model& model, const ErrorPoints& extreme, const Context& context,

@@ -17,8 +17,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using M = hn::Mask<D>;
 
-// Edges of at most this angle: the corners of a face see all of it within 0.6 of its longest edge
-// (0.58 for three equal ones).
+// For edges of at most this angle, each point of a face is within 0.6 of the longest edge from a
+// corner (0.58 for three equal edges).
 constexpr double kMostAngle = 0.5, kNearestCorner = 0.6;
 
 template <class T>
@@ -28,7 +28,8 @@ void BoundsOf(const MeshView& mesh, std::size_t begin, std::size_t end, const Ve
   const V unit = hn::Set(d, scale), one = hn::Set(d, 1.0), zero = hn::Zero(d);
   const V infinity = hn::Set(d, std::numeric_limits<double>::infinity());
   const Vector3 shift = Same(d, scale * center);
-  // Seen from the centre an edge e is at most 2 asin(e / 2 nearest) < 1.02 e / nearest long.
+  // Seen from the centre, an edge e has an angle of at most 2 asin(e / 2 nearest) < 1.02 e /
+  // nearest.
   const V length2 = hn::Set(d, 1.02 * 1.02), most2 = hn::Set(d, kMostAngle * kMostAngle);
   const V part = hn::Set(d, kNearestCorner * kNearestCorner / 2), bend = hn::Set(d, model_bend);
   const auto local = [&](const Vector3& raw) HWY_ATTR -> Vector3 {
@@ -47,10 +48,11 @@ void BoundsOf(const MeshView& mesh, std::size_t begin, std::size_t end, const Ve
         const V ra = Dot(a, a), rb = Dot(b, b), rc = Dot(c, c);
         const V farthest2 = most(ra, rb, rc), nearest2 = hn::Min(ra, hn::Min(rb, rc));
         const V angle2 = hn::Div(hn::Mul(length2, edge2), nearest2);
-        // Rounding leaves little of shorter normals.
+        // Shorter normals are mostly rounding error.
         const M clear = hn::Gt(nn, hn::Mul(hn::Set(d, 0x1p-80), hn::Mul(farthest2, edge2)));
         const M seen = hn::And(hn::And(clear, hn::Gt(height, zero)), hn::Le(angle2, most2));
-        // r (2 / c^2 - 1) at the farthest corner, where the cosine c is least: c^2 r^2 |n|^2 = h^2.
+        // This is r (2 / c^2 - 1) at the farthest corner, where the cosine c is least: c^2 r^2
+        // |n|^2 = h^2.
         const V over_c2 =
             hn::Div(hn::Mul(nn, farthest2), hn::IfThenElse(seen, hn::Mul(height, height), one));
         const V face = hn::Mul(hn::Sqrt(farthest2), hn::Sub(hn::Add(over_c2, over_c2), one));

@@ -1,4 +1,4 @@
-// Whether distances can be those of closest points: method 5.
+// Decides whether distances can be measured by closest points: method 5.
 #pragma once
 
 #include "rholm/coefficients.h"
@@ -6,10 +6,10 @@
 
 namespace rholm {
 
-// Faces so few and long that closest points rule whatever a sample says (chosen).
+// Returns true if faces are so few and long that closest points are always needed (chosen).
 bool is_coarse(const MeshView& mesh);
-// Whether closest points make sense: a model whose size compares with the mesh's, which is not too
-// large for a tree of it in memory.
+// Returns true if closest points make sense. The sizes of model and mesh are comparable then, and
+// the mesh is not too large for a tree in memory.
 bool may_be_refined(const MeshView& mesh, const Expansion& expansion, double largest_radial_error,
                     double diagonal);
 

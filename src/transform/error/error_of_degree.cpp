@@ -15,30 +15,34 @@
 namespace rholm {
 namespace {
 
-// About so many of the points over the area stand for all where little is asked.
+// About this many of the points over the area stand for all where little accuracy is needed.
 constexpr std::size_t kPart = 20'000;
-// And whether first order holds, which is asked where the error is this near to the limit.
+// Number of points that show whether first order holds. They are used where the error and the limit
+// differ by less than the factor kNear.
 constexpr std::size_t kFew = 1000;
 constexpr double kNear = 2.5;
-// Few closest points differ from many by a per cent.
+// Few and many closest points give values that differ by a per cent.
 constexpr double kCloseFew = 1.04;
-// What some points find is at most this much less than what all do (scripts/constants: 1.9).
+// The largest error at all points is at most this many times the one at some points
+// (scripts/constants: 1.9).
 constexpr double kDoubt = 2;
-// Root mean squares of some points differ from those of all by 0.7 %.
+// Root mean squares over some points and over all points differ by 0.7 %.
 constexpr double kClose = 1.05;
-// Points between vertices that are dense enough for one degree are for those up to this times it.
+// Points between vertices that are dense enough for one degree serve degrees up to this many times
+// it.
 constexpr double kDenseUpTo = 1.2;
 
-// Points whose error was this part of the largest stand for all where they cost less, unless they
-// say that it is within the limit, but not well within.
+// Points whose error was this part of the largest stand for all points where they cost less. They
+// do not decide where the error is within the limit, but not well within it.
 constexpr double kWorst = 0.3, kWellWithin = 0.9;
 
-// Of a degree that errs too much; and where climbs to the largest distances begin (chosen).
+// Number of witnesses of a degree that errs too much; number of climbs to the largest distances
+// (chosen).
 constexpr std::size_t kWitnesses = 16, kDistancePeaks = 16;
-// Of distances no more are kept (chosen: some milliseconds a degree).
+// Largest number of witnesses for distances (chosen: some milliseconds a degree).
 constexpr std::size_t kMostWitnesses = 128;
-// Where closest points rule, steps from the ray may miss the closest one: so much farther a point
-// is too far all the same (chosen).
+// Where closest points are used, steps from the ray may miss the closest point. Beyond this factor
+// a point is too far all the same (chosen).
 constexpr double kOnOtherSides = 1.2;
 
 double root_mean_square(const std::vector<double>& values) {
@@ -47,10 +51,10 @@ double root_mean_square(const std::vector<double>& values) {
   return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, values.size())));
 }
 
-// Points may miss a fifth of the largest error where faces are long against 1/L.
+// The points may miss a fifth of the largest error where faces are long against 1/L.
 constexpr double kFarWithin = 0.7;
 
-// Whether the points cost more than twice the grid that they are interpolated on.
+// Returns true if the points cost more than twice the grid on which they are interpolated.
 bool points_dominate(std::size_t n, int degree) {
   return error_point_cost() * static_cast<double>(n) > 2 * error_grid_cost(degree);
 }
@@ -64,7 +68,7 @@ ErrorPoints part_of(const ErrorPoints& points, std::size_t n) {
 
 }  // namespace
 
-// Summed from the top: small remainders are not lost against the large first degrees.
+// The sum begins at the top, so that small remainders are not lost against the large first degrees.
 std::vector<double> rms_tails(const Coefficients& coefficients, double beyond) {
   const std::vector<double> energy = power_spectrum(coefficients);
   std::vector<double> tails(energy.size());
@@ -117,8 +121,8 @@ bool ErrorOfDegree::may_be_refined(const Expansion& expansion, int degree, doubl
                                diagonal_of(sites_.mesh(), {.threads = sites_.threads()}));
 }
 
-// What the error to first order is to be multiplied by, unless closest points rule from now on:
-// what is steep at one degree is steep at the next.
+// Returns the factor for the error to first order. May decide to use closest
+// points from now on: a surface that is steep at one degree is steep at the next.
 double ErrorOfDegree::closest_ratio(const Expansion& expansion, int degree, double limit) {
   if (!may_be_refined(expansion, degree, limit)) return 1;
   const ErrorPoints over_area = part_of(sites_.over_area(), kPart);
@@ -140,7 +144,7 @@ double ErrorOfDegree::witnessed_distance(const Expansion& expansion, int degree,
   return largest(distances_to_model(model, witnesses_));
 }
 
-// At few points unless they say that it is close to the limit.
+// Uses few points unless their value is close to the limit.
 double ErrorOfDegree::closest_of(const Expansion& expansion, int degree, double limit) {
   const ErrorPoints extreme = extreme_points(sites_.mesh(), sites_.center(), sites_.scan(), degree);
   const auto at = [&](bool fine) {
@@ -186,7 +190,8 @@ double ErrorOfDegree::largest_of(const Expansion& expansion, int degree, double 
   return between_points(expansion, degree, limit, all, errors);
 }
 
-// The largest error on the whole surface, from points that say it may be within the limit.
+// Returns the largest error on the whole surface, if the errors at the points are within the
+// limit.
 double ErrorOfDegree::between_points(const Expansion& expansion, int degree, double limit,
                                      const ErrorPoints& points, const std::vector<double>& errors) {
   Expansion first = expansion;
@@ -198,7 +203,7 @@ double ErrorOfDegree::between_points(const Expansion& expansion, int degree, dou
     witnesses_.append(found.worst(degree));
     return found.value;
   }
-  // As truncation_errors() climbs: from the shape to the model.
+  // Climbs as truncation_errors() does: from the shape to the model.
   const Context alone{.threads = 1};
   const PeakSearch search{
       point_errors(points, model, true, silent_).to_model,
@@ -241,7 +246,7 @@ const ErrorPoints& ErrorOfDegree::few_points() {
   return few_;
 }
 
-// A thousandth of the tolerance.
+// Returns a thousandth of the tolerance.
 double ErrorOfDegree::precision(double limit) const {
   return std::clamp(1e-3 * limit / size_, 1e-12, 1e-3);
 }
@@ -252,7 +257,7 @@ PointErrors ErrorOfDegree::measured(const ErrorPoints& points, const Expansion& 
   return point_errors(points, expansion, degree, is_distance(), precision(limit), silent_);
 }
 
-// Of each point what the largest error is the largest of.
+// Returns for each point the error of which the largest error is the maximum.
 std::vector<double> ErrorOfDegree::sizes(PointErrors errors) const {
   if (!is_distance()) return std::move(errors.radial);
   for (std::size_t i = 0; i < errors.to_model.size(); ++i) {

@@ -1,4 +1,4 @@
-// The error of the first L degrees of coefficients, for any L, as a tolerance measures it.
+// Measures the error of the first L degrees of coefficients, for any L, as a tolerance defines it.
 #pragma once
 
 #include <optional>
@@ -12,30 +12,30 @@
 
 namespace rholm {
 
-// sqrt(sum of the energies beyond l / 4 pi) for every l of the coefficients, `beyond` being the
-// energy beyond all of them.
+// Returns sqrt(energy beyond l / 4 pi) for every degree l of the coefficients. `beyond` is the
+// energy beyond all of their degrees.
 std::vector<double> rms_tails(const Coefficients& coefficients, double beyond);
-// The smallest l that has such a tail within the limit, the last one if none has.
+// Returns the smallest l whose tail is within the limit, or the last l if no tail is.
 int smallest_degree(const std::vector<double>& tails, double limit);
 
-// The one that the tolerance is about.
+// Returns the error that the tolerance limits.
 double error_in(const TruncationErrors& errors, const Tolerance& tolerance);
 
-// Largest errors and distances, measured at points.
+// Measures errors and distances at points.
 class ErrorOfDegree {
  public:
-  // All must outlive this. `size`: of the function, root mean square.
+  // All arguments must outlive this object. `size` is the root mean square of the function.
   ErrorOfDegree(const Tolerance& tolerance, ErrorSites& sites, double size, const Context& context);
 
-  // Of the first `degree` degrees, at all points; at a part of them where these say on which side
-  // of the limit it is: root mean squares that are not close to it, largest errors above it or well
-  // within it at what were the worst points, or far above it at the first degree that is asked for.
-  // Distances near the limit are those of closest points: of a sample, or of trees for coarse
-  // meshes and from where a sample is not enough.
+  // Returns the error of the first `degree` degrees at all points. Takes a part of the points if
+  // they show that it is above or below the limit. A part is enough for root mean squares not close
+  // to the limit. It is also enough if the largest error is above the limit or well within it at
+  // former worst points, or far above it at the first degree. Near the limit, distances are to
+  // closest points: of a sample or, where that is not enough and for coarse meshes, of trees.
   double of(const Expansion& expansion, int degree, double limit);
 
-  // Points at which the largest error of some degree was found, or almost so: of each degree that
-  // of() was asked for.
+  // Returns points at which the largest error of some degree, or nearly the largest, was found.
+  // They include points for each degree that was passed to of().
   const ErrorPoints& witnesses() const { return witnesses_; }
 
  private:
@@ -67,10 +67,10 @@ class ErrorOfDegree {
   ErrorPoints few_, some_, worst_, witnesses_;
   int degree_of_all_ = -1;
   int first_ = -1;
-  bool closest_rule_ = false;  // for this mesh, once it is known
+  bool closest_rule_ = false;  // true once this mesh is known to need closest points
 };
 
-// The root mean square error of the radius at a part of the points over the area, to 0.7 %.
+// Returns the rms error of the radius at a part of the points over the area, to 0.7 %.
 double sampled_rms(const Expansion& expansion, ErrorSites& sites, double precision,
                    const Context& context);
 

@@ -13,26 +13,26 @@
 namespace rholm {
 namespace {
 
-// Worst points that are this far apart, in waves' 1/L, are peaks of their own. So many of them, or
-// more for many sites, are looked at.
+// Largest number of candidates for worst points: the first in all or, if that is more, the second
+// for each site. Worst points that are kApart / L apart are separate peaks.
 constexpr std::size_t kCandidates = 2048, kCandidatesOfSite = 128;
 constexpr double kApart = 2;
-// On each face around them steps of this many 1/L at first (points lie within 1.5 of them), halved
-// each time: four leave 1/10 of 1/L at most, 6e-4 of a peak of that curvature. After the first the
-// best faces go on.
+// First step on each face around the worst points, in units of 1/L (the points are within 1.5 of
+// them). Steps are halved each time: four leave at most 1/10 of 1/L, 6e-4 of a peak of that
+// curvature. After the first step only the best faces go on.
 constexpr double kFirstStep = 0.75;
 constexpr int kRounds = 4;
-// To the top steps are halved where they lead no higher: eight times leave 3e-3 of 1/L, some 1e-5
-// of a peak.
+// Steps to a local maximum are halved where they lead no higher. Eight halvings leave 3e-3 of 1/L,
+// some 1e-5 of a peak.
 constexpr int kMostHalvings = 8, kMostRounds = 40;
 
 struct Climber {
   std::size_t face = 0;
-  std::array<Vec3, 3> corners;  // from the centre, scaled
+  std::array<Vec3, 3> corners;  // relative to the centre, scaled
   FaceNormal normal;
   double a = 0, b = 0;  // weights of the first two corners
-  double step = 0;      // of the weights
-  int halvings = 0;     // of the step
+  double step = 0;      // step of the weights
+  int halvings = 0;     // number of halvings of the step
   double value = 0;
 
   Vec3 at(double wa, double wb) const {
@@ -40,7 +40,7 @@ struct Climber {
   }
 };
 
-// The weights of the first two corners at the direction u, in the face or on its border.
+// Sets the weights of the first two corners at the direction u, in the face or on its border.
 void place(const Vec3& u, Climber& climber) {
   const auto& [p, q, r] = climber.corners;
   const double wa = dot(u, cross(q, r)), wb = dot(u, cross(r, p)), wc = dot(u, cross(p, q));
@@ -49,7 +49,8 @@ void place(const Vec3& u, Climber& climber) {
   climber.b = sum > 0 ? std::max(wb, 0.0) / sum : 0;
 }
 
-// Begins at a direction of the error `value` on a face; none on one whose normal means nothing.
+// Returns a climber on a face, which begins at a direction with the error `value`. Returns none if
+// the face has no normal.
 std::optional<Climber> climber_on(const MeshView& mesh, std::size_t t, const Vec3& center,
                                   double scale, const Vec3& direction, double value, int degree) {
   const Triangle triangle = mesh.triangle(t);
@@ -71,7 +72,7 @@ std::optional<Climber> climber_on(const MeshView& mesh, std::size_t t, const Vec
   return climber;
 }
 
-// Which faces have one of a few vertices.
+// Finds the faces that have one of a few vertices.
 class FewVertices {
  public:
   void add(std::uint32_t i) {
@@ -103,12 +104,13 @@ class FewVertices {
   }
 
  private:
-  static constexpr std::size_t kMarks = 4096;  // few enough for the nearest cache
+  static constexpr std::size_t kMarks = 4096;  // fits into the nearest cache
   std::vector<std::uint32_t> vertices_;
   std::array<bool, kMarks> marks_ = {};
 };
 
-// Of each search, on the faces around its sites.
+// Returns the climbers of each search: on the faces of its sites and, with `around`, on all faces
+// that share a corner with them.
 std::vector<std::vector<Climber>> climbers(const MeshView& mesh, const Vec3& center, double scale,
                                            const ErrorPoints& points,
                                            const std::vector<PeakSearch>& searches, int degree,
@@ -147,7 +149,7 @@ std::vector<std::vector<Climber>> climbers(const MeshView& mesh, const Vec3& cen
   return found;
 }
 
-// The point of a face with these weights of its first two corners, brought onto it.
+// Weights of the first two corners of a face. on_face() moves them into the face.
 struct Place {
   double a, b;
 };
@@ -165,8 +167,8 @@ void add_point(const Climber& c, const Place& at, double scale, ErrorPoints& poi
              static_cast<std::int64_t>(c.face));
 }
 
-// All climbers to the best of their six neighbours, if it is better. The steps are halved: all, or
-// those that lead no higher.
+// Moves each climber to the best of its six neighbours if that is better. Halves the steps: all of
+// them, or only steps that lead no higher.
 void climb(std::vector<Climber>& climbers, double scale, const ErrorAt& error, bool halve_all) {
   constexpr std::array<std::array<double, 2>, 6> kWays = {
       {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, -1}, {-1, 1}}};
@@ -202,7 +204,7 @@ void sort_highest_first(std::vector<Climber>& climbers) {
                    [](const Climber& a, const Climber& b) { return a.value > b.value; });
 }
 
-// Faces that have several corners in common with that of a site are found several times.
+// Faces that share several corners with the face of a site are found several times.
 void drop_copies(std::vector<Climber>& climbers) {
   const auto key = [](const Climber& c) { return std::tuple(c.face, c.a, c.b); };
   std::ranges::sort(climbers, {}, key);
@@ -210,7 +212,8 @@ void drop_copies(std::vector<Climber>& climbers) {
   climbers.erase(copies.begin(), copies.end());
 }
 
-// Climbers begin at the place in their face that is nearest to a site, which may be lower than it.
+// A climber begins at the place in its face that is nearest to a site; the error may be lower
+// there.
 void measure(std::vector<Climber>& climbers, double scale, const ErrorAt& error) {
   ErrorPoints points;
   points.reserve(climbers.size());
@@ -234,7 +237,7 @@ std::vector<std::size_t> worst_apart(const ErrorPoints& points, const std::vecto
   std::size_t different = 0;
   for (std::size_t k = 0; k < order.size() && different < n; ++k) {
     double nearest = 4;
-    bool known = false;  // the same point once more
+    bool known = false;  // true for a copy of a known point
     for (const std::size_t i : found) {
       const Vec3 chord = points.directions[order[k]] - points.directions[i];
       const double chord2 = dot(chord, chord);
@@ -242,7 +245,7 @@ std::vector<std::size_t> worst_apart(const ErrorPoints& points, const std::vecto
       nearest = std::min(nearest, chord2);
     }
     if (known) continue;
-    // Copies of a point, each with faces of its own, are one site together.
+    // Copies of a point, each on faces of its own, are one site together.
     constexpr double kSame = 1e-24;
     if (nearest > kSame && nearest <= apart * apart) continue;
     if (nearest > kSame) ++different;
@@ -283,8 +286,9 @@ Peaks local_maxima(const MeshView& mesh, const Vec3& center, const ErrorPoints& 
   for (int round = 0; round < kMostRounds && !climbing.empty(); ++round) {
     climb(climbing, scale, search.error, false);
     sort_highest_first(climbing);
-    // At the top, or too low: a step of s/L from the top of a wave of degree L is s^2/2 of it
-    // below; twice that for two directions, and again for faces at a shallow angle.
+    // A climb ends at the top, or where it is too low. A step of s/L from the top of a wave of
+    // degree L is s^2/2 of the top below it. The limit is twice that for two directions, and twice
+    // again for faces at a shallow angle.
     const auto ends = [&, highest = climbing[0].value](const Climber& c) {
       const double step = kFirstStep * std::exp2(-c.halvings);
       return c.halvings >= kMostHalvings || c.value < (1 - 2 * step * step) * highest;

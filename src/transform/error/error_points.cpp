@@ -22,7 +22,7 @@ namespace rholm {
 namespace {
 
 struct Face {
-  std::array<Vec3, 3> corners;  // from the centre
+  std::array<Vec3, 3> corners;  // relative to the centre
   FaceNormal normal;
   double twice_area = 0;
 };
@@ -35,13 +35,13 @@ Face face_of(const std::array<Vec3, 3>& corners) {
   return face;
 }
 
-// x from the centre, where nobody sees it if that is 0.
+// Adds the point x, relative to the centre, unless it is 0 and has no direction.
 void add_point(ErrorPoints& points, const Vec3& x, double cosine, std::int64_t owner) {
   const double r = norm(x);
   if (r > 0) points.add(x / r, r, cosine, owner);
 }
 
-// Without those that were not set: their radius is 0.
+// Drops the points that were not set: their radius is 0.
 void drop_unset(ErrorPoints& points) {
   std::vector<std::size_t> set;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -50,7 +50,7 @@ void drop_unset(ErrorPoints& points) {
   points = points.subset(set);
 }
 
-// cos gamma at the point x of the face, none where nobody sees it.
+// Returns cos gamma at the point x of the face, or nothing if x or the face's area is 0.
 std::optional<double> cosine_at(const Face& face, const Vec3& x) {
   const double size = norm(x) * face.twice_area;
   if (!(size > 0)) return std::nullopt;
@@ -141,7 +141,7 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
   const FaceSizes& sizes = scan.sizes;
   const std::size_t n_groups = sizes.area_bits.size();
   constexpr std::size_t kGrain = 1024;  // groups of faces; chosen: some 100 us
-  // What comes before each chunk of them.
+  // Area of all groups before each chunk of groups.
   std::vector<double> before;
   double whole = 0;
   for (std::size_t group = 0; group < n_groups; ++group) {
@@ -150,13 +150,13 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
   }
   const double part = whole / static_cast<double>(n);
   constexpr std::uint64_t kSeed = 1;
-  // Where point i lies, in the areas one after the other.
+  // Returns the position of point i in the areas, one behind the other.
   const auto place = [&](std::size_t i) {
     return i < n ? (static_cast<double>(i) + random_uniform(kSeed, i)) * part
                  : std::numeric_limits<double>::infinity();
   };
-  // Those of one face, which follow each other, are spread evenly over it: the additive sequence of
-  // the plastic number (Roberts 2018).
+  // The points of one face follow each other and are spread evenly over it, by the additive
+  // sequence of the plastic number (Roberts 2018).
   const auto spread = [](std::size_t i, double step) {
     const double at = 0.5 + step * static_cast<double>(i);
     return at - std::floor(at);
@@ -173,8 +173,8 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
     auto next = std::min(n, static_cast<std::size_t>(part > 0 ? sum / part : 0));
     while (next > 0 && place(next - 1) >= sum) --next;
     while (place(next) < sum) ++next;
-    // Groups with points on them; then their faces, all of them, then the corners: far apart in
-    // memory, which the processor fetches together.
+    // Collects the groups with points on them, then all of their faces, then the corners. These are
+    // far apart in memory, and the processor fetches them together.
     std::vector<Group> groups;
     std::vector<Triangle> triangles;
     double at = place(next);
@@ -200,10 +200,10 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
       double up_to = group.from;
       for (std::size_t t = group.first; t < group.last; ++t) {
         const Face face = face_of(*of_face++);
-        // One by one they may come to more or less, by rounding.
+        // The sum of the faces' areas may differ from the group's area by rounding.
         up_to = t + 1 < group.last ? std::min(group.to, up_to + face.twice_area) : group.to;
         for (; at < up_to; at = place(++next)) {
-          // Uniform on the triangle.
+          // The point is uniform on the face.
           const double s = std::sqrt(spread(next, 0.7548776662466927));
           const double b = s * spread(next, 0.5698402909980532);
           const Vec3 x =
@@ -227,7 +227,7 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
 
 namespace {
 
-// The model along some directions, and the square of the tangent of its slope.
+// Radii of the model along some directions, and the square of the tangent of its slope.
 struct ModelSurface {
   std::vector<double> radii, tangents2;
 };

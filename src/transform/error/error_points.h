@@ -18,9 +18,9 @@ namespace rholm {
 struct ErrorPoints {
   std::vector<Vec3> directions;
   std::vector<double> radii;
-  // cos gamma of the face a point lies on; 0 at vertices, which have none.
+  // cos gamma of the face on which a point lies; 0 at vertices, which have no face.
   std::vector<double> cosines;
-  // Its face t, or -1 - i for vertex i; empty where nobody asks.
+  // Face t of the point, or -1 - i for vertex i; empty if it is not needed.
   std::vector<std::int64_t> owners;
 
   std::size_t size() const { return directions.size(); }
@@ -32,16 +32,16 @@ struct ErrorPoints {
   void append(const ErrorPoints& more);
 };
 
-// cos gamma at the point x of face t, which is from the centre and times scan.sizes.scale; none of
-// a degenerate face, and at the centre.
+// Returns cos gamma at the point x of face t; x is relative to the centre and times
+// scan.sizes.scale. Returns nothing for a degenerate face, and at the centre.
 std::optional<double> face_cosine(const MeshView& mesh, std::size_t t, const Vec3& center,
                                   const FaceScan& scan, const Vec3& x);
-// Where the largest errors of degree L are: all vertices, and points on long faces.
+// Returns points with the largest errors of degree L: all vertices, and points on long faces.
 ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan,
                            int degree);
 
-// About n points, evenly over the area: one in each of n equal parts of it, in the order of the
-// faces.
+// Returns about n points spread evenly over the area: one in each of n equal parts of the area, in
+// the order of the faces.
 ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan,
                         std::size_t n, const Context& context = {});
 
@@ -55,19 +55,19 @@ struct PointErrors {
   PointErrors subset(const std::vector<std::size_t>& indices) const;
   void append(const PointErrors& more);
 };
-// Of the first L degrees. `slopes`: distances as well. `precision` as in SumOptions.
+// Computes errors of the first L degrees; `slopes`: distances, too. `precision`: see SumOptions.
 PointErrors point_errors(const ErrorPoints& points, const Expansion& expansion, int degree,
                          bool slopes, double precision, const Context& context);
 PointErrors point_errors(const ErrorPoints& points, const RadialModel& model, bool slopes,
                          const Context& context);
 
 double largest(const std::vector<double>& values);
-// The indices of at most n values, of those that are at least half of the largest: the largest
-// first, ties by index.
+// Returns the indices of at most n values that are at least half of the largest one. The largest
+// value comes first; equal values are in the order of indices.
 std::vector<std::size_t> indices_of_largest(const std::vector<double>& values, std::size_t n);
-// Root mean squares over area points, which are those from `first` on.
+// Return root mean squares over area points, which begin at index `first`.
 double rms_over_solid_angle(const ErrorPoints& points, const PointErrors& errors,
                             std::size_t first);
-double rms_distance(const PointErrors& errors, std::size_t first);  // the larger of both ways
+double rms_distance(const PointErrors& errors, std::size_t first);  // the larger one of both ways
 
 }  // namespace rholm

@@ -8,7 +8,7 @@
 namespace rholm {
 namespace {
 
-// Many on each face, evenly spread, tell more than a few on each of many.
+// Many points on each face, evenly spread, tell more than a few points on each of many faces.
 constexpr std::size_t kAreaPoints = 100'000, kFewAreaPoints = 20'000, kOnFace = 16;
 constexpr std::size_t kClosestPoints = 20'000, kFewClosestPoints = 3'000;
 
@@ -17,7 +17,7 @@ constexpr std::size_t kClosestPoints = 20'000, kFewClosestPoints = 3'000;
 bool shows_its_edges(const MeshView& mesh, int degree) {
   const double angle =
       1.5 * std::sqrt(4 * std::numbers::pi / static_cast<double>(mesh.n_triangles));
-  constexpr double kCoarse = 6;  // scripts/constants: 20 % at 5, few from 10 on
+  constexpr double kCoarse = 6;  // scripts/constants: off by 20 % at 5, by a few % from 10 on
   return degree * angle > kCoarse;
 }
 

@@ -1,5 +1,5 @@
-// Where the errors of a mesh are looked for, and what its edges predict of them: each made when it
-// is first asked for, and kept for the next measurement.
+// Points at which the errors of a mesh are measured, and the errors that its edges predict. Each is
+// made when it is first needed, and kept for the next measurement.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@
 
 namespace rholm {
 
-// Whether edges are so long against 1/L that the jumps across them predict the error; on finer
-// meshes those of neighbouring edges are correlated, and what they predict is too large.
+// Returns true if edges are so long against 1/L that the jumps across them predict the error. On
+// finer meshes the jumps of neighbouring edges are correlated, and the prediction is too large.
 bool shows_its_edges(const MeshView& mesh, int degree);
 
 class ErrorSites {
@@ -24,7 +24,7 @@ class ErrorSites {
   // The mesh must be valid and outlive the sites.
   ErrorSites(const MeshView& mesh, const Vec3& center, int threads = 1)
       : mesh_(mesh), center_(center), threads_(threads) {}
-  // Sizes as exact_norms() finds them about this centre.
+  // Takes the sizes that exact_norms() finds about this centre.
   ErrorSites(const MeshView& mesh, const Vec3& center, FaceSizes sizes, int threads)
       : mesh_(mesh), center_(center), threads_(threads), sizes_(std::move(sizes)) {}
 
@@ -33,15 +33,15 @@ class ErrorSites {
   int threads() const { return threads_; }
 
   const FaceScan& scan();
-  // That belong to faces.
+  // Returns the vertices that belong to faces.
   const ErrorPoints& vertices();
-  // extreme_points() of the degree, then those over the area; the ones asked for last are kept.
+  // Returns extreme_points() of the degree, then points over the area. Keeps the last result only.
   const ErrorPoints& all(int degree);
-  // 20 000 to 100 000 of area_points(): a root mean square to 0.3 %.
+  // Returns 20 000 to 100 000 of area_points(), which give a root mean square to 0.3 %.
   const ErrorPoints& over_area();
-  // Closest points: a few thousand, and as many as what is said in the end rests on.
+  // Returns closest points: a few thousand or, if `fine`, the number that final results need.
   ClosestDistances& closest(bool fine);
-  // Largest errors at vertices times 2 pi (L + 1).
+  // Returns the largest errors at vertices times 2 pi (L + 1).
   const ErrorStrengths& strengths();
 
  private:
@@ -58,8 +58,8 @@ class ErrorSites {
   std::optional<ErrorStrengths> strengths_;
 };
 
-// As the public function, of the mesh and about the centre of the sites. On request the points of
-// the largest radial errors are added to `worst`.
+// Does the same as the public function, for the mesh and the centre of the sites. On request it
+// adds the points of the largest radial errors to `worst`.
 TruncationErrors truncation_errors(const Expansion& expansion, const TruncationOptions& options,
                                    ErrorSites& sites, const Context& context,
                                    ErrorPoints* worst = nullptr);

@@ -8,7 +8,7 @@
 namespace rholm {
 namespace {
 
-// Whether no face names a vertex twice, which would count as a face and be none.
+// Returns true if no face names a vertex twice: it would be counted and be no face.
 bool have_three_corners(const MeshView& mesh, const FaceSizes& sizes) {
   for (std::size_t run = 0; run < sizes.flat.size(); ++run) {
     if (sizes.flat[run] == 0) continue;
@@ -25,8 +25,8 @@ bool have_three_corners(const MeshView& mesh, const FaceSizes& sizes) {
 
 FaceScan scan_faces(const MeshView& mesh, FaceSizes sizes) {
   FaceScan scan{.sizes = std::move(sizes), .used = {}};
-  // A star-shaped surface is a sphere, whose faces have F/2 + 2 corners or, with copies, more: if
-  // there are no more vertices than that, all are used.
+  // A star-shaped surface is a sphere, whose faces have F/2 + 2 corners or, with copies, more. If
+  // there are no more vertices than F/2 + 2, all of them are used.
   if (2 * mesh.n_vertices == mesh.n_triangles + 4 && have_three_corners(mesh, scan.sizes))
     return scan;
   scan.used.resize(mesh.n_vertices);

@@ -1,4 +1,4 @@
-// What the choice of points at which errors are measured wants to know of a mesh.
+// Properties of a mesh that the choice of measuring points needs.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@ namespace rholm {
 
 struct FaceScan {
   FaceSizes sizes;
-  // Of each vertex, 1 if it belongs to a face: one of no face is no point of the surface. Empty if
-  // all do.
+  // For each vertex: 1 if it belongs to a face. A vertex of no face is no point of the surface.
+  // Empty if all vertices belong to faces.
   std::vector<std::uint8_t> used;
 
   bool is_used(std::size_t vertex) const { return used.empty() || used[vertex] != 0; }
 };
-// Of a closed star-shaped mesh.
+// Scans a closed star-shaped mesh.
 FaceScan scan_faces(const MeshView& mesh, FaceSizes sizes);
 FaceScan scan_faces(const MeshView& mesh, const Vec3& center, const Context& context);
 

@@ -7,9 +7,10 @@
 namespace rholm {
 namespace {
 
-// Apart from each other, of which the climbs begin (chosen: they take some milliseconds).
+// Number of places, apart from each other, where climbs begin (chosen: they take some
+// milliseconds).
 constexpr std::size_t kSites = 48;
-// That are kept of a degree: at them other degrees err much, too (chosen).
+// Number of points kept of a degree: other degrees err much there, too (chosen).
 constexpr std::size_t kWorst = 24;
 
 }  // namespace
@@ -30,7 +31,7 @@ LargestRadial largest_radial(const Expansion& expansion, const RadialModel& mode
   ErrorPoints starts = std::move(dense.points);
   starts.append(known);
   errors.insert(errors.end(), values.begin(), values.end());
-  const Context alone{.threads = 1};  // waking others takes longer than some hundred points
+  const Context alone{.threads = 1};  // waking threads takes longer than some hundred points
   found.peaks = local_maxima(
       sites.mesh(), sites.center(), starts,
       {.values = errors,

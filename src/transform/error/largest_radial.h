@@ -16,14 +16,14 @@ namespace rholm {
 struct LargestRadial {
   double value = 0;
   Peaks peaks;           // where climbs ended
-  std::size_t seen = 0;  // points between the known ones that were looked at
+  std::size_t seen = 0;  // number of points examined between the known points
 
-  // Of the highest peaks, apart from each other by waves of the degree.
+  // Returns the points of the highest peaks, apart from each other by waves of the degree.
   ErrorPoints worst(int degree) const;
 };
-// `model`: all degrees of the expansion. `known`: points with their radial errors `values`, among
-// them the worst of the vertices and of extreme_points(); between these the surface is looked at
-// where faces are long against 1/L. `rms`: the root mean square of all radial errors, about.
+// `model` has all degrees of the expansion. `known` are points with radial errors `values`, among
+// them the worst vertices and extreme_points(). Where faces are long against 1/L, points between
+// these are examined. `rms` is about the root mean square of all radial errors.
 LargestRadial largest_radial(const Expansion& expansion, const RadialModel& model,
                              const ErrorPoints& known, const std::vector<double>& values,
                              double rms, ErrorSites& sites, const Context& context);

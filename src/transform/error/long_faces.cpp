@@ -8,16 +8,16 @@
 namespace rholm {
 namespace {
 
-// Points lie at most this many 1/L apart (chosen).
+// Points are at most this many 1/L apart (chosen).
 constexpr double kDense = 1.5;
 constexpr int kMostDivisions = 3;
-// Parts of faces have lattices of at most so many divisions (chosen: fewer parts have fewer points
-// in common, larger ones are denser than they need be where they are far).
+// Largest number of divisions of the lattice of a part. Chosen: larger parts are fewer and share
+// fewer points, but are denser than needed where they are far.
 constexpr int kMostOfPart = 12;
-// Halves of halves, where a face nearly touches the centre: 2^-20 of its longest edge.
+// Largest number of halvings, where a face nearly touches the centre: to 2^-20 of its longest edge.
 constexpr int kMostHalvings = 40;
 
-// Into how many parts the edges of a face, or of a part of it, are to be divided.
+// Returns the number of parts into which the edges of a face, or of a part of it, are divided.
 int divisions(const std::array<Vec3, 3>& corners, int degree) {
   double angle2 = 0;
   for (int i = 0; i < 3; ++i) {
@@ -42,7 +42,7 @@ constexpr std::array<OnFace, 7> kThirds = {{{kThird, kThird, kThird},
                                             {kTwoThirds, 0, kThird}}};
 static_assert(kMostDivisions == 3);
 
-// The points between corners whose edges are divided into n parts, and how many they are.
+// Sets the points between corners whose edges are divided into n parts, and returns their number.
 std::size_t lattice(const std::array<Vec3, 3>& p, int n, std::array<Vec3, 7>& points) {
   if (n == 1) return 0;
   const std::span<const OnFace> places = n == 2 ? std::span<const OnFace>(kHalves) : kThirds;
@@ -58,7 +58,8 @@ class DensePoints {
   DensePoints(int degree, std::size_t t, const PointsOnFace& visit)
       : degree_(degree), t_(t), visit_(visit) {}
 
-  // Halved at the longest edge until a lattice suffices; the middle of the edge is visited, too.
+  // Adds the points of a part, which is halved at its longest edge until a lattice is dense enough.
+  // Also visits the middle of that edge.
   void add(const std::array<Vec3, 3>& p, int halvings) {
     const int n = divisions(p, degree_);
     if (n <= kMostOfPart || halvings == kMostHalvings) {
@@ -77,7 +78,7 @@ class DensePoints {
   }
 
  private:
-  // All points of a lattice but the corners.
+  // Visits all points of a lattice except the corners.
   void visit_lattice(const std::array<Vec3, 3>& p, int n) {
     if (n == 1) return;
     const Vec3 along = (p[1] - p[0]) / n, across = (p[2] - p[0]) / n;
@@ -101,8 +102,8 @@ class DensePoints {
   std::array<Vec3, (kMostOfPart + 1) * (kMostOfPart + 2) / 2> points_;
 };
 
-// Calls visit(corners, t) for the faces of runs [begin, end), but for runs whose edges are all
-// shorter than `least` of 1/L.
+// Calls visit(corners, t) for the faces of runs [begin, end). Leaves out runs whose edges are all
+// shorter than `least` times 1/L.
 template <typename Visit>
 void visit_runs(const MeshView& mesh, const Vec3& center, const FaceScan& scan, int degree,
                 double least, std::size_t begin, std::size_t end, const Visit& visit) {

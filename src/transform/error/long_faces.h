@@ -12,23 +12,23 @@
 
 namespace rholm {
 
-// From the centre, times `scale`.
+// Returns the corners relative to the centre, times `scale`.
 std::array<Vec3, 3> corners_of(const MeshView& mesh, const Triangle& triangle, const Vec3& center,
                                double scale);
 
-// Points of the face t, from the centre and times scan.sizes.scale.
+// Takes points of the face t, relative to the centre and times scan.sizes.scale.
 using PointsOnFace = std::function<void(std::span<const Vec3> points, std::size_t t)>;
 
-// Of each face with an edge longer than 1.5/L three or seven points, on it and its edges but not at
-// its corners: calls visit() for faces of the runs [begin, end) of the scan.
+// Calls visit() for each face in the runs [begin, end) of the scan that has an edge longer than
+// 1.5/L. The three or seven points are on the face and its edges, but not at its corners.
 void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& scan, int degree,
                       std::size_t begin, std::size_t end, const PointsOnFace& visit);
 
-// The faces on which the seven points lie farther than 1.5/L apart, in ascending order.
+// Returns the faces on which the seven points are more than 1.5/L apart, in ascending order.
 std::vector<std::size_t> longest_faces(const MeshView& mesh, const Vec3& center,
                                        const FaceScan& scan, int degree);
-// Calls visit() several times with points of the face t that lie at most 1.5/L apart, on it and its
-// edges, some of them more than once.
+// Calls visit() several times with points of the face t and its edges that are at most 1.5/L apart.
+// Some points are visited more than once.
 void visit_dense_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan, int degree,
                         std::size_t t, const PointsOnFace& visit);
 

@@ -10,10 +10,10 @@
 namespace rholm {
 namespace {
 
-// The terms of each degree at a direction.
+// Terms of each degree at one direction.
 struct Terms {
   std::vector<double> values;
-  std::vector<double> along_theta, along_phi;  // of the gradient, on request
+  std::vector<double> along_theta, along_phi;  // parts of the gradient, on request
 };
 
 std::vector<LegendreOrder> orders_of(const Coefficients& c) {
@@ -26,8 +26,8 @@ std::vector<LegendreOrder> orders_of(const Coefficients& c) {
   return orders;
 }
 
-// Gradients not at the poles. s dP_lm/dtheta = l cos(theta) P_lm - f_lm P_(l-1)m with f_lm^2 =
-// (l^2 - m^2) (2l + 1) / (2l - 1).
+// Computes the terms at u, with gradients if u is not a pole. s dP_lm/dtheta = l cos(theta) P_lm -
+// f_lm P_(l-1)m with f_lm^2 = (l^2 - m^2) (2l + 1) / (2l - 1).
 Terms terms_of_degrees(const Coefficients& c, const std::vector<LegendreOrder>& orders,
                        const Vec3& u, bool slopes) {
   Terms terms;
@@ -58,7 +58,7 @@ Terms terms_of_degrees(const Coefficients& c, const std::vector<LegendreOrder>& 
   return terms;
 }
 
-// The largest of what error(i) says of each degree at point i.
+// Returns for each degree the largest value of error(i) over the points i.
 template <typename Error>
 std::vector<double> largest_of_points(std::size_t n, int degree, const Context& context,
                                       const Error& error) {
@@ -91,7 +91,7 @@ std::vector<double> largest_partial_errors(const ErrorPoints& points, const Coef
 
 std::vector<double> largest_partial_distances(const ErrorPoints& points, const Coefficients& c,
                                               const Context& context) {
-  constexpr double kPole = 1e-6;  // chosen: nothing is said of what is nearer
+  constexpr double kPole = 1e-6;  // chosen: points that are nearer are left out
   const std::vector<LegendreOrder> orders = orders_of(c);
   return largest_of_points(points.size(), c.degree(), context, [&](std::size_t i) {
     std::vector<double> distances(orders.size());

@@ -1,4 +1,4 @@
-// A sum over many points of which a few are looked at closely.
+// Estimates a sum over many points by a closer look at a few of them.
 #pragma once
 
 #include <algorithm>
@@ -10,15 +10,15 @@
 namespace rholm {
 
 struct ProportionalSample {
-  std::vector<std::size_t> indices;  // ascending, some more than once
-  std::vector<double> stand_for;     // of each: so many points
+  std::vector<std::size_t> indices;  // ascending; an index may be repeated
+  std::vector<double> stand_for;     // number of points that each index stands for
 };
-// `n` points by chance, each in proportion to its weight, at least 0; none where the sum of the
-// weights is 0 or not finite.
+// Chooses `n` random points, each in proportion to its weight, which must be at least 0. Chooses
+// none if the sum of the weights is 0 or not finite.
 ProportionalSample proportional_sample(const std::vector<double>& weights, std::size_t n,
                                        std::uint64_t seed);
 
-// A sum over all points to first order, and what a sample says is to be added.
+// Sum over all points to first order, and the correction that a sample adds.
 struct CorrectedSum {
   double first = 0, added = 0, squares = 0;
 
@@ -27,7 +27,7 @@ struct CorrectedSum {
     squares += difference * difference;
   }
   double value() const { return std::max(first + added, 0.0); }
-  // Relative standard error of the root, of n terms.
+  // Returns the relative standard error of the root, from n terms.
   double error(std::size_t n) const {
     if (n == 0 || !(value() > 0)) return 0;
     const double variance = std::max(squares - added * added / static_cast<double>(n), 0.0);

@@ -21,29 +21,28 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Each round divides the cells whose bounds are above this part of the highest (chosen: halving an
-// edge leaves a quarter to a half of what a bound adds).
+// Each round divides the cells whose bounds are above this part of the highest bound. Chosen:
+// halving an edge leaves a quarter to a half of the difference between bound and error.
 constexpr double kDivided = 0.5;
 // An edge shorter than this part of the longest is not halved (chosen).
 constexpr double kSliver = 0.5;
-// Faces that are left together, and runs of them that a thread looks at at a time (chosen: some 100
-// us).
+// Number of faces in a run, and number of runs that
+// a thread takes at a time (chosen: some 100 us).
 constexpr std::size_t kRun = 128, kGrain = 64;
 
 // Degrees up to this one are bounded on a grid (chosen: 16 MB).
 constexpr int kMostOnGrid = 512;
 
-// A part of a face, from the centre and times the scale.
+// A part of a face, relative to the centre and times the scale.
 struct Cell {
   std::array<Vec3, 3> corners;
   std::size_t face = 0;
-  double bound = 0;  // of the error there
-  bool measured =
-      false;  // by the error in the middle, not only by those at the corners of the face
+  double bound = 0;       // bound on the error in the cell
+  bool measured = false;  // true if the bound uses the error in the middle of the cell
 };
 
-// Bounds the second derivatives of r = d/c of a plane along great circles, c being the least cosine
-// between directions and its normal: r'' <= r (2/c^2 - 1).
+// Returns a bound on second derivatives of r = d/c of a plane along great circles. c is the least
+// cosine between directions and the plane's normal: r'' <= r (2/c^2 - 1).
 double plane_bend(double d, double c) { return c > 0 ? d / c * (2 / (c * c) - 1) : kInfinity; }
 
 struct Plane {
@@ -57,7 +56,7 @@ Plane plane_of(const std::array<Vec3, 3>& p) {
   return {n, dot(n, p[0])};
 }
 
-// In halves of the longest edge, or in quarters.
+// Divides a cell into halves of its longest edge, or into quarters.
 void divide(const Cell& cell, std::vector<Cell>& parts) {
   const auto& p = cell.corners;
   std::array<double, 3> edges;
@@ -83,7 +82,7 @@ bool worse(const Cell& a, const Cell& b) {
   return a.bound != b.bound ? a.bound > b.bound : a.face < b.face;
 }
 
-// The terms of degree l are at most sqrt((2l + 1)/4 pi) times their norm.
+// Uses that the terms of degree l are at most sqrt((2l + 1)/4 pi) times their norm.
 double by_energies(const std::vector<double>& energies, int first, int last) {
   double sum = 0;
   for (int l = first; l <= last; ++l) {
@@ -93,8 +92,8 @@ double by_energies(const std::vector<double>& energies, int first, int last) {
   return sum;
 }
 
-// A trigonometric polynomial of degree L is at most the largest of its values at N equidistant
-// points divided by cos(pi L / N): once along circles of latitude, once along meridians.
+// A trigonometric polynomial of degree L is at most its largest value at N equidistant points,
+// divided by cos(pi L / N). This holds once along circles of latitude, once along meridians.
 double on_grid(const Coefficients& coefficients, int first, int last, const Context& context) {
   Coefficients terms = coefficients.resized(last);
   for (int l = 0; l < first; ++l) {
@@ -134,8 +133,8 @@ class Search {
   }
 
  private:
-  // The faces that may have errors beyond those at their corners. Where they are more than half of
-  // the cells, the runs of the lower bounds remain, and the others need not be lower than these.
+  // Opens the faces that may have errors beyond the errors at their corners. If these are more than
+  // half of the cells, runs with the lowest bounds stay closed; other bounds need not be lower.
   void open_faces() {
     struct Run {
       double highest = 0;
@@ -179,7 +178,8 @@ class Search {
     }
   }
 
-  // What those of the open cells consist of whose bounds are highest, which are open no longer.
+  // Takes the open cells with the highest bounds. Returns their parts, or the cells themselves if
+  // they are not measured yet.
   std::vector<Cell> parts_of_worst() {
     double highest = 0;
     for (const Cell& cell : open_) highest = std::max(highest, cell.bound);
@@ -205,7 +205,7 @@ class Search {
     return parts;
   }
 
-  // Opens those that may have an error above what is enough.
+  // Measures cells, and opens the cells that may have an error above `enough_`.
   void measure(std::vector<Cell> cells) {
     std::vector<Vec3> directions(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -223,12 +223,12 @@ class Search {
     cells_ += cells.size();
   }
 
-  // Within an angle h of a direction u on one face, for e = r - r_L,
-  //   |e| <= |e(u)| + h |grad e(u)| + h^2/2 (M_r + M_L),
-  // M bounding second derivatives along great circles.
+  // Let e = r - r_L, and M bound second derivatives along great circles. Within an angle h of a
+  // direction u on one face,
+  //   |e| <= |e(u)| + h |grad e(u)| + h^2/2 (M_r + M_L).
   double bound_of(const Cell& cell, const Vec3& u, double value, const Vec3& gradient) const {
     const Plane plane = plane_of(corners(cell.face));
-    double h = 0;  // the part lies within the cap around its corners
+    double h = 0;  // radius of a cap around u that contains the cell
     for (const Vec3& x : cell.corners) h = std::max(h, std::atan2(norm(cross(u, x)), dot(u, x)));
     const double cosine = dot(plane.normal, u);
     const double least = std::cos(std::acos(std::clamp(cosine, -1.0, 1.0)) + h);
@@ -248,7 +248,7 @@ class Search {
   double scale_;
   const RadialModel& model_;
   const Context& context_;
-  double seen_, enough_, doubt_;  // times the scale, as the bounds of cells
+  double seen_, enough_, doubt_;  // times the scale, like the bounds of cells
   std::size_t most_cells_;
   double bend_;
   std::vector<Cell> open_;

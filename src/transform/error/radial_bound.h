@@ -1,4 +1,4 @@
-// An upper bound of the radial error of an expansion over the whole surface, by branch and bound:
+// An upper bound on the radial error of an expansion over the whole surface, by branch and bound:
 // method 5.
 #pragma once
 
@@ -13,25 +13,25 @@
 namespace rholm {
 
 struct BoundOptions {
-  double seen = 0;             // the error at no vertex is larger
+  double seen = 0;             // no error at a vertex is larger
   double enough = 0;           // parts of faces whose bound is no larger are not divided
-  double doubt = 0;            // of the model's values, in the mesh's unit
-  std::size_t most_cells = 0;  // at which errors are computed, about
+  double doubt = 0;            // largest error of the model's values, in the mesh's unit
+  std::size_t most_cells = 0;  // about the largest number of cells to measure
 };
 struct RadialBound {
-  double value = 0;       // no error is larger; infinite where nothing can be said
-  std::size_t cells = 0;  // at which errors were computed
+  double value = 0;       // no error is larger; infinite if there is no bound
+  std::size_t cells = 0;  // number of cells at which errors were computed
 };
-// Of a star-shaped mesh about the expansion's centre. `model`: all degrees of the expansion, which
-// is one of the radius, with gradients. The same bits for any number of threads.
+// The mesh is star-shaped about the expansion's centre. `model` has all degrees of the expansion,
+// which is of the radius, and gradients. Any number of threads gives the same bits.
 RadialBound radial_bound(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
                          const RadialModel& model, const BoundOptions& options,
                          const Context& context);
 
-// No second derivative along a great circle is larger. On a great circle the terms of degrees up to
-// l are a trigonometric polynomial of that degree, whose second derivative is at most l^2 times its
-// largest value (Bernstein). Bands of degrees are added up, each bounded by its values on a grid or
-// by its energies.
+// Returns a bound on all second derivatives along great circles. On a great circle the terms of
+// degrees up to l are a trigonometric polynomial of degree l. Its second derivative is at most l^2
+// times its largest value (Bernstein). The bounds of bands of degrees are added up. Each band is
+// bounded by its values on a grid or by its energies.
 double second_derivative_bound(const Coefficients& coefficients, const Context& context);
 
 }  // namespace rholm

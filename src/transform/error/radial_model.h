@@ -1,4 +1,4 @@
-// The first degrees of an expansion, to be measured at many points.
+// The first degrees of an expansion, for measurements at many points.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 namespace rholm {
 
 struct RadialModel {
-  // For about so many directions, with gradients or without; `precision` as in SumOptions.
+  // Suits about `directions` directions, with gradients if `slopes`; `precision` as in SumOptions.
   RadialModel(const Expansion& expansion, int cut, std::size_t directions, bool slopes,
               double precision, const Context& context)
       : degree(cut),

@@ -12,22 +12,23 @@
 namespace rholm {
 namespace {
 
-// Leaves 0.05 % of the rms on asteroids, and 2 % on shapes with large steep faces
-// (scripts/measure-distances).
+// Size of the sample. It leaves an error of 0.05 % of the rms on asteroids, and 2 % on shapes with
+// large steep faces (scripts/measure-distances).
 constexpr std::size_t kSample = 1000;
-// From the model's point on the ray each step is of second order. Two leave 1e-5 of the rms on
-// asteroids, but 2 % of the largest distance, where surfaces are farthest apart and bent: those
-// take eight (scripts/measure-distances).
+// Each step from the model's point on the ray is of second order. Two steps leave 1e-5 of the rms
+// on asteroids, but 2 % of the largest distance, where surfaces are farthest apart and bent.
+// Largest distances take eight steps (scripts/measure-distances).
 constexpr int kSteps = 2, kMoreSteps = 8;
-// Points of the largest errors to first order: among so many is the farthest (chosen).
+// Number of points with the largest errors to first order. The farthest point is among them
+// (chosen).
 constexpr std::size_t kMostWorstPoints = 2048;
-// More steps are worth while for distances that are this part of the largest.
+// More steps are worth while for distances of at least this part of the largest one.
 constexpr double kNearlyLargest = 0.8;
 constexpr double kMostError = 0.005, kFar = 0.1;
 constexpr std::size_t kFewFaces = 1000;
 constexpr std::uint64_t kSeed = 3;
 
-const Context kAlone{.threads = 1};  // waking others takes longer than a few thousand points
+const Context kAlone{.threads = 1};  // waking threads takes longer than a few thousand points
 
 double square(double x) { return x * x; }
 
@@ -45,8 +46,8 @@ std::vector<double> steps_to_model(const RadialModel& model, const ErrorPoints& 
   return distances;
 }
 
-// Distances of the model's points on the rays of some points to the mesh, which is no farther than
-// the points.
+// Returns the distances to the mesh of the model's points on the rays of some points. The mesh is
+// no farther than the points.
 std::vector<double> distances_to_mesh(const MeshView& mesh, const Vec3& center,
                                       const RadialModel& model, const ErrorPoints& points,
                                       const Context& context) {
@@ -65,13 +66,13 @@ std::vector<double> distances_to_mesh(const MeshView& mesh, const Vec3& center,
   return distances;
 }
 
-// First order is measured at all points, and closest points correct it: sum d^2 = sum d_1^2 +
-// sum (d^2 - d_1^2), the last sum by a sample. No distance is larger than the radial error: with
-// chances in proportion to the square of that no point says more than its part.
+// Distances to first order are measured at all points. Closest points of a sample correct them: sum
+// d^2 = sum d_1^2 + sum (d^2 - d_1^2). No distance is above the radial error. With chances in
+// proportion to the square of that error, no sample point counts for more than its share.
 struct Sums {
   ProportionalSample sample;
   CorrectedSum there, back;
-  double model_area = 0;  // per area of the shape and point
+  double model_area = 0;  // sum of the stretch of all points
 
   explicit Sums(const PointErrors& errors) {
     std::vector<double> weights(errors.radial.size());
@@ -95,7 +96,7 @@ struct Sums {
   }
 };
 
-// Of each point the distance to the model, where that may be the largest.
+// Returns, for each point, the distance to the model if it may be the largest, else 0.
 std::vector<double> largest_to_model(const RadialModel& model, const MeasuredPoints& worst) {
   std::vector<double> distances(worst.points.size());
   const auto measure = [&](const std::vector<std::size_t>& indices, int steps) {
@@ -112,7 +113,7 @@ std::vector<double> largest_to_model(const RadialModel& model, const MeasuredPoi
   return distances;
 }
 
-// Those whose point of the model may be farther from the mesh than `most`.
+// Returns the points whose model points may be farther from the mesh than `most`.
 std::vector<std::size_t> farther_back(const PointErrors& errors, double most) {
   std::vector<double> to_shape = errors.to_shape;
   for (std::size_t i = 0; i < to_shape.size(); ++i) {
@@ -139,7 +140,7 @@ SampledDistances sampled_distances(const MeshView& mesh, const Vec3& center,
   const std::vector<std::size_t>& indices = sums.sample.indices;
   SampledDistances result{.to_model = largest_to_model(model, worst)};
   result.max = largest(result.to_model);
-  // All the way back at once: looking for the faces takes longest.
+  // All distances back are computed at once, because the search for the faces takes longest.
   ErrorPoints points = over_area.points.subset(indices);
   const std::vector<double> to_model = steps_to_model(model, points, kSteps);
   points.append(worst.points.subset(farther_back(worst.errors, result.max)));

@@ -1,5 +1,5 @@
-// Distances between a mesh and a model by the closest points of a sample, where faces are many:
-// method 5.
+// Distances between a mesh of many faces and a model,
+// by the closest points of a sample: method 5.
 #pragma once
 
 #include <vector>
@@ -18,24 +18,24 @@ struct MeasuredPoints {
 };
 
 struct SampledDistances {
-  double rms = 0;        // over area, the larger of both ways
-  double rms_error = 0;  // relative standard error that the sample leaves
-  double ratio = 1;      // of the way to the model: rms by closest points over that to first order
-  double max = 0;        // of both ways, at the worst points and at the model's on the same rays
-  // Of the worst points: to the model, 0 where it is not among the largest.
+  double rms = 0;        // over the area, the larger one of both ways
+  double rms_error = 0;  // relative standard error of the rms from the sample
+  double ratio = 1;      // mesh to model: rms by closest points over rms to first order
+  double max = 0;        // of both ways, at the worst points and the model's points on their rays
+  // For each of the worst points: its distance to the model, or 0 if it is not among the largest.
   std::vector<double> to_model;
 
-  // Faces are small, the sample is large enough, and the closest points of the model are those near
-  // the rays.
+  // Returns true if faces are small, the sample is large enough, and the closest points of the
+  // model are near the rays.
   bool suffice(const MeshView& mesh) const;
 };
-// `over_area` is spread evenly over the area; `worst` are those of the largest errors, or none. The
-// model is that of a mesh about its centre.
+// `over_area` are points spread evenly over the area; `worst` are points with the largest errors,
+// or none. The model is of a mesh about its centre.
 SampledDistances sampled_distances(const MeshView& mesh, const Vec3& center,
                                    const RadialModel& model, const MeasuredPoints& over_area,
                                    const MeasuredPoints& worst, const Context& context);
 
-// From points of the mesh to the closest point of the model that steps from the ray lead to.
+// Returns the distances of mesh points to the closest model points that steps from the rays find.
 std::vector<double> distances_to_model(const RadialModel& model, const ErrorPoints& points);
 
 }  // namespace rholm

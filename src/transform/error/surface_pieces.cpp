@@ -13,13 +13,13 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-constexpr int kMostHalvings = 60;  // a face is this many halvings from rounding at most
+constexpr int kMostHalvings = 60;  // after these a piece is as small as rounding
 constexpr std::uint64_t kSeed = 2;
-// What differs by less is the same in one unit of length and rounded apart in another: halvings do
-// not depend on it.
+// Values that differ by less count as equal: another unit of length may round equal values apart.
+// So halvings do not depend on the unit.
 constexpr double kSame = 1 + 1e-9;
 
-// Van Oosterom and Strackee 1983.
+// Computes the solid angle as in Van Oosterom and Strackee 1983.
 double solid_angle(const Corners& p) {
   const double a = norm(p[0]), b = norm(p[1]), c = norm(p[2]);
   const double volume = dot(p[0], cross(p[1], p[2]));
@@ -65,7 +65,7 @@ class Pieces {
     }
   }
 
-  // The share of n points that a piece should have.
+  // Returns the part of the n points that a piece should have.
   double share(const Corners& p, double area) const {
     return n_ / 2 * (area / area_ + solid_angle(p) / angle_);
   }
@@ -90,8 +90,8 @@ class Pieces {
     return dot(e, e);
   }
 
-  // A random point of each piece: middles would miss what is at the edges of faces, where errors
-  // are largest. Of too many pieces one in each whole unit of the sum of shares.
+  // Adds a random point of each piece: midpoints would miss the edges of faces, where errors are
+  // largest. If there are too many pieces, adds one in each whole unit of the sum of shares.
   void add_by_chance(const Corners& p, double area, const Vec3& normal, double points) {
     sum_ += points;
     const auto next = static_cast<double>(taken_);

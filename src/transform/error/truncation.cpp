@@ -22,7 +22,8 @@
 namespace rholm {
 namespace {
 
-// sqrt(||f - f_L||^2 / 4 pi), if the error of the coefficients leaves a hundredth of it.
+// Returns sqrt(||f - f_L||^2 / 4 pi), if the error of the coefficients changes it by a hundredth at
+// most.
 std::optional<double> parseval_rms(const Expansion& expansion, double precision) {
   if (!expansion.norm_squared) return std::nullopt;
   const double norm_squared = *expansion.norm_squared;
@@ -39,8 +40,8 @@ void predict(const Expansion& expansion, ErrorSites& sites, TruncationErrors& er
   errors.predicted_max_distance = strengths.distance * per;
 }
 
-// Of values and slopes at points, as in SumOptions: a hundred thousandth of the error, where that
-// is known.
+// Returns the precision of values and slopes at points, as in SumOptions: a hundred thousandth of
+// the error, where that is known.
 double measuring_precision(const Expansion& expansion, const std::optional<double>& exact_rms,
                            double precision) {
   if (!exact_rms) return std::clamp(precision, 1e-12, 1e-6);
@@ -48,25 +49,25 @@ double measuring_precision(const Expansion& expansion, const std::optional<doubl
   return std::clamp(1e-5 * *exact_rms / size, 1e-12, 1e-6);
 }
 
-// Where climbs to the largest distances begin (chosen).
+// Number of places where climbs to the largest distances begin (chosen).
 constexpr std::size_t kPeaks = 16, kClosestPeaks = 4;
-// Points over the area that may have the largest errors (chosen).
+// Number of points over the area that may have the largest errors (chosen).
 constexpr std::size_t kMostWorst = 2048;
 
-// A bound is looked for within this part of the largest error (chosen). Values may be off by so
-// many times the precision that they are computed with (chosen).
+// The search for a bound ends within this part of the largest error (chosen). Values may be off by
+// this many times the precision with which they are computed (chosen).
 constexpr double kEnoughAbove = 1.01, kValueDoubt = 10;
 
-// What is looked at closely: the worst of extreme points, `extreme` of them, and of those over the
-// area.
+// Points that are examined closely: `extreme` worst ones of the extreme points, then the worst
+// points over the area.
 struct Looked {
   ErrorPoints points;
   PointErrors errors;
   std::size_t extreme = 0;
 };
 
-// The largest distance to the model between points, from the distances at some of them. Distances
-// to the shape are to first order to the planes of faces, which are not the faces.
+// Climbs to the largest distance to the model between points, from the distances at some of them.
+// Distances to the shape are left out: to first order they are distances to planes, not to faces.
 void climb(const Looked& looked, const RadialModel& model, const PeakSearch& distances,
            std::size_t n_sites, ErrorSites& sites, TruncationErrors& errors) {
   errors.measured_max_distance =
@@ -78,14 +79,15 @@ void climb(const Looked& looked, const RadialModel& model, const PeakSearch& dis
 
 void climb_to_first_order(const Looked& looked, const RadialModel& model, ErrorSites& sites,
                           TruncationErrors& errors) {
-  const Context context{.threads = 1};  // waking others takes longer than a hundred points
+  const Context context{.threads = 1};  // waking threads takes longer than a hundred points
   climb(looked, model,
         {looked.errors.to_model,
          [&](const ErrorPoints& at) { return point_errors(at, model, true, context).to_model; }},
         kPeaks, sites, errors);
 }
 
-// Distances by closest points: of a sample where that is enough, else of trees of both surfaces.
+// Measures distances by closest points: of a sample where that is enough, else of trees of both
+// surfaces.
 void measure_closest(const Looked& looked, const MeasuredPoints& over_area,
                      const RadialModel& model, const Expansion& expansion, double precision,
                      const Context& context, ErrorSites& sites, TruncationErrors& errors) {
@@ -114,7 +116,7 @@ void measure_closest(const Looked& looked, const MeasuredPoints& over_area,
   errors.measured_max_distance = distances.max;
 }
 
-// The worst of the points over the area, each once: copies would stand for peaks of their own.
+// Returns the worst points over the area, each once: copies would count as peaks of their own.
 std::vector<std::size_t> worst_of(const PointErrors& errors) {
   std::vector<std::size_t> worst;
   for (const auto* values : {&errors.radial, &errors.to_model, &errors.to_shape}) {
@@ -137,7 +139,7 @@ Looked look_closely(WorstPoints extreme, const ErrorPoints& over_area, const Poi
   return looked;
 }
 
-// The places of the largest radial errors become some of the worst points, for distances there.
+// Adds the places of the largest radial errors to the worst points, for distances there.
 LargestRadial largest_error(const Expansion& expansion, const RadialModel& model,
                             WorstPoints& worst, const ErrorPoints& over_area,
                             const PointErrors& of_area, double rms, ErrorSites& sites,
@@ -149,7 +151,7 @@ LargestRadial largest_error(const Expansion& expansion, const RadialModel& model
   }
   known.append(over_area.subset(indices_of_largest(of_area.radial, kMostWorst)));
   LargestRadial found = largest_radial(expansion, model, known, values, rms, sites, context);
-  // Without the slope of a face: many are at vertices, where the plane of a face says nothing.
+  // Peaks have no slope of a face: many are at vertices, where the plane of a face is meaningless.
   ErrorPoints peaks = found.peaks.points;
   std::ranges::fill(peaks.cosines, 0.0);
   worst.points.append(peaks);
@@ -157,8 +159,8 @@ LargestRadial largest_error(const Expansion& expansion, const RadialModel& model
   return found;
 }
 
-// No radial error is larger: to a hundredth of the largest that was found, where that takes few
-// cells. None that is larger than the shape.
+// Returns a bound on all radial errors, within a hundredth of the largest error found if that takes
+// few cells. Returns nothing if the bound is larger than the shape.
 std::optional<double> bound_of_largest(const Expansion& expansion, const RadialModel& model,
                                        double largest_found, double precision, double diagonal,
                                        ErrorSites& sites, const Context& context) {
@@ -206,8 +208,8 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
   errors.distance_rms = rms_distance(of_area, 0);
   errors.rms = exact_rms ? exact_rms : rms_over_solid_angle(over_area, of_area, 0);
   errors.rms_is_exact = exact_rms.has_value();
-  // Those over the area for the largest errors too: at a degree too low for any face to be long the
-  // middle of one may err more than its corners.
+  // Points over the area count for the largest errors, too. At a degree so low that no face is
+  // long, the middle of a face may err more than its corners.
   WorstPoints worst = worst_points(sites.mesh(), sites.scan(), expansion, model,
                                    {.rms = *errors.rms,
                                     .radial = largest(of_area.radial),

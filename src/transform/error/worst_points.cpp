@@ -19,18 +19,18 @@
 namespace rholm {
 namespace {
 
-// Fewer points are measured exactly at once: a grid more costs as much (chosen).
+// Up to this many points are all measured exactly at once: one more grid costs as much (chosen).
 constexpr std::size_t kFew = 20'000;
-// First values differ from exact ones by this part of the errors: root mean square, relative to
-// them (chosen: six times it is a third of a root mean square).
+// Difference between first and exact values, as a part of the errors. Both are root mean squares
+// (chosen: six times the difference is a third of the errors).
 constexpr double kRough = 0.05;
 constexpr double kDeviations = 6;
-// So many are measured exactly at a time, the first time at least as many as closest points begin
-// at.
+// Number of points that are measured exactly at a time. The first time they are at least as
+// numerous as the points at which closest points begin.
 constexpr std::size_t kBatch = 10'000;
 
-// Waves of degree L fall to cos(0.87) = 0.65 between points of a lattice of 1.5/L, and to
-// cos(0.75) = 0.73 along an edge; a little less is kept.
+// Between points of a lattice of 1.5/L, waves of degree L fall to cos(0.87) = 0.65; along an edge
+// they fall to cos(0.75) = 0.73. A little less is kept.
 constexpr double kNearPeak = 0.6;
 // The largest number of dense points that get exact values (chosen: some milliseconds).
 constexpr std::size_t kMostDense = 16'384;
@@ -48,7 +48,7 @@ struct Kept {
   }
 };
 
-// The degrees from 1 on, and apart from them the mean, which single precision would round.
+// The degrees from 1 on. The mean is kept apart, because single precision would round it.
 template <typename T>
 struct RoughFunction {
   RoughFunction(const NonuniformPlan& plan, const Expansion& expansion, const Context& context)
@@ -66,11 +66,11 @@ struct RoughFunction {
   GridFunction<T> varying;
 };
 
-// Takes points one by one, and keeps those that matter.
+// Takes points one by one, and keeps the points that may have the largest errors.
 template <typename T>
 class Sieve {
  public:
-  // Points whose error is below `part` of the largest one seen so far are dropped, too.
+  // Also drops points whose error is below `part` of the largest one seen so far.
   Sieve(const RoughFunction<T>& function, const MeshView& mesh, const Vec3& center,
         const FaceScan& scan, double least, double part)
       : function_(function),
@@ -80,9 +80,9 @@ class Sieve {
         least_(least),
         part_(part) {}
 
-  // x from the centre, times the scale; owner: see ErrorPoints.
+  // Adds the point x, relative to the centre and times the scale. For `owner` see ErrorPoints.
   void add(const Vec3& x, std::int64_t owner) {
-    if (!(dot(x, x) > 0)) return;  // nobody sees it
+    if (!(dot(x, x) > 0)) return;  // the centre has no direction
     batch_.x[0][n_] = x.x;
     batch_.x[1][n_] = x.y;
     batch_.x[2][n_] = x.z;
@@ -116,7 +116,7 @@ class Sieve {
       if (!cosine) continue;
       const double r = norm(x);
       kept_.points.add(x / r, to_shape * r, *cosine, owners_[j]);
-      // What has no surface there comes first, to be refused.
+      // Where the gauge has no surface, its error comes first, so that it is refused.
       kept_.rough.push_back(value > 0 || !function_.gauge ? error
                                                           : std::numeric_limits<double>::max());
     }
@@ -124,7 +124,7 @@ class Sieve {
     n_ = 0;
   }
 
-  // 0 at vertices, which have no face.
+  // Returns 0 at vertices, which have no face.
   std::optional<double> cosine_at(const Vec3& x, std::int64_t owner) const {
     if (owner < 0) return 0.0;
     return face_cosine(mesh_, static_cast<std::size_t>(owner), center_, scan_, x);
@@ -149,12 +149,12 @@ Kept joined(const std::vector<Kept>& kept) {
   return all;
 }
 
-// What is kept of all extreme points, those of vertices first.
+// Returns the extreme points that are kept, points at vertices first.
 template <typename T>
 Kept sieve(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
            const NonuniformPlan& plan, double least, const Context& context) {
   const RoughFunction<T> function(plan, expansion, context);
-  constexpr std::size_t kVertices = 4096, kRuns = 8;  // of a task: some 100 us
+  constexpr std::size_t kVertices = 4096, kRuns = 8;  // sizes of a task of some 100 us
   const std::size_t n_runs = scan.sizes.angles2.size(),
                     first_run = parts(mesh.n_vertices, kVertices);
   std::vector<Kept> kept(first_run + parts(n_runs, kRuns));
@@ -183,13 +183,13 @@ Kept sieve(const MeshView& mesh, const FaceScan& scan, const Expansion& expansio
   return joined(kept);
 }
 
-// The dense points of some faces that are kept.
+// Returns the dense points of some faces that are kept.
 template <typename T>
 Kept sieve_dense(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
                  const std::vector<std::size_t>& faces, const NonuniformPlan& plan, double least,
                  const Context& context) {
   const RoughFunction<T> function(plan, expansion, context);
-  // At most this many parts: a face alone has at least ten points.
+  // Largest number of parts: a face alone has at least ten points.
   constexpr std::size_t kMostParts = 4096;
   const std::size_t grain = faces.size() / kMostParts + 1;
   std::vector<Kept> kept(parts(faces.size(), grain));
@@ -207,7 +207,7 @@ Kept sieve_dense(const MeshView& mesh, const FaceScan& scan, const Expansion& ex
   return joined(kept);
 }
 
-// Evenly through the file: they tell how large errors are at vertices.
+// Returns vertices evenly through the file, which tell how large errors are at vertices.
 ErrorPoints some_vertices(const MeshView& mesh, const Vec3& center, const FaceScan& scan) {
   constexpr std::size_t kSample = 8192;  // chosen
   const std::size_t step = mesh.n_vertices / kSample + 1;
@@ -227,11 +227,11 @@ double root_mean_square(const std::vector<double>& values) {
   return values.empty() ? 0 : std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-// The first value from which on a point is kept, `low` being the smaller of the largest radial
-// error and the largest distance that are known: as many as are measured at a time where so many
-// are near, by the radial errors of a sample of the vertices.
+// Returns the first value from which on points are kept. `low` is the smaller one of the largest
+// radial error and the largest distance known. The radial errors of a sample of the vertices give
+// the value that keeps some 2 kBatch points.
 double least_kept(std::vector<double> sample, std::size_t n_vertices, double low) {
-  constexpr double kNear = 0.9, kFar = 0.5;  // of the largest (chosen)
+  constexpr double kNear = 0.9, kFar = 0.5;  // parts of `low` (chosen)
   const auto part = static_cast<double>(sample.size()) / static_cast<double>(n_vertices);
   const auto rank = static_cast<std::size_t>(part * 2 * kBatch);
   if (rank >= sample.size()) return kFar * low;
@@ -240,9 +240,9 @@ double least_kept(std::vector<double> sample, std::size_t n_vertices, double low
   return std::clamp(*at, kFar * low, kNear * low);
 }
 
-// For values that are off by a small part of `rms`, the root mean square of the radial errors.
+// Returns a plan for values with errors of a small part of `rms`, the rms of the radial errors.
 NonuniformPlan rough_plan(const Expansion& expansion, std::size_t n, double rms, double farthest) {
-  // Errors of r are r^2 times those of 1/r, most where the surface is farthest.
+  // Errors of r are r^2 times errors of 1/r, and largest where the surface is farthest.
   const bool gauge = expansion.function == RadialFunction::kGauge;
   if (gauge) rms /= farthest * farthest;
   const int degree = expansion.coefficients.degree();
@@ -317,7 +317,7 @@ DensePoints dense_points(const MeshView& mesh, const FaceScan& scan, const Expan
   for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
     if (scan.is_used(i)) farthest = std::max(farthest, norm(mesh.vertex(i) - expansion.center));
   }
-  // On a sphere there are about 20 L^2 (one in each 1/L^2, and half of them on two pieces).
+  // A sphere has about 20 L^2 dense points: one in each 1/L^2, and half of them on two pieces.
   const double expected = 20.0 * degree * degree;
   const NonuniformPlan plan =
       rough_plan(expansion, static_cast<std::size_t>(expected), rms, farthest);

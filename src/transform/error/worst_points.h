@@ -1,4 +1,4 @@
-// The points of a mesh at which an expansion errs most, found without exact sums at all of them.
+// Finds the points of a mesh at which an expansion errs most, without exact sums at all points.
 #pragma once
 
 #include <cstddef>
@@ -12,33 +12,33 @@
 namespace rholm {
 
 struct WorstOptions {
-  // Root mean square of the radial errors, about.
+  // About the root mean square of the radial errors.
   double rms = 0;
-  // The largest radial error and the largest distance are at least these.
+  // The largest radial error and the largest distance are at least these values.
   double radial = 0, distance = 0;
 };
 
 struct WorstPoints {
-  ErrorPoints points;  // some of extreme_points(), the largest radial errors first, or all of them
-  PointErrors errors;  // with distances
-  std::size_t seen = 0;  // of how many
+  ErrorPoints points;    // all of extreme_points(), or some: the largest radial errors first
+  PointErrors errors;    // with distances
+  std::size_t seen = 0;  // number of points examined
 };
-// Has the points of the largest radial error and of the largest distance, and so many of the next
-// radial errors that climbs and closest points can begin there. All have values of a few
-// hundredths of the errors first; distances are no larger than radial errors, so that exact values
-// and slopes are wanted from the largest radial error down to the largest distance found.
-// `exact`: the model of the expansion that what is found is measured by.
+// Returns the points of the largest radial error and of the largest distance. Adds points of the
+// next radial errors, at which climbs and closest points can begin. All points first have values to
+// a few hundredths of the errors. Distances are no larger than radial errors. So exact values and
+// slopes are needed from the largest radial error down to the largest distance found. `exact` is
+// the model of the expansion for exact values.
 WorstPoints worst_points(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
                          const RadialModel& exact, const WorstOptions& options,
                          const Context& context);
 
-// Points on faces that are long against 1/L: the points of worst_points() lie far apart there.
+// Points on faces that are long against 1/L, where the points of worst_points() are far apart.
 struct DensePoints {
-  ErrorPoints points;    // some, the largest radial errors first, but for the order of near ones
-  std::size_t seen = 0;  // of how many, at most 1.5/L apart
+  ErrorPoints points;    // some, in descending order of approximate radial errors
+  std::size_t seen = 0;  // number of points examined, at most 1.5/L apart
 };
-// Has the points from which climbs may reach the largest radial error. `rms`: the root mean square
-// of the radial errors, about; `largest_known`: the largest is at least this.
+// Returns the points from which climbs may reach the largest radial error. `rms` is about the rms
+// of the radial errors; the largest radial error is at least `largest_known`.
 DensePoints dense_points(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
                          double rms, double largest_known, const Context& context);
 

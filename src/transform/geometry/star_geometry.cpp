@@ -49,13 +49,13 @@ double unit_scale(const MeshView& mesh, const Vec3& center, const Context& conte
   double largest = 0;
   if (mesh.n_vertices > 0) {
     const VertexRange range = vertex_range(mesh, context);
-    if (!range.finite) validate(mesh);  // throws, and says which
+    if (!range.finite) validate(mesh);  // throws and names the coordinate
     const double c[3] = {center.x, center.y, center.z};
     for (int k = 0; k < 3; ++k) {
       largest = std::max({largest, std::abs(range.min[k] - c[k]), std::abs(range.max[k] - c[k])});
     }
   }
-  // Between these the scale, its square and what is scaled back stay normal numbers.
+  // Within these limits the scale, its square and values that are scaled back are normal numbers.
   if (!(largest > 1e-150 && largest < 1e150)) {
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("the largest coordinate from the centre is {:g}, outside 1e-150 ... "
@@ -79,7 +79,7 @@ StarGeometry star_geometry(const StarChart& chart) {
     face.twice_area = normal.twice_area;
     face.degenerate = normal.degenerate;
     if (face.degenerate) continue;
-    // The corner nearest to the centre loses least.
+    // The corner nearest to the centre loses least to rounding.
     const Vec3& nearest = *std::min_element(
         p.begin(), p.end(), [](const Vec3& a, const Vec3& b) { return dot(a, a) < dot(b, b); });
     face.d = dot(face.twice_area, nearest) / norm(face.twice_area);

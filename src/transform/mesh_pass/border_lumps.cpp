@@ -20,7 +20,8 @@ void BorderSums<L>::add(const BorderLumps<L>& part) {
 
 template <typename L>
 void BorderSums<L>::combine() {
-  // Where each is goes with it: numbers are sorted faster than places of them.
+  // The place of each vertex is sorted together with its number: this is faster than sorting
+  // places.
   const std::size_t n = sums_.vertices.size();
   std::vector<std::uint64_t> order(n);
   for (std::size_t i = 0; i < n; ++i) order[i] = std::uint64_t{sums_.vertices[i]} << 32 | i;

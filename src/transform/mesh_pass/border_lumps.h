@@ -11,7 +11,7 @@
 
 namespace rholm {
 
-// Vertices by their number in the mesh, lumps_per_vertex() lumps of each.
+// Numbers of vertices in the mesh, and lumps_per_vertex() lumps for each.
 template <typename L>
 struct BorderLumps {
   std::size_t per_vertex = 1;
@@ -24,21 +24,21 @@ struct BorderLumps {
   }
 };
 
-// Their sums over parts: exact, whatever the order.
+// Sums lumps over parts; the sums are exact in any order.
 template <typename L>
 class BorderSums {
  public:
   explicit BorderSums(bool hessians) { sums_.per_vertex = lumps_per_vertex(hessians); }
   void add(const BorderLumps<L>& part);
-  // Takes those out that is_done() is true of: each once, in order.
+  // Takes out the vertices for which is_done() is true: each once, in order.
   BorderLumps<L> take(const std::function<bool(std::uint32_t vertex)>& is_done);
-  // Each vertex that is left once, in order; no more may be added.
+  // Returns each remaining vertex once, in order. No more lumps may be added.
   const BorderLumps<L>& finish();
 
  private:
   void combine();
   BorderLumps<L> sums_;
-  std::size_t combined_ = 0;  // so many vertices were left when it was last done
+  std::size_t combined_ = 0;  // number of vertices after the last combine()
 };
 
 }  // namespace rholm

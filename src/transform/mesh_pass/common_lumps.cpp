@@ -13,7 +13,7 @@ std::size_t CommonLumps<L>::most_borrowed() const {
   return std::max<std::size_t>(2, kBytes / each);
 }
 
-// The one that was given back last: it is still in the cache.
+// Returns the array that was given back last: it is still in the cache.
 template <typename L>
 VertexLump<L>* CommonLumps<L>::borrow() {
   const std::lock_guard lock(mutex_);
@@ -44,7 +44,7 @@ const VertexLump<L>* CommonLumps<L>::add_up(std::size_t first, std::size_t n) {
 
 namespace {
 
-// Vertices that are left out if they have nothing: a part has some runs of them.
+// Vertices in a run; a run without lumps is left out, because a part has only some of the runs.
 constexpr std::size_t kWritten = 64;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Lumps that the parts of a mesh have in common.
+// Lumps that all parts of a mesh have in common.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,17 @@
 
 namespace rholm {
 
-// For parts whose vertices lie among those of others: whoever works one of them borrows lumps of
-// all vertices that nobody else adds to. Sums of lumps are exact: it is all the same to whose a
-// part was added.
+// For parts whose vertices lie among the vertices of other parts. A thread that computes a part
+// borrows an array of lumps of all vertices, to which nobody else adds. Sums of lumps are exact: it
+// does not matter to which array a part was added.
 template <typename L>
 class CommonLumps {
  public:
-  // lumps_per_vertex() of each of n vertices.
+  // Has `per_vertex` = lumps_per_vertex() lumps for each of n vertices.
   CommonLumps(std::size_t n_vertices, std::size_t per_vertex)
       : n_vertices_(n_vertices), per_vertex_(per_vertex) {}
 
-  // So many may be borrowed at a time: two, or as many as take a gigabyte.
+  // Returns how many arrays may be borrowed at a time: two, or the number that takes a gigabyte.
   std::size_t most_borrowed() const;
 
   class Loan {
@@ -37,15 +37,15 @@ class CommonLumps {
     VertexLump<L>* lumps_;
   };
 
-  // When all have been given back: the sums of n vertices from `first` on. To be called once for
-  // each vertex, before lumps() and write().
+  // Returns the sums of n vertices from `first` on, after all arrays have been given back. Called
+  // once for each vertex, before lumps() and write().
   const VertexLump<L>* add_up(std::size_t first, std::size_t n);
   const VertexLump<L>* lumps(std::size_t first) const {
     return arrays_.front().data() + per_vertex_ * first;
   }
 
-  // The sums as bytes; and to lumps that are borrowed for it what another process wrote. Throws Io
-  // for bytes that are no lumps of as many vertices.
+  // write() writes the sums as bytes; add_written() adds what another process wrote, to borrowed
+  // lumps. Throws Io for bytes that are not lumps of the same number of vertices.
   void write(ByteWriter& writer) const;
   void add_written(ByteReader& reader);
 

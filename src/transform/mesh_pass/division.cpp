@@ -11,8 +11,8 @@
 namespace rholm {
 namespace {
 
-// Chosen: a part and what is between it and others are large against its rim, and its lumps (8 ...
-// 50 MB) small.
+// Smallest part of a large mesh, and smallest large mesh. Chosen: parts are large against their
+// borders, and their lumps (8 ... 50 MB) are small.
 constexpr std::size_t kLargeSize = std::size_t{1} << 20, kLargeMesh = std::size_t{1} << 23;
 
 }  // namespace
@@ -29,7 +29,7 @@ Division divide_triangles(std::size_t n_triangles, std::size_t wanted) {
 
 std::size_t part_count(std::size_t n_triangles, int degree, std::size_t grids) {
   if (n_triangles <= kLargeMesh) return grids;
-  // A grid has some 3 L^2 cells, each of which costs a tenth of a triangle to make and to add.
+  // A grid has some 3 L^2 cells. Each costs a tenth of a face to make and to add.
   const auto degrees = static_cast<std::size_t>(degree);
   const std::size_t size = std::max(kLargeSize, 2 * degrees * degrees);
   return (n_triangles + size - 1) / size;
@@ -41,7 +41,7 @@ IndexRange index_range(const MeshView& mesh, std::size_t first, std::size_t n) {
   const std::byte* record = mesh.triangles + first * stride;
   Four low = {UINT32_MAX, UINT32_MAX, UINT32_MAX, 0}, high = {};
   std::size_t t = 0;
-  // Records are read with 4 bytes more, but for the last.
+  // Each record but the last is read with 4 bytes beyond it.
   for (; t + 1 < n; ++t, record += stride) {
     Four corners;
     std::memcpy(&corners, record, sizeof corners);
@@ -63,7 +63,7 @@ IndexRange index_range(const MeshView& mesh, std::size_t first, std::size_t n) {
 }
 
 bool parts_overlap(const MeshView& mesh, const Division& division) {
-  // Where vertices are far more than the triangles have, lumps of all of them are too many.
+  // If vertices are more than the faces can have, lumps of all vertices are too many.
   if (mesh.n_vertices > mesh.n_triangles) return false;
   constexpr std::size_t kLooks = 16;  // chosen: some 30 us
   std::size_t covered = 0;

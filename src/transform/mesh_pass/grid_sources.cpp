@@ -21,7 +21,7 @@ void put(SourceBatch<T>& batch, std::size_t n, const Vec3& x, double weight) {
   batch.value[n] = static_cast<T>(weight);
 }
 
-// Over weights, in four sums that do not wait for each other.
+// Returns a sum over weights, by four sums that do not wait for each other.
 template <typename Term>
 double sum_of(std::span<const Node> nodes, const Term& term) {
   double sums[4] = {};
@@ -33,10 +33,10 @@ double sum_of(std::span<const Node> nodes, const Term& term) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-// What a node counts in the sum of squares. The edges of a face that is seen edge on stand at right
-// angles to their gradient; where that is level they lie on a meridian, all of them alike to the
-// columns of the grid, and windows err up to three times as much as on even directions (walls seen
-// edge on of pass_test).
+// Returns the node's term in the sum of squares. The edges of a face that is seen edge on are at
+// right angles to their gradient. If the gradient is level, these edges lie on a meridian and are
+// alike for the columns of the grid. Then windows err up to three times as much as on even
+// directions (walls seen edge on in pass_test).
 double counted2(const GradientNode& node, int degree) {
   const double square = dot(node.weight, node.weight);
   const bool level = std::pow(4 * degree * node.weight.z, 2) <= square;
@@ -146,8 +146,8 @@ void PartSink<T>::sum_undivided() {
   if (undivided_.empty()) return;
   const int degree = plan_.divided.degree;
   if (part_.undivided.degree() != degree) part_.undivided = Coefficients(degree);
-  // The precision is relative to sums with random signs, (L + 1) sqrt(sum w^2 / 4 pi). Walls stand
-  // in step with the grid, those of a gear all of them: errors may all add up.
+  // The precision is relative to sums with random signs, (L + 1) sqrt(sum w^2 / 4 pi). Walls may be
+  // aligned with the grid, as all walls of a gear are. Then errors may all add up.
   double modulus = 0;
   for (const double w : undivided_weights_) modulus += std::abs(w);
   const double relative = plan_.allowed.window / ((degree + 1.0) * modulus / std::sqrt(4 * kPi));

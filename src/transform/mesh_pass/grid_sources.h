@@ -1,4 +1,4 @@
-// Sources of the mesh pass on their way to a grid.
+// Collects sources of the mesh pass and spreads them to a grid.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace rholm {
 
-// One grid and the sources that wait for it; windows in T.
+// One grid and the sources that wait for it; T is the type of the windows.
 template <typename T>
 class GridSources {
  public:
@@ -28,27 +28,27 @@ class GridSources {
 
   void add(std::span<const Node> nodes);
   void add(const GradientNode& node);
-  // Vertices as load_vertices() takes them; counted only if they have Hessians.
+  // Adds vertices in the form of load_vertices(). They are counted only if they have Hessians.
   void add_vertices(const MeshView& mesh, const std::uint32_t* numbers, std::size_t n,
                     const BlockParameters& parameters, const VertexLump<LumpOf<T>>* lumps);
   void flush();
 
-  // Sum of squares of all weights that were counted, gradients by gradient_as_weight(), nodes on a
-  // meridian three times.
+  // Sum of squares of all counted weights. Gradients count by gradient_as_weight(); nodes on a
+  // meridian count three times.
   double source2() const { return source2_; }
-  // And of L^2 times Hessians.
+  // Sum of squares of L^2 times Hessians.
   double hessian2() const { return hessian2_; }
   GridSpreader<T> take_spreader() { return std::move(spreader_); }
-  // The cells, once all is flushed.
+  // The cells, once all sources are flushed.
   double* cells() { return spreader_.grid(); }
-  // What another grid has spread counts as this one's; its cells are added by whoever calls.
+  // Counts the sources that another grid has spread as this grid's. The caller adds its cells.
   void count_as_own(const GridSources& other) {
     source2_ += other.source2_;
     hessian2_ += other.hessian2_;
   }
-  // What is in the grid, once all is flushed: of its cells those that are not zero.
+  // Writes the content of the grid, once all is flushed. Zero cells are left out.
   void write(ByteWriter& writer);
-  // Adds what another grid of the same kind has written.
+  // Adds the content that another grid of the same kind has written.
   void add_written(ByteReader& reader);
 
  private:
@@ -63,7 +63,7 @@ class GridSources {
   std::size_t n_values_ = 0, n_gradients_ = 0;
 };
 
-// A part's nodes on their way to its grid.
+// Collects a part's nodes for its grid.
 template <typename T>
 class PartSink : public NodeSink {
  public:

@@ -41,7 +41,7 @@ void NodesBetween::add_edge(std::uint32_t i, std::uint32_t j, const HalfEdge& ed
 
 void NodesBetween::write_edge(std::uint32_t low, std::uint32_t high, const HalfEdge& edge) {
   const Vec3 a = vertices_[low], b = vertices_[high], sum = a + b;
-  if (edge.rule == 1) return nodes_.add(sum, edge.weight);  // a direction is what counts
+  if (edge.rule == 1) return nodes_.add(sum, edge.weight);  // only the direction counts
   nodes_.add(sum + a, edge.weight);
   nodes_.add(sum + b, edge.weight);
 }

@@ -1,4 +1,4 @@
-// Nodes of lumped triangles, between the vertices: those of Hermite's rules with Hessians.
+// Nodes between the vertices of lumped faces, by Hermite's rules with Hessians.
 #pragma once
 
 #include <array>
@@ -12,26 +12,26 @@
 
 namespace rholm {
 
-// Half-edges wait for their twins: both have the same nodes unless a rule's limit lies between what
-// rounding makes of their lengths.
+// Half-edges wait for their twins. Both have the same nodes, unless rounding puts their lengths on
+// two sides of a rule's limit.
 class NodesBetween {
  public:
   NodesBetween(const ScaledVertices& vertices, NodeSink& sink);
 
-  // Those of the block's first n triangles that are lumped.
+  // Adds the nodes of the lumped faces among the block's first n faces.
   template <typename T>
   void add(const MeshView& mesh, std::size_t first, std::size_t n, const TriangleBlock<T>& block);
-  // What is left.
+  // Writes the nodes that are left.
   void flush();
 
  private:
   struct HalfEdge {
     std::uint32_t rule = 0;
-    double weight = 0;  // of each node
+    double weight = 0;  // weight of each node
   };
   void add_edge(std::uint32_t i, std::uint32_t j, const HalfEdge& edge);
   void write_edge(std::uint32_t low, std::uint32_t high, const HalfEdge& edge);
-  // With the weights of its centre and of the nodes of each orbit.
+  // Writes nodes with the weights of the centre and of the nodes of each orbit.
   void write_face(const std::array<Vec3, 3>& p, const HermiteFace& rule, double center,
                   const std::array<double, 2>& orbits);
 

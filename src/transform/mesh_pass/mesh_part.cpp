@@ -6,7 +6,7 @@
 namespace rholm {
 namespace {
 
-// The numbers that both ways have in the same order.
+// Visits the numbers that reading and writing have in the same order.
 template <typename Part, typename Archive>
 void visit_numbers(Part& part, Archive& archive) {
   archive.value(part.sums);

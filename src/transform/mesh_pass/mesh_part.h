@@ -1,7 +1,7 @@
-// What one part of the triangles leaves, but for the grid it is spread to.
+// The results of one part of the faces, except for the grid to which it is spread.
 //
-// The pass is the sum of its parts in their order: of what is here, and of the cells of their
-// grids. Whoever works a part, another process too, the sum has the same bits.
+// The pass is the sum of its parts in their order: of these results and of the cells of their
+// grids. The sum has the same bits, whichever thread or process computes a part.
 #pragma once
 
 #include <cstddef>
@@ -17,27 +17,27 @@
 
 namespace rholm {
 
-// Single precision goes with sums in whole quanta of 32 bits.
+// Single precision has sums in whole quanta of 32 bits.
 template <typename T>
 using LumpOf = std::conditional_t<sizeof(T) == 4, std::int32_t, double>;
 
 template <typename T>
 struct MeshPart {
   BlockSums sums = no_triangles();
-  double mean = 0;  // int r dOmega over triangles with nodes for it
+  double mean = 0;  // int r dOmega over faces with nodes for it
   std::vector<SampledHalfEdge> half_edges;
-  double weight = 0;                // sum of weights, of all that are divided by l(l+1)
-  double modulus = 0;               // and of their moduli
-  std::size_t nodes = 0;            // of all
+  double weight = 0;                // sum of the weights that are divided by l(l+1)
+  double modulus = 0;               // sum of the moduli of these weights
+  std::size_t nodes = 0;            // number of all nodes
   double node_error2 = 0;           // see NodeWriter::error2()
-  std::vector<float> block_errors;  // of each block, what the model says it leaves, l2
-  Coefficients undivided;           // of nodes that are not divided by l(l+1), if there are any
-  LumpSums lumps;                   // of the vertices that no other part has
-  double border_weight = 0;         // of those below, in quanta: their sum
+  std::vector<float> block_errors;  // error of each block by the model, l2
+  Coefficients undivided;           // sum of nodes that are not divided by l(l+1), if any
+  LumpSums lumps;                   // sums over the vertices that no other part has
+  double border_weight = 0;         // sum of the weights in `border`, in quanta
   BorderLumps<LumpOf<T>> border;
 };
 
-// read_part() throws Io for bytes that are not those of a part.
+// read_part() throws Io for bytes that are not a part.
 template <typename T>
 void write(const MeshPart<T>& part, ByteWriter& writer);
 template <typename T>

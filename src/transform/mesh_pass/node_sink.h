@@ -1,4 +1,4 @@
-// Nodes, and where those who find them hand them on.
+// Nodes, and the interface to pass them on.
 #pragma once
 
 #include <array>
@@ -15,22 +15,22 @@ struct Node {
   Vec3 x;  // relative to the centre, scaled, of any length
   double weight;
 };
-// weight . grad of Y(x/|x|) with respect to x.
+// The source weight . grad of Y(x/|x|) with respect to x.
 struct GradientNode {
   Vec3 x, weight;
 };
 
-// Point sources as they are found, weights alone many at a time.
+// Receives point sources as they are found; weights alone come many at a time.
 class NodeSink {
  public:
   virtual ~NodeSink() = default;
   virtual void add(std::span<const Node> nodes) = 0;
   virtual void add_gradient(const GradientNode& node) = 0;
-  // Into the sum that is not divided by l(l+1).
+  // Adds to the sum that is not divided by l(l+1).
   virtual void add_undivided(const Vec3& x, double weight) = 0;
 };
 
-// Vertices relative to the centre, scaled: the corners of a TriangleBlock.
+// Vertices relative to the centre, scaled, like the corners of a TriangleBlock.
 struct ScaledVertices {
   const MeshView& mesh;
   Vec3 center;  // scaled
@@ -38,7 +38,7 @@ struct ScaledVertices {
   Vec3 operator[](std::uint32_t i) const { return scale * mesh.vertex(i) - center; }
 };
 
-// Hands weights on many at a time.
+// Collects weights, and passes many on at a time.
 class NodeBuffer {
  public:
   explicit NodeBuffer(NodeSink& sink) : sink_(sink) {}

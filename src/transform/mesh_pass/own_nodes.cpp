@@ -13,10 +13,10 @@
 namespace rholm {
 namespace {
 
-// Elements longer than half their distance are halved: beyond, x/|x| bends so much that rules
-// for plane waves say little.
+// Elements longer than half their distance are halved. In longer elements x/|x| bends so much that
+// rules for plane waves are not reliable.
 constexpr double kLongest = 0.5;
-constexpr int kMaxDepth = 100;  // after so many halvings doubles resolve nothing
+constexpr int kMaxDepth = 100;  // doubles resolve nothing after these halvings
 
 [[noreturn]] void throw_on_surface() {
   throw Error(ErrorCode::kInvalidInput,
@@ -40,13 +40,13 @@ Extent extent(const std::array<Vec3, 3>& p, double distance, int degree) {
   return most;
 }
 
-// Squares of the lengths of the edges, edge i from corner i on.
+// Returns the squares of the edges' lengths; edge i begins at corner i.
 std::array<double, 3> edge_squares(const std::array<Vec3, 3>& p) {
   const Vec3 a = p[1] - p[0], b = p[2] - p[1], c = p[0] - p[2];
   return {dot(a, a), dot(b, b), dot(c, c)};
 }
 
-// A lower bound of the distance from the centre, close where edges are short.
+// Returns a lower bound on the distance from the centre, close where edges are short.
 double distance_of(const Vec3& a, const Vec3& b) {
   const double nearest = std::sqrt(std::min(dot(a, a), dot(b, b)));
   const Vec3 e = b - a;
@@ -61,16 +61,17 @@ double distance_of(const std::array<Vec3, 3>& p) {
   return reach < 0.1 * nearest ? nearest - reach : triangle_distance(p);
 }
 
-// Of the triangle, at this distance, and its edges; d2: normal times a corner, twice the area.
+// Returns the crowd of the face, at this distance, and of its edges; `d2` is the normal of length
+// twice the area, times a corner.
 Crowd crowd_of(const std::array<Vec3, 3>& p, double d2, double distance, int degree) {
   const std::array<double, 3> r = {norm(p[0]), norm(p[1]), norm(p[2])}, e2 = edge_squares(p);
-  double chord2 = 0;  // between directions: of an edge (e^2 - (r_i - r_j)^2) / (r_i r_j)
+  double chord2 = 0;  // of directions; of an edge: (e^2 - (r_i - r_j)^2) / (r_i r_j)
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = i == 2 ? 0 : i + 1;
     chord2 = std::max(chord2, (e2[i] - (r[i] - r[j]) * (r[i] - r[j])) / (r[i] * r[j]));
   }
   const double length = degree * std::sqrt(chord2);
-  // A triangle's height is twice its area over its length.
+  // A face's height is twice its area over its length.
   const double twice_area =
       static_cast<double>(degree) * degree * std::abs(d2) / (distance * distance * distance);
   return {.per_wave = twice_area > 0 ? static_cast<float>(length / twice_area) : 0.0F,
@@ -81,16 +82,17 @@ bool is_long(double length2, double distance) {
   return !(length2 <= kLongest * kLongest * distance * distance);
 }
 
-// Pieces leave errors of their own, which add up in squares: of `share` of an element.
+// Returns the allowance of a piece, which is `share` of an element: errors of pieces add up in
+// squares.
 NodeAllowance part_of(NodeAllowance allowance, double share) {
   if (share < 1) allowance.allowed *= std::sqrt(share);
   return allowance;
 }
 
-// Nodes of r dOmega = d_T dS / |x|^2; `factor`: d_T times the area. A piece may have its part of
-// `allowance`, or the part `relative` of its own integral: all have one sign, and near a plane
-// through the centre no share of the whole is as small as what is to be kept there.
-// Returns the sum of the squares of what is left.
+// Visits nodes of r dOmega = d_T dS / |x|^2; `factor` is d_T times the area. A piece may have its
+// part of `allowance`, or the part `relative` of its own integral. All integrals have one sign.
+// Near a plane through the centre, no share of the whole is so small that it keeps the error there.
+// Returns the sum of the squares of the errors.
 template <typename Visit>
 double visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllowance& allowance,
                     double relative, int depth, const Visit& visit) {
@@ -99,7 +101,7 @@ double visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllow
   if (factor == 0) return 0;
   FaceRule rule;
   if (!is_long(std::ranges::max(edge_squares(p)), distance)) {
-    // 1/|x|^2 counts for two degrees more.
+    // 1/|x|^2 counts as two degrees more.
     Extent z = extent(p, distance, allowance.degree);
     z.wave2 = std::pow(std::sqrt(z.wave2) + 2 * std::sqrt(z.bend2), 2);
     const double weight = factor / (distance * distance);
@@ -140,13 +142,13 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
   const FaceNormal normal = face_normal(p);
   if (normal.degenerate) return;
   const Vec3& n = normal.twice_area;
-  // The corner nearest to the centre loses least.
+  // The corner nearest to the centre loses least to rounding.
   const Vec3& nearest = *std::min_element(
       p.begin(), p.end(), [](const Vec3& a, const Vec3& b) { return dot(a, a) < dot(b, b); });
   const double d2 = dot(n, nearest);
   const double slope = std::abs(d2) / (norm(n) * norm(nearest));
-  // Bounded terms need all edges of a face. Beside what grazes, they are for weights whose rounding
-  // is more than a face may leave.
+  // Bounded terms need all edges of a face. They are for grazing faces, and for weights whose
+  // rounding is more than the allowed error of a face.
   const bool whole = face && edges[0] && edges[1] && edges[2];
   const bool cancels = kWeightRounding * dot(n, n) > options_.divided.allowed * std::abs(d2);
   const bool grazing = slope < grazing_ || (whole && cancels);
@@ -169,7 +171,8 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
 }
 
 void NodeWriter::add_edge(std::uint32_t i, std::uint32_t j, HalfEdge edge) {
-  // As seen from its lower vertex: a weight knows no direction, a gradient changes sign.
+  // The half-edge is seen from its lower vertex: a weight has no direction, a gradient changes
+  // sign.
   if (j < i) edge.gradient = -edge.gradient;
   const auto join = [](HalfEdge& twin, const HalfEdge& other) {
     twin.weight += other.weight;
@@ -202,8 +205,8 @@ void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& across, const Vec
   const Vec3 e = b - a;
   EdgeRule rule;
   if (!is_long(dot(e, e), distance)) {
-    // A gradient is up to L / |x| times the harmonic, and bends more (6 times;
-    // adversarial_test judges).
+    // A gradient is up to L / |x| times the harmonic, and bends more (6 times; adversarial_test
+    // checks it).
     const double slope = 2 * norm(across) * options_.divided.degree / distance;
     Extent z = extent(a, b, distance, options_.divided.degree);
     z.crowd = edge.crowd;
@@ -252,7 +255,7 @@ double radius_integral(const std::array<Vec3, 3>& corners, double allowed) {
   if (normal.degenerate) return 0;
   const double factor = dot(normal.twice_area, corners[0]) / 2;
   const double distance = triangle_distance(corners);
-  // int r dOmega is at least this part of the sphere times the smallest radius.
+  // The modulus of int r dOmega is at least the solid angle times the smallest radius.
   const double least = std::abs(solid_angle(corners)) * distance;
   const NodeAllowance allowance{.degree = 0, .allowed = allowed * least, .divided = false};
   double sum = 0;

@@ -1,4 +1,4 @@
-// Nodes of the triangles that are not lumped, for the mesh pass.
+// Nodes of the faces that are not lumped, for the mesh pass.
 #pragma once
 
 #include <array>
@@ -16,39 +16,39 @@ struct NodeOptions {
   NodeAllowance undivided;
 };
 
-// Half-edges that have met their twins are summed: an edge of two triangles gets its nodes once.
+// Sums half-edges that have met their twins: an edge of two faces gets its nodes once.
 class NodeWriter {
  public:
   NodeWriter(const NodeOptions& options, const ScaledVertices& vertices, NodeSink& sink);
-  // Of its edges those that are asked for.
+  // Adds the edges that are requested, and the face if it is.
   void add_triangle(const std::array<Vec3, 3>& corners,
                     const std::array<std::uint32_t, 3>& vertices,
                     const std::array<bool, 3>& edges = {true, true, true}, bool face = true);
-  // Half-edges and nodes that are left.
+  // Writes the half-edges and nodes that are left.
   void flush();
-  // Sum of the squares of what the rules leave of the elements written so far: the square of the
-  // l2 norm of their errors, which add up like random numbers.
+  // Returns the sum of the squares of the rules' errors, for all elements written so far. It is the
+  // square of the l2 norm of the errors, which add up like random numbers.
   double error2() const { return error2_; }
 
  private:
-  // Of an edge from its lower vertex to its higher one, a to b.
+  // An edge seen from its lower vertex a to its higher vertex b.
   struct HalfEdge {
     double weight = 0;   // W
-    float gradient = 0;  // of -(a x b) . grad
+    float gradient = 0;  // factor of -(a x b) . grad
     Crowd crowd;
   };
   void add_edge(std::uint32_t i, std::uint32_t j, HalfEdge edge);
   void write_edge(std::uint32_t low, std::uint32_t high, const HalfEdge& edge);
-  // The piece from a to b, `share` of the whole; `across`: the gradient's factor.
+  // Writes the piece from a to b, `share` of the whole; `across` is the gradient's factor.
   void write_piece(const HalfEdge& edge, const Vec3& across, const Vec3& a, const Vec3& b,
                    double share);
-  // A piece, `share` of the whole.
+  // Writes a piece, `share` of the whole face.
   void write_face(const std::array<Vec3, 3>& p, double weight, const Crowd& crowd, double distance,
                   double share, int depth);
 
   NodeOptions options_;
   ScaledVertices vertices_;
-  double grazing_;  // d_T / r
+  double grazing_;  // limit of d_T / r
   NodeSink& sink_;
   NodeBuffer nodes_;
   double error2_ = 0;
@@ -56,7 +56,7 @@ class NodeWriter {
   TwinCache<HalfEdge> waiting_;
 };
 
-// d_T int_T dS/|x|^2 of a triangle, its part of int r dOmega, but for the part `allowed` of it.
+// Returns d_T int_T dS/|x|^2 of a face, its part of int r dOmega, to a part `allowed` of it.
 double radius_integral(const std::array<Vec3, 3>& corners, double allowed);
 
 }  // namespace rholm

@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace rholm {
 namespace HWY_NAMESPACE {
 
-// Compiled for each target because most have an instruction that counts bits.
+// This is compiled for each target, because most targets have an instruction that counts bits.
 void RankCorners(const RankedSet& set, const std::byte* record, std::size_t stride, std::size_t n,
                  std::uint32_t* ranks) {
   for (std::size_t t = 0; t < n; ++t, record += stride, ranks += 3) {
@@ -33,8 +33,8 @@ HWY_EXPORT(RankCorners);
 
 namespace {
 
-// A closed mesh has half as many vertices as triangles: where half as many again are in the range,
-// the others cost less than names.
+// A closed mesh has half as many vertices as faces. If the range has at most half as many again,
+// the others in the range cost less than names.
 bool lies_together(const IndexRange& range, std::size_t n_triangles) {
   return range.size() <= n_triangles / 4 * 3 + 64;
 }

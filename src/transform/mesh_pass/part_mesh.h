@@ -1,4 +1,4 @@
-// The triangles of a part, and which vertices they have.
+// The faces of a part, and the vertices that they have.
 #pragma once
 
 #include <cstddef>
@@ -15,34 +15,34 @@
 
 namespace rholm {
 
-// Numbers for the corners of a block.
+// Numbers of the corners of a block.
 using BlockPlaces = std::uint32_t[3 * kTrianglesPerBlock];
 
 struct PartMesh {
   std::size_t first_triangle = 0, n_triangles = 0;  // in the mesh
-  std::uint32_t first_vertex = 0;                   // of those the part may have
+  std::uint32_t first_vertex = 0;                   // first vertex that the part may have
   std::size_t n_vertices = 0;
-  // Where vertices lie scattered among others: those that the part has, in the order of the mesh.
+  // Vertices of the part in the order of the mesh, if they are scattered among others; else empty.
   std::vector<std::uint32_t> names;
-  std::optional<RankedSet> ranks;  // of the names, while triangles are worked
+  std::optional<RankedSet> ranks;  // ranks of the names, while faces are processed
 
-  // The number in the mesh of vertex i of the part.
+  // Returns the number in the mesh of vertex i of the part.
   std::uint32_t name(std::size_t i) const {
     return names.empty() ? first_vertex + static_cast<std::uint32_t>(i) : names[i];
   }
-  // Vertices `begin` to `end` of the part have names in the range.
+  // Vertices `begin` ... `end` - 1 of the part, whose names are in a range.
   struct Places {
     std::size_t begin = 0, end = 0;
   };
   Places places(const IndexRange& range) const;
-  // Which vertices of the part the corners of n triangles of the mesh are, in `room` if the numbers
-  // of the mesh do not say it.
+  // Returns the numbers, among the part's vertices, of the corners of n faces of the mesh. They are
+  // written to `room` unless the mesh's own numbers serve.
   CornerPlaces corners(const MeshView& mesh, std::size_t first, std::size_t n,
                        BlockPlaces& room) const;
 };
-// Triangles first ... first + n - 1 of the mesh, whose indices have that range and are valid.
-// Before they are looked at, `check` is called for blocks of them. Whether names are given depends
-// on the mesh alone.
+// Describes faces first ... first + n - 1 of the mesh, whose indices have that range and are valid.
+// Calls `check` for blocks of the faces before it reads them. The mesh alone decides if names are
+// given.
 PartMesh part_mesh(const MeshView& mesh, std::size_t first, std::size_t n, const IndexRange& range,
                    const std::function<void(std::size_t first, std::size_t n)>& check);
 

@@ -17,16 +17,17 @@ namespace rholm {
 namespace {
 
 constexpr std::size_t kBlockSize = kTrianglesPerBlock;
-// Blocks between two reports of progress: about 1 ms.
+// Number of blocks between two reports of progress: about 1 ms.
 constexpr std::size_t kBlocksPerStep = 512;
 
 }  // namespace
 
-// The triangles of one part on their way.
+// Processes the faces of one part.
 template <typename T>
 class PartWorker<T>::Triangles {
  public:
-  // To `lumps`, those of the part's vertices. `fans`: see link_fans(), if anything is to be linked.
+  // Adds to `lumps`, the lumps of the part's vertices. `fans`: see link_fans(); null: nothing is
+  // linked.
   Triangles(const PartWorker& worker, const PartMesh& part_mesh, VertexLump<Lump>* lumps,
             GridSources<T>& grid, std::uint32_t* fans, MeshPart<T>& part)
       : worker_(worker),
@@ -67,7 +68,7 @@ class PartWorker<T>::Triangles {
   }
 
  private:
-  // What is known of a block before it is worked.
+  // Data of a block that are needed before it is processed.
   struct Ahead {
     std::uint32_t largest = 0;
     CornerPlaces places;
@@ -99,7 +100,8 @@ class PartWorker<T>::Triangles {
     part_.block_errors.push_back(static_cast<float>(std::sqrt(error2)));
   }
 
-  // In units of lumping_error(L), of the block's first n triangles.
+  // Returns the squared error of lumped faces among the block's first n, in units of
+  // lumping_error(L).
   double lumped_error2(std::size_t n) const {
     double sum = 0;
     for (std::size_t t = 0; t < n; ++t) {
@@ -185,8 +187,8 @@ MeshPart<T> PartWorker<T>::work(std::size_t p, CommonLumps<Lump>& common, GridSo
   return part;
 }
 
-// What is around a vertex lies in this part if it is closed: others may have the vertex, but none a
-// triangle next to one of these.
+// A vertex is complete in this part if the faces around it are closed. Other parts may have the
+// vertex, but no face next to these faces.
 template <typename T>
 void PartWorker<T>::take_border(std::size_t p, const PartMesh& mesh, const std::uint32_t* fans,
                                 VertexLump<Lump>* lumps, MeshPart<T>& part) const {
@@ -224,7 +226,7 @@ void PartWorker<T>::spread(const PartMesh& mesh, const VertexLump<Lump>* all,
       all, mesh.n_vertices, [&](std::size_t first, std::size_t n, const VertexLump<Lump>* lumps) {
         if (first % (256 * kVerticesPerBlock) == 0) ask_cancel();
         for (std::size_t i = 0; i < n; ++i) names[i] = mesh.name(first + i);
-        // Those of the next block may lie far apart.
+        // The vertices of the next block may be far apart in memory.
         for (std::size_t i = first + n; i < std::min(first + 2 * n, mesh.names.size()); ++i) {
           hwy::Prefetch(mesh_.vertices + mesh.names[i] * mesh_.vertex_stride);
         }

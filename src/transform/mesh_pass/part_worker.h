@@ -1,4 +1,4 @@
-// Parts of a mesh pass worked: triangles to lumps and nodes, and these to grids.
+// Computes parts of a mesh pass: from faces to lumps and nodes, and from these to grids.
 #pragma once
 
 #include <cstddef>
@@ -21,14 +21,14 @@
 
 namespace rholm {
 
-// Parts may be worked by several threads at a time, and by several processes that have the ranges
-// of all parts.
+// Several threads may compute parts at a time, and several processes that have the ranges of all
+// parts.
 template <typename T>
 class PartWorker {
  public:
   using Lump = LumpOf<T>;
 
-  // `transform`: the window, which has been chosen.
+  // `transform` has the window that was chosen.
   PartWorker(const MeshView& mesh, const MeshPassOptions& options, const MeshPlan& plan,
              const Division& division, const NonuniformPlan& transform)
       : mesh_(mesh),
@@ -40,50 +40,50 @@ class PartWorker {
   PartWorker(const PartWorker&) = delete;
   PartWorker& operator=(const PartWorker&) = delete;
 
-  // Of the triangles of part p, for set_ranges(). Throws InvalidInput for an index out of range.
+  // Returns the range of part p for set_ranges(). Throws InvalidInput for an index out of range.
   IndexRange range_of(std::size_t p) const;
   void set_ranges(std::vector<IndexRange> ranges) { ranges_ = std::move(ranges); }
   const std::vector<IndexRange>& ranges() const { return ranges_; }
 
-  // An empty one, good as long as this.
+  // Returns an empty grid, valid as long as this object.
   std::unique_ptr<GridSources<T>> new_grid() const {
     return std::make_unique<GridSources<T>>(transform_, kernel_);
   }
 
-  // None yet of any vertex.
+  // Returns lumps in common that are all zero.
   CommonLumps<Lump> no_lumps() const {
     return {mesh_.n_vertices, lumps_per_vertex(plan_.block.hessians)};
   }
 
-  // Spreads nodes and the vertices that no other part has to the grid. Throws as mesh_pass() does.
+  // Spreads nodes, and vertices that no other part has, to the grid. Throws like mesh_pass().
   MeshPart<T> work(std::size_t p, GridSources<T>& grid, SharedProgress& progress) const;
-  // The same, lumps to those in common, without ranges of parts: nodes alone are spread.
+  // Does the same with lumps in common, without ranges of parts: only nodes are spread.
   MeshPart<T> work(std::size_t p, CommonLumps<Lump>& common, GridSources<T>& grid,
                    SharedProgress& progress) const;
-  // Vertices begin ... end - 1 of those that several parts have.
+  // Spreads vertices begin ... end - 1 of the vertices that several parts have.
   void spread(const BorderLumps<Lump>& border, std::size_t begin, std::size_t end,
               GridSources<T>& grid) const;
 
-  // Vertices begin ... end - 1 of the mesh, whose lumps have been added up; begin is a multiple of
-  // kVerticesPerBlock.
+  // Spreads vertices begin ... end - 1 of the mesh, whose lumps have been added up. `begin` is a
+  // multiple of kVerticesPerBlock.
   void spread(const CommonLumps<Lump>& common, std::size_t begin, std::size_t end,
               GridSources<T>& grid) const;
 
-  // Of n vertices; of all of the border's.
+  // Return sums over the lumps of n vertices, and of all vertices of the border.
   LumpSums sums_of(const VertexLump<Lump>* lumps, std::size_t n) const;
   LumpSums sums_of(const BorderLumps<Lump>& border) const {
     return sums_of(border.lumps.data(), border.vertices.size());
   }
-  // Says what is wrong with a mesh in which something is.
+  // Throws an error that describes what is wrong with the mesh.
   [[noreturn]] void refuse_mesh() const;
 
  private:
   class Triangles;
   void take_border(std::size_t p, const PartMesh& mesh, const std::uint32_t* fans,
                    VertexLump<Lump>* lumps, MeshPart<T>& part) const;
-  // Vertices of the part.
+  // Spreads the vertices of the part.
   void spread(const PartMesh& mesh, const VertexLump<Lump>* all, GridSources<T>& grid) const;
-  // Calls visit(first, n, lumps) for blocks of vertices, `first` counted from the first of them.
+  // Calls visit(first, n, lumps) for blocks of vertices; `first` counts from the first vertex.
   template <typename Visit>
   void visit_lumps(const VertexLump<Lump>* lumps, std::size_t n, const Visit& visit) const;
 

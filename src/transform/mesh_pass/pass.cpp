@@ -15,14 +15,15 @@
 namespace rholm {
 namespace {
 
-// Tries to keep the precision: a second is rare, a third needs no sample.
+// Largest number of tries to keep the precision: a second is rare, a third needs no sample.
 constexpr int kMostTries = 3;
 
-// So many times what a sample says, and its doubt, are to be within the wish (chosen).
+// The error from a sample, times this or with its uncertainty, must be within the precision
+// (chosen).
 constexpr double kSampleMargin = 2;
 
-// A mesh with a sample of it; the triangles sorted if they were in random order, where every corner
-// misses the cache and neighbours, which nobody knows, cannot be seen to cancel.
+// A mesh with a sample of it. Faces in random order are sorted: otherwise every corner misses the
+// cache, and neighbours, which are not known, are not seen to cancel.
 struct PassInput {
   MeshView mesh;
   MeshPassOptions options;
@@ -30,7 +31,7 @@ struct PassInput {
   std::optional<OrderedTriangles> ordered;
 };
 
-// Smaller meshes are in the cache, and sampled whole.
+// Smaller meshes fit into the cache, and are sampled whole.
 constexpr std::size_t kWorthOrdering = 8192;
 
 PassInput pass_input(const MeshView& mesh, const MeshPassOptions& options, const Context& context,
@@ -58,9 +59,9 @@ PassInput pass_input(const MeshView& mesh, const MeshPassOptions& options, const
   return input;
 }
 
-// By how much less the next pass may leave than one that fell short of the wish. What the plan
-// allowed may be far above what came of it, and has to come below that; half as much again, as not
-// all errors follow.
+// Returns the factor that divides the allowed errors of the next pass, after a pass that missed the
+// precision. The plan may have allowed far more error than the pass made; the new limit must be
+// below the latter. It is half as much again, because not all errors follow the limit.
 double tightened(double error, double modelled, const MeshPlan& plan, double precision,
                  double norm) {
   const double planned =
@@ -69,8 +70,8 @@ double tightened(double error, double modelled, const MeshPlan& plan, double pre
   return 1.5 * slack * error / precision;
 }
 
-// Takes what rules leave from a sample of a large mesh, and whether what windows leave adds up.
-// Returns what is to be within the wish, relative as FastReport::error.
+// Measures the error of rules on a sample of a large mesh, and window errors that add up. Returns
+// the error that must be within the precision, relative as in FastReport::error.
 double measure(const PassInput& input, const MeshPlan& plan, const Context& context, double norm,
                MeshPassResult& result) {
   FastReport& report = result.report;
@@ -108,7 +109,7 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
   }
   StageTimes times;
   PassInput input = pass_input(mesh, options, caller, times);
-  // A second pass does not go back.
+  // The progress of a second pass does not go back.
   double furthest = 0;
   Context context = caller;
   if (caller.progress) {
@@ -125,9 +126,9 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
     result.times = std::move(times);
     const Outcome outcome = run_pass(input.mesh, input.options, plan, context, result);
     result.report.passes = passes;
-    if (outcome == Outcome::kOutOfRange) limits.forbid_single = true;  // possible once
+    if (outcome == Outcome::kOutOfRange) limits.forbid_single = true;  // happens at most once
     if (outcome == Outcome::kDone) {
-      // The sample may have missed what matters, or taken the norm for larger than it is.
+      // The sample may have missed large errors, or taken the norm for larger than it is.
       const double norm = norm_of_degrees(result.coefficients, 1, options.degree);
       result.least_error = norm > 0 ? plan.allowed.rounding / norm : 1.0;
       const double precision = std::max(options.precision, result.least_error);
@@ -136,7 +137,7 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
       result.report.reached = !(error > precision);
       if (result.report.reached || tries++ == kMostTries) return result;
       limits.tighten *= tightened(error, modelled, plan, precision, norm);
-      limits.no_lumps = tries == kMostTries;  // and no longer what the sample says of them
+      limits.no_lumps = tries == kMostTries;  // the last try does not trust the sample's lumps
     }
     times = std::move(result.times);
   }

@@ -1,4 +1,4 @@
-// From a mesh where it lies to the coefficients of its radius: (M8), vertices lumped, fast sums.
+// Computes coefficients of the radius from a mesh in place: (M8), lumped vertices, fast sums.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@
 
 namespace rholm {
 
-// Chosen: the error of closed meshes of up to so many triangles is measured by a second reading
-// (verify.h), that of larger ones by mesh_pass() itself, on a sample (sampled_error.h).
+// Chosen: for closed meshes of up to this many faces, a second reading measures the error
+// (verify.h). For larger meshes mesh_pass() itself does, on a sample (sampled_error.h).
 inline constexpr std::size_t kMostVerified = 100'000;
 
-// Throws InvalidInput for coordinates that are not finite, indices out of range, `check` that
-// fails, a surface through the centre; Cancelled.
+// Throws InvalidInput for coordinates that are not finite, indices out of range, a `check` that
+// fails, and a surface through the centre. Throws Cancelled.
 MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
                          const Context& caller);
 

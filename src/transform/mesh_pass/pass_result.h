@@ -1,4 +1,4 @@
-// What comes of a mesh pass.
+// Result of a mesh pass.
 #pragma once
 
 #include <cstddef>
@@ -12,22 +12,22 @@
 namespace rholm {
 
 struct MeshPassResult {
-  Coefficients coefficients;  // of the radius; of the alternating sum where it is not star-shaped
-  double volume = 0;          // enclosed; negative if inside out
-  bool closed = false;        // every edge run through as often one way as the other, by a hash
+  Coefficients coefficients;  // of the radius; of the alternating sum if not star-shaped
+  double volume = 0;          // enclosed volume; negative if inside out
+  bool closed = false;        // every edge is used equally often both ways, by a hash
   double min_d = 0;
   double min_cos_gamma = 0;
   std::size_t bad_triangles = 0;
   FastReport report;
-  // But for what rules leave, l2 over 1 <= l <= L and over the degrees above 3L/4.
+  // Errors without the rules' part: l2 over 1 <= l <= L, and over the degrees above 3L/4.
   double error_beside = 0, band_error_beside = 0;
-  std::vector<float> block_errors;  // of kTrianglesPerBlock triangles, see MeshPart
+  std::vector<float> block_errors;  // of kTrianglesPerBlock faces, see MeshPart
   NonuniformPlan transform;         // the windows that were used
-  double least_error = 0;           // what rounding leaves at best, relative as FastReport::error
-  StageTimes times;  // "triangles", "spread", "fourier"; "order" if triangles were sorted
+  double least_error = 0;           // least error by rounding, relative as FastReport::error
+  StageTimes times;  // "triangles", "spread", "fourier"; "order" if faces were sorted
 };
 
-// How one way through the triangles ends.
+// Result of one pass through the faces.
 enum class Outcome {
   kDone,
   kOutOfRange  // a vertex has left the range of its integers: double precision is needed

@@ -10,7 +10,7 @@
 
 namespace rholm {
 
-// The weights of each triangle add up to nothing: a sum that does not has left its integers.
+// The weights of each face add up to zero. A sum that does not is out of the integers' range.
 template <typename T>
 void PassSums<T>::add(const MeshPart<T>& part, bool lumps_in_common) {
   const double weight =
@@ -57,15 +57,15 @@ Outcome PassSums<T>::finish(const PartWorker<T>& worker) {
   if (sizeof(T) == 4 && std::abs(border_lumps_.weight - whole_.border_weight) > 0x1p31) {
     out_of_range_ = true;
   }
-  // Of lumps in common as one sum: two vertices that leave the range in opposite ways pass, as they
-  // do within a part.
+  // Lumps in common are checked as one sum. Two vertices that leave the range in opposite ways are
+  // not found, as within a part.
   if (sizeof(T) == 4 && std::abs(common_.weight + weight_beside_common_) > 0x1p31) {
     out_of_range_ = true;
   }
   if (out_of_range_) return Outcome::kOutOfRange;
   whole_.lumps.add(border_lumps_);
   whole_.lumps.add(common_);
-  // Gradients as much as they count in a window's error.
+  // Gradients count as they do in a window's error.
   const double weight = 1 / plan_.block.per_weight,
                slope = gradient_as_weight(plan_.divided.degree) / plan_.block.per_gradient;
   lumps2_ = weight * weight * whole_.lumps.weight2 + slope * slope * whole_.lumps.gradient2;

@@ -1,4 +1,4 @@
-// The parts of a mesh pass added up.
+// Adds up the parts of a mesh pass.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace rholm {
 
-// Parts are added in their order, then lumps that they have in common, if so; then finish() is
-// called, then the rest may be asked for.
+// First parts are added in their order, then lumps in common, if there are any. Then finish() is
+// called, and results may be read.
 template <typename T>
 class PassSums {
  public:
@@ -21,7 +21,7 @@ class PassSums {
 
   void add(const MeshPart<T>& part, bool lumps_in_common = false);
   void add_common(const LumpSums& lumps) { common_.add(lumps); }
-  // What is complete of the border, none of whose vertices is in the ranges `later`, to be spread.
+  // Takes the complete vertices of the border, which are not in the ranges `later`, for spreading.
   BorderLumps<LumpOf<T>> take_border(const std::vector<IndexRange>& later,
                                      const PartWorker<T>& worker);
   // Throws InvalidInput if something is wrong with the mesh.
@@ -29,7 +29,7 @@ class PassSums {
 
   const BorderLumps<LumpOf<T>>& border() const { return *border_; }
 
-  // `sum`: of all grids, transformed. `source2`, `hessian2`: what the grids have counted.
+  // `sum` is the transform of all grids; `source2` and `hessian2` are counted by the grids.
   void set_result(const MeshView& mesh, Coefficients sum, double source2, double hessian2,
                   const NonuniformPlan& transform, MeshPassResult& result);
 
@@ -38,11 +38,11 @@ class PassSums {
                  const NonuniformPlan& transform, MeshPassResult& result);
 
   const MeshPlan& plan_;
-  MeshPart<T> whole_;  // but for its border
+  MeshPart<T> whole_;  // without its border
   BorderSums<LumpOf<T>> border_sums_;
-  const BorderLumps<LumpOf<T>>* border_ = nullptr;  // what was not taken
+  const BorderLumps<LumpOf<T>>* border_ = nullptr;  // the border that was not taken
   LumpSums border_lumps_, common_;
-  double weight_beside_common_ = 0;  // that of nodes, in quanta
+  double weight_beside_common_ = 0;  // weight without lumps in common, in quanta
   double lumps2_ = 0;                // sum of squares of lumps, as they count in a window's error
   bool out_of_range_ = false;
 };

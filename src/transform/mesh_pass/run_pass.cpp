@@ -21,20 +21,21 @@
 namespace rholm {
 namespace {
 
-// Parts, and grids with them, that are there at a time (chosen).
+// Number of parts, with their grids, in memory at a time (chosen).
 constexpr std::size_t kPartsAtATime = 8;
-// Vertices whose lumps in common are added up at a time (chosen: some 100 us).
+// Number of vertices whose lumps in common are added up at a time (chosen: some 100 us).
 constexpr std::size_t kCommonGrain = 64 * kVerticesPerBlock;
-// Vertices that are spread one after the other, as they lie (chosen: of 4 to 64 blocks rows of
-// 1000 want the most, subdivided bodies the least, a tenth of the time of spreading either way).
+// Number of vertices that are spread one after the other, in file order. Chosen among 4 to 64
+// blocks: rows of 1000 need the most, subdivided bodies the least, a tenth of the time of spreading
+// either way.
 constexpr std::size_t kRun = 16 * kVerticesPerBlock;
-// The window is chosen before the squares of sources are known: they are taken for this many times
-// what the sample says. Of steep surfaces it misses up to six times (Igea and Ryugu to degree 128
-// and more, which `analyze --json` said took two passes). The price is a point of width, a
-// twentieth of the pass.
+// The window is chosen before the squares of sources are known. They are assumed to be this many
+// times the sample's value. On steep surfaces the sample misses up to six times (Igea and Ryugu to
+// degree 128 and more, where `analyze --json` reported two passes). The price is a point of width,
+// a twentieth of the pass.
 constexpr double kUnseen2 = 8;
 
-// One way through the triangles with a given plan; windows in T.
+// One pass through the faces with a given plan; T is the type of the windows.
 template <typename T>
 class Pass {
  public:
@@ -50,9 +51,9 @@ class Pass {
         worker_(mesh, options, plan, division_, transform_) {}
 
   Outcome run(MeshPassResult& result) {
-    // Without lumps in common `analyze` of subdivided bodies (1.3 and 5.2 million triangles,
-    // degrees 64 and 480) takes 1.08 to 1.14 times as long. Sorting comes dearer: where the
-    // triangles of such a file are shuffled, and sorted first, it takes 2.2 times.
+    // Without lumps in common `analyze` of subdivided bodies (1.3 and 5.2 million faces, degrees 64
+    // and 480) takes 1.08 to 1.14 times as long. Sorting costs more: where the faces of these files
+    // are shuffled, and sorted first, it takes 2.2 times as long.
     if (division_.count > 1 && has_few_parts() && parts_overlap(mesh_, division_)) {
       common_.emplace(mesh_.n_vertices, lumps_per_vertex(plan_.block.hessians));
     }
@@ -98,9 +99,9 @@ class Pass {
         .sources = estimated_sources(),
         .derivatives = plan_.block.hessians ? 2 : 1,
         .forbid_single = sizeof(T) == 8,
-        // The sum of squares has gradients in it already.
+        // The sum of squares contains gradients already.
         .gradient_size = 0,
-        // L^2 times Hessians, whose part in the error depends on the grid.
+        // L^2 times Hessians; their part in the error depends on the grid.
         .hessian_size = std::sqrt(kUnseen2 * plan_.hessian2 / std::max(source2, 1e-300)),
         .spread_out = mesh_.n_vertices};
     NonuniformPlan plan = plan_nonuniform(needs);
@@ -108,7 +109,7 @@ class Pass {
     return plan;
   }
 
-  // Grids of parts are there until the end; else they are added up.
+  // Grids of few parts are kept until the end; grids of more parts are added up.
   bool has_few_parts() const { return division_.count <= kPartsAtATime; }
 
   std::vector<IndexRange> find_ranges() const {
@@ -118,7 +119,8 @@ class Pass {
     return ranges;
   }
 
-  // A few parts at a time: what they leave is added up in their order before the next begin.
+  // Computes a few parts at a time. Their results are added up in their order before the next parts
+  // begin.
   void work_parts() {
     if (!common_) worker_.set_ranges(find_ranges());
     SharedProgress progress(context_, "triangles", 0, before_spread(),
@@ -142,7 +144,7 @@ class Pass {
     }
   }
 
-  // What of the whole is done when spreading begins; that of vertices in common is by itself.
+  // Progress when spreading begins. Spreading vertices in common has its own part.
   static constexpr double kBeforeCommon = 0.6;
   double before_spread() const { return common_ ? kBeforeCommon : 0.9; }
 
@@ -163,8 +165,9 @@ class Pass {
     for (const LumpSums& one : sums) sums_.add_common(one);
   }
 
-  // Runs of vertices from pole to pole, as many to each grid: files may have the vertices of all of
-  // the sphere once and again, level by level, and rows of a grid that are left stay behind.
+  // Spreads runs of vertices from pole to pole, an equal number to each grid. Files may have
+  // vertices of the whole sphere again and again, level by level. In the order of heights, rows of
+  // a grid that have been left are not needed again.
   void spread_common() {
     const std::vector<std::size_t> runs = runs_by_height();
     const std::size_t n = grids_.size();
@@ -182,7 +185,8 @@ class Pass {
     if (options_.release_vertices) options_.release_vertices(0, mesh_.n_vertices);
   }
 
-  // The first vertices of runs, by where the sphere has the one in their middle.
+  // Returns the first vertices of runs, ordered by the height of the run's middle vertex on the
+  // sphere.
   std::vector<std::size_t> runs_by_height() const {
     struct Run {
       double height;
@@ -204,7 +208,7 @@ class Pass {
     return firsts;
   }
 
-  // The same by several processes: what they leave is added up in the order of the parts.
+  // Lets several processes compute the parts. Their results are added up in the order of the parts.
   void share_parts() {
     std::vector<IndexRange> ranges(division_.count);
     options_.executor->run(
@@ -237,7 +241,8 @@ class Pass {
     if ((p + 1) % kPartsAtATime == 0 || p + 1 == division_.count) spread_done_border(p + 1);
   }
 
-  // Of the parts before p: else what parts share would grow with the mesh.
+  // Spreads the complete border of the parts before p. Otherwise shared data would grow with the
+  // mesh.
   void spread_done_border(std::size_t p) {
     const auto done = sums_.take_border(ranges_from(worker_.ranges(), p), worker_);
     worker_.spread(done, 0, done.vertices.size(), *grids_[0]);
@@ -287,7 +292,7 @@ class Pass {
   const NonuniformPlan transform_;
   const Division division_;
   PartWorker<T> worker_;
-  std::optional<CommonLumps<LumpOf<T>>> common_;  // where the vertices of parts lie scattered
+  std::optional<CommonLumps<LumpOf<T>>> common_;  // if the vertices of parts are scattered
   std::vector<std::unique_ptr<GridSources<T>>> grids_;
 };
 

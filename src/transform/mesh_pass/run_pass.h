@@ -1,4 +1,4 @@
-// One way through the triangles of a mesh, with a given plan.
+// Makes one pass through the faces of a mesh, with a given plan.
 #pragma once
 
 #include "rholm/context.h"
@@ -9,8 +9,8 @@
 
 namespace rholm {
 
-// Throws as mesh_pass() does. The result is complete only if it is done, but for the number of
-// passes and whether the precision was reached.
+// Throws like mesh_pass(). The result is complete only for Outcome::kDone, except for the number of
+// passes and the flag that the precision was reached.
 Outcome run_pass(const MeshView& mesh, const MeshPassOptions& options, const MeshPlan& plan,
                  const Context& context, MeshPassResult& result);
 

@@ -1,23 +1,23 @@
-// A second reading of a large mesh would take as long as the first. What it leaves shows on a
-// sample. An element, an edge or a face, has an error: the adjoint of its sources by the rule of
-// the plan minus that of its sources by a much finer one. Runs of triangles are taken, run b of
-// error e_b with the chance c_b: half of them evenly, half by what the model says of each. An edge
-// or a vertex belongs to the run of the first triangle that has it, so that the runs of all
-// triangles add up to the whole error e. Every other run of the sample is summed into p, the others
-// into q, as e_b / sqrt(c_b). Then |p|^2 + |q|^2 has the mean sum |e_b|^2: what |e|^2 is where the
-// errors of runs know nothing of each other. What adds up over the mesh, as that of needles about
-// an axis, is in p and q alike, and p . q has the mean 1/4 of the sum of e_b . e_b' sqrt(c_b c_b')
-// over all pairs. That root is taken for its mean over errors, 1 / SampledRuns::common. Of what is
-// random p . q has the variance sum p_i^2 q_i^2, small beside |p|^2 |q|^2 where the error has many
-// coefficients: so something that adds up is seen although the sample is a hundredth.
+// A second reading of a large mesh would take as long as the first, so a sample shows the error of
+// the pass. Elements are edges and faces. The error of an element is the adjoint of its sources by
+// the rule of the plan minus their adjoint by a much finer rule. Runs of faces are taken, run b of
+// error e_b with the chance c_b: half of them evenly, half by the model's error of each. An edge or
+// a vertex belongs to the run of the first face that has it. So the runs of all faces add up to the
+// whole error e. Every other run of the sample is summed into p, the others into q, as e_b /
+// sqrt(c_b). Then |p|^2 + |q|^2 has the mean sum |e_b|^2, which is |e|^2 if errors of runs are
+// independent. Errors that add up over the mesh, as for needles about an axis, are in p and q
+// alike. The product p . q has the mean 1/4 of the sum of e_b . e_b' sqrt(c_b c_b') over all pairs.
+// This root is replaced by its mean over errors, 1 / SampledRuns::common. Random errors give p . q
+// the variance sum p_i^2 q_i^2, small beside |p|^2 |q|^2 where the error has many coefficients. So
+// an error that adds up is seen although the sample is a hundredth of the mesh.
 //
-// A source, a vertex with all that is lumped there or a node, has an error of its window: its
-// adjoint on the plan's grid minus that on a much finer one. What random ones leave is known from
-// the squares of all sources, and better than from a sample. That they add up, where sources crowd
-// in a few directions or stand in step with the grid, shows in the products of the sums of G groups
-// of runs, g_i . g_j, whose sum over i < j has the mean (1 - 1/G)/2 of that over all pairs of runs.
-// Such errors have few coefficients, or are alike but for their signs: the variance is the sum of
-// the squares of all g_i . g_j, if that is more.
+// A source is a node, or a vertex with all its lumps. Its window error is its adjoint on the plan's
+// grid minus its adjoint on a much finer grid. The squares of all sources give the error of random
+// sources, better than a sample does. Errors add up where sources crowd in a few directions or are
+// aligned with the grid. This shows in the products g_i . g_j of the sums of G groups of runs.
+// Their sum over i < j has the mean (1 - 1/G)/2 of the sum over all pairs of runs. These errors
+// have few coefficients, or are alike except for their signs. So the variance is the sum of the
+// squares of all g_i . g_j, if that is more.
 #include "transform/mesh_pass/sampled_error.h"
 
 #include <algorithm>
@@ -40,25 +40,25 @@
 namespace rholm {
 namespace {
 
-// Of what the plan's rules may leave, and of rounding, the finer ones leave that much (chosen).
+// Errors and rounding of the finer rules, relative to what the plan's rules may have (chosen).
 constexpr double kFinerRules = 0.1, kFinerRounding = 0.1;
 constexpr double kElements = 2.5;  // edges and faces per triangle
 constexpr double kLeastPrecision = 1e-14;
-// Nanoseconds that a triangle of the pass takes, one of its nodes, and a transform of few sources
-// for each coefficient (all chosen).
+// Nanoseconds for a face of the pass, for one of its nodes, and for each coefficient of a transform
+// of few sources (all chosen).
 constexpr double kTriangleCost = 50, kNodeCost = 100, kCoefficientCost = 52;
-// Groups that windows are measured by, and the part of the pass up to which their transforms may
-// take: chosen. Two groups did not see the windows of a rod of 120 200 faces at degree 128, four
-// did.
+// Number of groups that windows are measured by, and the largest part of the pass that their
+// transforms may take (chosen). Two groups did not see the window errors of a rod of 120 200 faces
+// at degree 128, four groups did.
 struct GroupChoice {
   std::size_t groups;
   double most;
 };
 constexpr GroupChoice kGroups[] = {{8, 0.05}, {4, 0.1}};
-// Chosen: that windows add up counts from so many standard deviations on.
+// Window errors count as adding up from this many standard deviations on (chosen).
 constexpr double kSignificant = 2;
 
-// What a vertex or a node gives: a weight and factors of the gradient and the Hessian.
+// Source of a vertex or a node: a weight and factors of the gradient and the Hessian.
 struct Source {
   double weight = 0;
   Vec3 gradient;
@@ -71,7 +71,7 @@ struct Source {
   }
 };
 
-// Point sources, at points of any length; what is added counts `scale` times.
+// Point sources at points of any length; each added source counts `scale` times.
 class Sources : public NodeSink {
  public:
   void add(std::span<const Node> nodes) override {
@@ -96,7 +96,7 @@ class Sources : public NodeSink {
     for (double& h : hessians_.back()) h *= scale * over_r * over_r;
   }
 
-  // Windows leave at most about `left`.
+  // Returns the sum, with window errors of at most about `left`.
   Coefficients sum(int degree, double left, const Context& context) const {
     const double precision =
         std::clamp(left / std::max(generic(degree), 1e-300), kLeastPrecision, 1e-3);
@@ -112,7 +112,7 @@ class Sources : public NodeSink {
     }
     return sum;
   }
-  // By that plan, without what is not divided.
+  // Returns the sum by that plan, without the sources that are not divided.
   Coefficients sum_by(const NonuniformPlan& plan, const Context& context) const {
     Coefficients sum(plan.fourier.degree);
     nonuniform_add_adjoint(plan, {.directions = at_, .weights = weights_},
@@ -128,7 +128,8 @@ class Sources : public NodeSink {
   double scale = 1;
 
  private:
-  // The l2 norm over l > 0 that sums of these with random signs have, divided by l(l+1).
+  // Returns the l2 norm over l > 0 that sums of these sources with random signs have, divided by
+  // l(l+1).
   double generic(int degree) const {
     const double slope2 = std::pow(gradient_as_weight(degree), 2), bend2 = std::pow(degree, 4);
     double sum = 0;
@@ -146,7 +147,7 @@ class Sources : public NodeSink {
   std::vector<std::array<double, 6>> hessians_;
 };
 
-// The same without what is not divided.
+// Passes all sources on except those not divided.
 class Divided : public NodeSink {
  public:
   explicit Divided(NodeSink& to) : to_(to) {}
@@ -158,7 +159,7 @@ class Divided : public NodeSink {
   NodeSink& to_;
 };
 
-// sum += factor (a b^T + b a^T) / 2.
+// Adds factor (a b^T + b a^T) / 2 to sum.
 void add_product(const Vec3& a, const Vec3& b, double factor, std::array<double, 6>& sum) {
   sum[0] += factor * a.x * b.x;
   sum[1] += factor * (a.x * b.y + a.y * b.x) / 2;
@@ -168,12 +169,12 @@ void add_product(const Vec3& a, const Vec3& b, double factor, std::array<double,
   sum[5] += factor * a.z * b.z;
 }
 
-// Hermite's rules, element by element: what lump_gradients() and lump_hessians() do with whole
-// triangles. Without Hessians VG, as constants of hermite_rules.h.
+// Hermite's rules, element by element; lump_gradients() and lump_hessians() do the same with whole
+// faces. Rules without Hessians are VG, with constants as in hermite_rules.h.
 constexpr HermiteEdge kGradientEdge = {1.0 / 2, 1.0 / 12, 0, 0, 0, 0, 4};
 constexpr HermiteFace kGradientFace = {1.0 / 3, 1.0 / 24, 0, 0, 0, {}, 0, 4};
 
-// corner(0, source at a), corner(1, source at b), node(x, weight).
+// Calls corner(0, source at a), corner(1, source at b) and node(x, weight).
 template <typename Corner, typename VisitNode>
 void visit_edge(const HermiteEdge& rule, const Vec3& a, const Vec3& b, double weight,
                 const Corner& corner, const VisitNode& node) {
@@ -211,15 +212,16 @@ void visit_face(const HermiteFace& rule, const std::array<Vec3, 3>& p, double we
   }
 }
 
-// z^2 of an edge, as the kernel has it.
+// Returns z^2 of an edge, as the kernel computes it.
 double extent2(const Vec3& a, const Vec3& b, double degree, double bend) {
   const Vec3 across = cross(a, b), e = b - a;
   const double over = 1 / std::min(dot(a, a), dot(b, b));
   return degree * degree * over * over * dot(across, across) + bend * over * dot(e, e);
 }
 
-// What a lumped triangle gives, element by element: corner(element, i, source at corner i) and
-// node(element, x, weight); element 0 ... 2 is the edge from that corner, 3 the face.
+// Visits the sources of a lumped face, element by element: corner(element, i, source at corner i)
+// and node(element, x, weight). Elements 0 ... 2 are the edges from these corners, 3 is the face
+// itself.
 template <typename Corner, typename VisitNode>
 void visit_lumped(const SampledTriangle& t, const BlockParameters& b, const Corner& corner,
                   const VisitNode& node) {
@@ -258,7 +260,7 @@ class Sampler {
     finer_.undivided.divided = false;
   }
 
-  // Of runs, that windows are measured by; 0: they are not measured.
+  // Returns the number of groups of runs that windows are measured by; 0: windows are not measured.
   std::size_t group_count(int degree) const {
     const double transforms = 2 * kCoefficientCost * std::pow(degree + 1.0, 2);
     const double pass =
@@ -274,7 +276,7 @@ class Sampler {
     const int degree = transform.fourier.degree;
     Sources halves[2];
     std::vector<Sources> groups(n_groups);
-    // Rules, whose sources are many more, by every other run.
+    // Rules, which have many more sources, are measured by every other run.
     const std::size_t step = sample.share == 1 || groups.empty() ? 1 : 2;
     const double part = 1 / static_cast<double>(step);
     for (std::size_t k = 0; k < sample.runs.size(); ++k) {
@@ -298,7 +300,7 @@ class Sampler {
   }
 
  private:
-  // Sources whose sum is the error of the rules.
+  // Adds sources whose sum is the error of the rules.
   void add_rules(const SampledRun& run, double chance, Sources& to) const {
     to.scale = 1 / std::sqrt(chance);
     std::map<std::uint32_t, Lump> lumps;
@@ -321,8 +323,8 @@ class Sampler {
     finer.flush();
   }
 
-  // Sources that the pass has: nodes and whole vertices. What is not divided has windows of its
-  // own, which keep a bound.
+  // Adds the sources that the pass has: nodes and whole vertices. Sources that are not divided have
+  // windows of their own, which keep a bound.
   void add_own(const SampledRun& run, Sources& to) const {
     to.scale = 1 / std::sqrt(run.chance);
     std::map<std::uint32_t, Lump> lumps;
@@ -338,13 +340,13 @@ class Sampler {
     for (const auto& [vertex, lump] : lumps) to.add(lump.at, lump.source);
   }
 
-  // What is lumped at a vertex.
+  // The lumps at a vertex.
   struct Lump {
     Vec3 at;
     Source source;
   };
-  // A triangle's: nodes of the elements that are asked for, by `nodes` if it is not lumped; what
-  // elements give corners where `lumped` says so.
+  // Adds a face's sources: nodes of the requested elements, by `nodes` if it is not lumped, and
+  // lumps at corners where `lumped` is true.
   template <typename Belongs, typename Lumped>
   void add_sources(const SampledTriangle& t, NodeWriter& nodes, Sources& to, const Belongs& belongs,
                    const Lumped& lumped, std::map<std::uint32_t, Lump>& lumps) const {
@@ -382,7 +384,7 @@ class Sampler {
     found.band = from(3 * halves[0].degree() / 4 + 1)[0];
   }
 
-  // What adds up; of all runs the whole.
+  // Returns the errors that add up; if all runs are taken, the whole error.
   static double windows_of(const std::vector<Coefficients>& groups, const SampledRuns& sample) {
     double own = 0, pairs = 0, squares = 0, by_coefficients = 0;
     for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -419,7 +421,7 @@ class Sampler {
   ScaledVertices vertices_;
   const MeshPlan& plan_;
   NodeOptions finer_;
-  double left_ = 0;  // by the finer rules
+  double left_ = 0;  // error of the finer rules
 };
 
 }  // namespace
@@ -431,7 +433,7 @@ SampledError sample_error(const MeshView& mesh, const MeshPassOptions& options,
   const Context silent{.threads = context.threads};
   const Sampler sampler(mesh, options, plan);
   const std::size_t groups = share == 1 ? 2 : sampler.group_count(options.degree);
-  // Twice as many for windows.
+  // Windows need twice as many runs.
   const RunCount one, number = groups == 0 ? one : RunCount{2 * one.fewest, 2 * one.most};
   const SampledRuns sample =
       sample_runs(mesh, options, plan.block, block_errors, share, number, silent);

@@ -13,14 +13,14 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kScanGrain = std::size_t{1} << 15;  // triangles, some 50 us (chosen)
+constexpr std::size_t kScanGrain = std::size_t{1} << 15;  // faces, some 50 us (chosen)
 
 struct Chosen {
-  std::size_t first, n;  // triangles
+  std::size_t first, n;  // faces
   double chance;
 };
 
-// A half-edge, by the vertices at its ends in ascending order.
+// A half-edge, named by the vertices at its ends in ascending order.
 struct HalfEdge {
   std::uint64_t name;
   std::size_t run, triangle, side;
@@ -29,14 +29,14 @@ std::uint64_t edge_name(std::uint64_t a, std::uint64_t b) {
   return std::min(a, b) << 32 | std::max(a, b);
 }
 
-// A vertex of a run's triangles.
+// A vertex of a run's faces.
 struct RunVertex {
   std::uint32_t vertex;
   std::size_t run;
-  bool own = false;  // whether its first triangle is in the run
+  bool own = false;  // true if its first face is in the run
 };
 
-// Vertices of runs: whether one is among them, and its place in their order.
+// Marks the vertices of runs, and finds their places in the sorted list.
 class VertexMarks {
  public:
   VertexMarks(std::size_t n_vertices, const std::vector<RunVertex>& sorted)
@@ -57,7 +57,7 @@ class VertexMarks {
     }
   }
   bool has(std::uint32_t v) const { return (words_[v / 64] >> v % 64 & 1) != 0; }
-  // Those of the sorted list that are this vertex, which is marked.
+  // Returns the elements of the sorted list for this vertex, which must be marked.
   template <typename T>
   std::span<T> of(std::uint32_t v, std::vector<T>& sorted) const {
     const std::uint64_t below = words_[v / 64] & ((std::uint64_t{1} << v % 64) - 1);
@@ -71,7 +71,8 @@ class VertexMarks {
   std::vector<std::size_t> firsts_;
 };
 
-// What a run has of a triangle around it: bits 0 ... 2 for edges, 3 ... 5 for corners.
+// Elements of a face around a run that belong to the run: bits 0 ... 2 for edges, 3 ... 5 for
+// corners.
 struct Around {
   std::size_t run, number;
   unsigned has;
@@ -141,7 +142,7 @@ class RunReader {
     read_around(around, runs);
   }
 
-  // Edges within a run are its own; appends the half-edges at its border.
+  // Edges inside a run belong to it. Appends the half-edges at its border.
   static void find_inner_edges(std::size_t number, std::vector<SampledTriangle>& run,
                                std::vector<HalfEdge>& open) {
     std::vector<HalfEdge> all;
@@ -177,7 +178,7 @@ class RunReader {
     for (const std::uint32_t vertex : all) vertices.push_back({vertex, number});
   }
 
-  // Those of a sorted list that are this edge.
+  // Returns the elements of a sorted list that are this edge.
   static std::span<HalfEdge> those_with(std::vector<HalfEdge>& sorted, std::uint64_t name) {
     const auto begin =
         std::lower_bound(sorted.begin(), sorted.end(), name,
@@ -187,7 +188,7 @@ class RunReader {
     return {begin, end};
   }
 
-  // The triangles of the mesh that have a marked vertex, in order.
+  // Returns the faces of the mesh that have a marked vertex, in order.
   std::vector<std::size_t> triangles_at(const VertexMarks& marks) const {
     std::vector<std::vector<std::size_t>> found((mesh_.n_triangles + kScanGrain - 1) / kScanGrain);
     parallel_for(mesh_.n_triangles, kScanGrain, {.threads = context_.threads}, {},
@@ -225,7 +226,8 @@ class RunReader {
     }
   }
 
-  // Sets the corners of the runs' own triangles.
+  // Sets the corners of the runs' own faces. Returns the faces around the runs' own
+  // vertices.
   std::vector<Around> around_vertices(const std::vector<Chosen>& chosen,
                                       const std::vector<std::size_t>& touching,
                                       const VertexMarks& marks, std::vector<RunVertex>& vertices,
@@ -249,7 +251,8 @@ class RunReader {
     return around;
   }
 
-  // The other triangles at edges on the border of a run that are its own.
+  // Finds the edges on the border of a run that belong to it, and adds the other faces at these
+  // edges.
   void add_twins(const std::vector<Chosen>& chosen, const std::vector<std::size_t>& touching,
                  const VertexMarks& marks, std::vector<HalfEdge>& open,
                  std::vector<SampledRun>& runs, std::vector<Around>& around) const {

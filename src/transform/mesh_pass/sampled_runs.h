@@ -1,4 +1,4 @@
-// Runs of a large mesh's triangles from all over it, with their edges and vertices: a sample.
+// Samples runs of a large mesh's faces from all over it, with their edges and vertices.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace rholm {
 
-// A triangle as the pass sees it, and what of it belongs to a run. An edge or a vertex belongs to
-// the run of the first triangle of the mesh that has it, so that all runs have each once.
+// A face as in the pass, and its elements that belong to a run. An edge or a vertex belongs to the
+// run of the first face of the mesh that has it. So it is in one run only.
 struct SampledTriangle {
   std::array<Vec3, 3> p;
   std::array<std::uint32_t, 3> vertices;
@@ -24,32 +24,32 @@ struct SampledTriangle {
   double face_weight = 0;        // F
   bool lumped = true;
   bool face = true;
-  std::array<bool, 3> edges = {};    // from corner i to the next
-  std::array<bool, 3> corners = {};  // belongs with all that is lumped there
+  std::array<bool, 3> edges = {};    // edge from corner i to the next one
+  std::array<bool, 3> corners = {};  // the vertex belongs to the run, with all its lumps
 };
 
-// The triangles of a run, and behind them those around it that have an edge or a vertex of it.
+// The faces of a run, then faces around it that have an edge or a vertex of the run.
 struct SampledRun {
-  double chance = 1;  // that it is in the sample
+  double chance = 1;  // chance of being in the sample
   std::vector<SampledTriangle> triangles;
 };
 
 struct SampledRuns {
   std::vector<SampledRun> runs;
-  double share = 0;  // of the mesh's triangles that are in runs
-  // What errors that are alike count for: the inverse of the mean of sqrt(c c') over pairs of runs,
-  // c the chance of each; for errors as the model has them, or alike for all runs, whichever is
-  // more.
+  double share = 0;  // part of the mesh's faces that are in runs
+  // Factor for errors that are alike: the inverse of the mean of sqrt(c c') over pairs of runs,
+  // where c is the chance of each. Errors are as in the model, or alike for all runs, whichever
+  // gives a larger factor.
   double common = 1;
 };
 
-// Chosen: how many runs there are at least and at most.
+// Smallest and largest number of runs (chosen).
 struct RunCount {
   double fewest = 64, most = 80;
 };
 
-// About `share` of the blocks of kTrianglesPerBlock triangles, each a run: half of them evenly,
-// half by `errors`, what the model says that each leaves. `block` as of the pass.
+// Takes about `share` of the blocks of kTrianglesPerBlock faces, each as a run: half of them
+// evenly, half by `errors`, the model's error of each. `block` has the parameters of the pass.
 SampledRuns sample_runs(const MeshView& mesh, const MeshPassOptions& options,
                         const BlockParameters& block, std::span<const float> errors, double share,
                         const RunCount& number, const Context& context);

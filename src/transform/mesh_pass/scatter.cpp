@@ -9,7 +9,7 @@
 namespace rholm {
 namespace {
 
-// Sums beyond 32 bits wrap around, which the pass finds out.
+// Sums beyond 32 bits wrap around, which the pass detects.
 template <typename T>
 void add_lump(const T* lump, T* sum) {
   using Unit = std::conditional_t<sizeof(T) == 4, std::uint32_t, double>;

@@ -32,7 +32,7 @@ std::string range_task(const PartWorker<T>& worker, std::size_t part) {
 
 template <typename T>
 std::string part_task(const PartWorker<T>& worker, bool in_common, std::size_t part) {
-  // Who shares the pass reports progress, by whole parts.
+  // The process that runs the pass reports progress, by whole parts.
   const Context nobody;
   SharedProgress progress(nobody, "", 0, 1, 1);
   ByteWriter writer;

@@ -1,9 +1,9 @@
-// Parts of a mesh pass worked by several processes, each of which has the mesh.
+// Lets several processes, each of which has the mesh, compute the parts of a mesh pass.
 //
-// One of them runs the pass: it plans it, says what the others need to know (inputs), and adds up
-// what they make of parts, as bytes, in the order of the parts. The pass has two rounds of parts:
-// the ranges of vertices of all parts; and the parts, with the grids they are spread to. Lumps that
-// parts have in common are added up and spread by the one who runs the pass.
+// One of them runs the pass: it plans the pass and tells the others what they need (inputs). It
+// adds up their results, as bytes, in the order of the parts. The pass has two rounds: the ranges
+// of vertices of all parts; then the parts, with the grids to which they are spread. The process
+// that runs the pass adds up and spreads lumps in common.
 #pragma once
 
 #include <cstddef>
@@ -22,26 +22,26 @@
 
 namespace rholm {
 
-// The tasks of both rounds: the IndexRange of a part; a part, its grid and, if they have lumps in
-// common, these.
+// Tasks of both rounds. They return the IndexRange of a part; and a part, its grid and, if
+// `in_common`, its lumps in common.
 template <typename T>
 std::string range_task(const PartWorker<T>& worker, std::size_t part);
 template <typename T>
 std::string part_task(const PartWorker<T>& worker, bool in_common, std::size_t part);
 
-// The name of this work, and the inputs of its rounds.
+// The name of this task, and the inputs of its rounds.
 inline constexpr const char* kPassJob = "mesh pass";
 std::string ranges_job(const MeshPlan& plan, const NonuniformPlan& transform,
                        const Division& division);
 std::string parts_job(const std::vector<IndexRange>& ranges, bool in_common);
 
-// In another process, for one pass after the other over a mesh; `hooks` of mesh_pass(). Both are
-// good as long as this.
+// Computes parts in another process, for one pass after the other over a mesh; `hooks` as for
+// mesh_pass(). Mesh and hooks must outlive this object.
 class PassHelper {
  public:
   PassHelper(const MeshView& mesh, const MeshPassOptions& hooks) : mesh_(mesh), hooks_(hooks) {}
-  // The work of a round, as long as this and until the next one. Throws Io for bytes that are no
-  // input.
+  // Returns the function for the parts of a round, valid as long as this object and until the next
+  // round. Throws Io for bytes that are no input.
   Executor::Work work_of(std::string_view input);
 
  private:

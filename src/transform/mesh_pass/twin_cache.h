@@ -8,17 +8,17 @@
 
 namespace rholm {
 
-// An edge of two triangles is to be worked once, with the sum of what both sides say. A half-edge
-// whose twin is not among the last few thousand is worked alone: the same sum, at the price of more
+// An edge of two faces is processed once, with the sum of both half-edges. A half-edge whose twin
+// is not among the last few thousand is processed alone: the sum is the same, at the price of more
 // work.
 template <typename HalfEdge>
 class TwinCache {
  public:
   TwinCache() : slots_(std::size_t{1} << kBits) {}
 
-  // The half-edge between vertices i and j, in either sense. Where its twin waits and
-  // join(twin, edge) takes the edge in and is true, work(low, high, twin) is called with the
-  // vertices in order; else it waits itself, and one that waited in its place is worked.
+  // Adds the half-edge between vertices i and j, in either direction. If its twin waits and
+  // join(twin, edge) takes the edge in and is true, calls work(low, high, twin), with the vertices
+  // in order. Otherwise the edge waits, and one that waited in its place is processed.
   template <typename Join, typename Work>
   void add(std::uint32_t i, std::uint32_t j, const HalfEdge& edge, const Join& join,
            const Work& work) {
@@ -33,7 +33,7 @@ class TwinCache {
     slot = {name, edge};
   }
 
-  // Works all that wait.
+  // Processes all half-edges that wait.
   template <typename Work>
   void flush(const Work& work) {
     for (Slot& slot : slots_) {
@@ -44,7 +44,7 @@ class TwinCache {
  private:
   static constexpr int kBits = 12;  // chosen: some 130 kB
   struct Slot {
-    std::uint64_t name = 0;  // of both ends, 0: none
+    std::uint64_t name = 0;  // both ends; 0: empty
     HalfEdge edge;
   };
   template <typename Work>

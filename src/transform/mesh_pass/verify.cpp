@@ -1,11 +1,12 @@
-// The model of a plan takes errors of triangles for random where it does not know better. Needles
-// about an axis, walls that lie in step with the grid and what else nobody thought of leave more,
-// and no model tells. A second reading does: of the mesh turned by a rotation that fits no shape,
-// with less error allowed, turned back. What both differ by is the error of the first, to
-// within that of the second, which is less: rules, windows, quanta and rounding are all seen.
+// The model of a plan takes errors of faces for random where nothing else is known. Needles about
+// an axis, walls aligned with the grid, and unknown cases have larger errors, which no model
+// predicts. A second reading measures them. The mesh is turned by a rotation that fits no shape,
+// read with less error allowed, and turned back. The difference of both readings is the error of
+// the first, to within the smaller error of the second. Rules, windows, quanta and rounding are all
+// in it.
 //
-// Where that is above the wish, or far above what the model says, the second reading takes the
-// place of the first, and a third one that of the second.
+// If this error is above the precision, or far above the model's error, the second reading replaces
+// the first. A third reading then replaces the second.
 #include "transform/mesh_pass/verify.h"
 
 #include <algorithm>
@@ -25,32 +26,35 @@
 namespace rholm {
 namespace {
 
-// Chosen: vertices that a thread turns at a time, some 50 us.
+// Number of vertices that a thread turns at a time, some 50 us (chosen).
 constexpr std::size_t kVertexGrain = 4096;
-// Of the precision of the reading before. Elements that both read by the same rule are not seen in
-// the difference: by the model these leave less than the second may, and it is to be wrong by more
-// than the inverse before an error is missed. Small meshes can afford a larger step (chosen).
+// Precision of a reading, relative to the reading before. Elements that both readings integrate by
+// the same rule do not show in the difference. By the model their errors are below the second
+// reading's limit. An error is missed only if the model is wrong by more than the inverse of this
+// factor. Small meshes can afford a larger step (chosen).
 constexpr double kFiner = 0.1, kFinerOfSmall = 0.03;
-constexpr std::size_t kSmall = 10'000;  // triangles (chosen)
+constexpr std::size_t kSmall = 10'000;  // faces (chosen)
 constexpr double kLeastPrecision = 1e-14;
-// Two readings may have a part of their errors in common: so many times what is measured is to be
-// within the wish (chosen; bench/counterexamples looks for bodies on which that is too little).
+// Two readings may have a part of their errors in common. So this many times the measured error
+// must be within the precision (chosen; bench/counterexamples looks for bodies on which that is too
+// little).
 constexpr double kMargin = 2;
-// A difference of two readings is believed where it is at most so many times what the model says of
-// the first, or so much less than the difference before (chosen).
+// A difference of two readings is accepted if it is at most this many times the model's error of
+// the first. It is also accepted if it is less than the difference before by this factor (chosen).
 constexpr double kBelieved = 3;
-// Where rounding is so large a part of the norm, what degrees above 0 have is nothing but that:
-// they are zero by symmetry. Each reading is as far from zero as rounding leaves, both differ by
-// twice as much, which counts kMargin-fold, and as much again is doubt (chosen: 8 for 6).
+// Where rounding is this large a part of the norm, degrees above 0 consist of rounding alone: they
+// are zero by symmetry. Each reading differs from zero by the rounding, both differ by twice that,
+// which counts kMargin-fold; the same again is uncertainty (chosen: 8 for 6).
 constexpr double kMostlyRounding = 0.1, kOfTwoReadings = 8;
-constexpr int kMostReadings = 4;  // chosen: the last is 10 000 times finer than the wish
+constexpr int kMostReadings = 4;  // chosen: the last is 10 000 times finer than wanted
 
-// Coordinates that are rounded once more turn the planes of needles, by more than this on prisms of
-// 200 sides as wide as a hundredth of their length. Below, axes change places, which is exact.
+// Rounding coordinates once more turns the planes of needles, by more than this on prisms of 200
+// sides as wide as a hundredth of their length. Below, axes change places, which is exact.
 constexpr double kLeastTurned = 1e-12;
 constexpr Rotation kAxesOnward = {.w = 0.5, .x = 0.5, .y = 0.5, .z = 0.5};
 
-// Uniform over all rotations (Shoemake 1992), another one for each reading.
+// Returns a random rotation, uniform over all rotations (Shoemake 1992), another one for each
+// reading.
 Rotation rotation_of_reading(int reading, double precision) {
   if (precision < kLeastTurned) return reading % 2 == 1 ? kAxesOnward : inverse(kAxesOnward);
   const auto random = [&](int k) { return random_uniform(0x726f74, 3 * reading + k); };
@@ -90,7 +94,7 @@ Coefficients difference(const Coefficients& a, const Coefficients& b) {
   return d;
 }
 
-// Sets the measured error of a reading by a finer one. Returns how many times that of the model.
+// Sets the measured error of a reading by a finer one. Returns its ratio to the model's error.
 double measure(const MeshPassResult& finer, double precision, MeshPassResult& result) {
   const Coefficients error = difference(result.coefficients, finer.coefficients);
   const int degree = result.coefficients.degree();
@@ -102,10 +106,10 @@ double measure(const MeshPassResult& finer, double precision, MeshPassResult& re
   const double modelled = std::max(report.error, result.least_error);
   report.measured_share = 1;
   report.error = relative(1);
-  // Where faces are small against the waves, both readings have them alike, and what that leaves in
-  // the highest degrees with them.
+  // Where faces are small against the waves, both readings lump the same faces, with the same error
+  // in the highest degrees. So the finer reading's error in the band is added.
   report.band_error = std::hypot(relative(3 * degree / 4 + 1), finer.report.band_error);
-  // The model of the finer reading may be wrong by as much as that of the coarser one was.
+  // The model of the finer reading may be wrong by the same factor as the coarser one's.
   const double wrong = modelled > 0 ? report.error / modelled : 1.0;
   report.error_doubt = finer.report.error * std::max(1.0, wrong);
   const double mean = std::abs(result.coefficients.c(0, 0));
@@ -126,7 +130,8 @@ void read_again(const MeshView& mesh, const MeshPassOptions& options, const Cont
     precision = std::max(kLeastPrecision, finer_by * precision);
     MeshPassResult finer = turned_reading(mesh, options, precision, reading, silent);
     const double wrong = measure(finer, options.precision, result);
-    // Rules that fail on a mesh may fail alike in both, so that these differ by less than they err.
+    // Rules that fail on a mesh may fail alike in both readings, which then differ by less than
+    // their errors.
     if (wrong > kBelieved && !(result.report.error < before / kBelieved)) {
       result.report.reached = false;
     }

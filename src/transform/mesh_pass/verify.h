@@ -1,4 +1,4 @@
-// The error of a mesh pass, measured: the mesh is read a second time, finer and from another side.
+// Measures the error of a mesh pass: the mesh is read a second time, finer and rotated.
 #pragma once
 
 #include "rholm/context.h"
@@ -7,9 +7,9 @@
 
 namespace rholm {
 
-// `result`: of mesh_pass() with the same arguments, for a closed mesh. Measures its error if the
-// mesh has at most kMostVerified triangles, by this process alone; where that is above the wish,
-// finer coefficients with a measured error take their place. Throws as mesh_pass() does.
+// `result` is from mesh_pass() with the same arguments, for a closed mesh. Measures its error if
+// the mesh has at most kMostVerified faces, in this process alone. If the error is above the
+// precision, finer coefficients with a measured error replace it. Throws like mesh_pass().
 void verify_pass(const MeshView& mesh, const MeshPassOptions& options, const Context& context,
                  MeshPassResult& result);
 

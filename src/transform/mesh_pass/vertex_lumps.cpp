@@ -44,7 +44,7 @@ HWY_INLINE auto are_zero(D d, const Lumps& l) {
                  hn::And(hn::Eq(l.y, zero), hn::Eq(l.z, zero)));
 }
 
-// Returns where the Hessians are zero.
+// Returns the lanes in which the Hessians are zero.
 template <typename L, typename T>
 HWY_INLINE auto load_hessians(D d, const VertexLump<L>* lumps, const BlockParameters& p,
                               SourceBatch<T>& batch, std::size_t j, V* h) {
@@ -67,8 +67,8 @@ HWY_INLINE V inner(V ax, V ay, V az, V bx, V by, V bz) {
 struct LaneSquares {
   V weight, gradient, hessian;
 };
-// Derivatives as far as they are tangential, for unit distance: of a gradient g^2 - (g.u)^2, of a
-// Hessian |H|^2 - 2 |Hu|^2 + (u.Hu)^2.
+// Adds squares of the tangential parts of derivatives, at unit distance: g^2 - (g.u)^2 for a
+// gradient, |H|^2 - 2 |Hu|^2 + (u.Hu)^2 for a Hessian.
 HWY_INLINE void add_squares(D d, V x, V y, V z, V weight, V gx, V gy, V gz, const V* h,
                             LaneSquares& sums) {
   const V q = hn::Div(hn::Set(d, 1.0), inner(x, y, z, x, y, z));
@@ -91,11 +91,11 @@ HWY_INLINE LumpSums load_any(const MeshView& mesh, const std::uint32_t* numbers,
                              SourceBatch<T>& batch) {
   const D d;
   constexpr std::size_t kLanes = hn::MaxLanes(D());
-  // Vertices are corners of "triangles" whose indices follow each other.
+  // Vertices are read as corners of "triangles" whose indices follow each other.
   MeshView view = mesh;
   view.triangle_stride = sizeof(std::uint32_t);
   const auto* const at = reinterpret_cast<const std::byte*>(numbers);
-  // Rows of floats are read with 4 bytes more.
+  // A row of floats is read with 4 bytes beyond it.
   const std::size_t readable = mesh.n_vertices - (sizeof(Scalar) == sizeof(float));
   const V scale = hn::Set(d, p.scale);
   const V x0 = hn::Set(d, p.center.x), y0 = hn::Set(d, p.center.y), z0 = hn::Set(d, p.center.z);
@@ -258,7 +258,7 @@ template <typename L>
 const VertexLump<L>* arranged(const VertexLump<L>* lumps, std::size_t n, bool hessians,
                               VertexLump<L>* room) {
   if (!hessians && n == kVerticesPerBlock) return lumps;
-  constexpr std::size_t kLanes = 8;  // lumps are read so many at a time
+  constexpr std::size_t kLanes = 8;  // lumps are read this many at a time
   const std::size_t padded = (n + kLanes - 1) / kLanes * kLanes;
   const std::size_t per_vertex = lumps_per_vertex(hessians);
   for (std::size_t k = 0; k < per_vertex; ++k) {

@@ -1,12 +1,12 @@
-// The radius by edges and faces, (M6), face by face as in (M8):
+// Computes coefficients of the radius by edges and faces, face by face as in (M8). By (M6):
 //   l(l+1) c_lm = sum_e W_e <conj Y>_e + sum_T F_T <conj Y>_T,   <> = flat mean,
 //   W_e = (a x b) . (n_left/d_left - n_right/d_right),   F_T = -2 |T| / d_T.
 // Faces seen at a grazing angle have large W and F that cancel, and so have large faces near the
-// centre. They are taken out of the sum:
-// their int r conj(Y) dOmega is added undivided by l(l+1), and the terms of Green's formula that
-// neighbours would have cancelled,
-//   - int_0^1 (a x b) . grad conj(Y)(x/|x|) dt  per half-edge a -> b,
-// are added to the divided sum (method 3e): all terms stay bounded, also for d_T = 0.
+// centre. These faces are taken out of the sum. Their int r conj(Y) dOmega is added without the
+// division by l(l+1). The divided sum gets the terms of Green's formula that neighbours would have
+// cancelled (method 3e):
+//   - int_0^1 (a x b) . grad conj(Y)(x/|x|) dt  per half-edge a -> b.
+// So all terms stay bounded, also for d_T = 0.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,7 +22,7 @@ namespace {
 
 enum class FaceKind { kNone, kFlat, kGrazing };
 
-// `allowed`: what rounding may leave of a face.
+// `allowed` is the rounding error that a face may have.
 FaceKind kind_of(const StarGeometry& geometry, std::size_t t, double allowed) {
   const FaceGeometry& face = geometry.faces[t];
   if (face.degenerate) return FaceKind::kNone;
@@ -34,13 +34,13 @@ FaceKind kind_of(const StarGeometry& geometry, std::size_t t, double allowed) {
   return std::abs(face.d) < kGrazingSlope * nearest ? FaceKind::kGrazing : FaceKind::kFlat;
 }
 
-// One term of the divided sum: a mean over an edge or face, or the gradient term of an edge.
+// Weights of the terms of the divided sum: means over faces and edges, gradient terms of edges.
 struct Weights {
   std::vector<FaceKind> kind;
   std::vector<double> of_face;      // F_T
   std::vector<double> of_edge;      // W_e
-  std::vector<double> of_gradient;  // +-1: of -(a x b) . grad, 0: none
-  double total = 0;                 // of the moduli, as they enter the error
+  std::vector<double> of_gradient;  // sign of -(a x b) . grad; 0: no such term
+  double total = 0;                 // sum of the moduli, as they enter the error
 };
 
 Weights weights_of(const StarGeometry& geometry, double allowed) {
@@ -73,8 +73,8 @@ Weights weights_of(const StarGeometry& geometry, double allowed) {
     add_side(edge.right, -1);
     w.total += std::abs(w.of_edge[e]);
     if (w.of_gradient[e] != 0) {
-      // A gradient is up to sqrt(l(l+1)) times the harmonic; against the division by l(l+1)
-      // that costs a factor of at most sqrt(2) at low degrees; |x| is at least the distance.
+      // A gradient is up to sqrt(l(l+1)) times the harmonic. Against the division by l(l+1) this
+      // costs a factor of at most sqrt(2) at low degrees. |x| is at least the distance.
       const double r = segment_distance(geometry.vertices[edge.a], geometry.vertices[edge.b]);
       w.total += 2 * norm(across) / std::max(r, 1e-300);
     }
@@ -95,7 +95,8 @@ Allowance divided_allowance(double allowed, double weight, int degree) {
           .growth = Growth::kFlat};
 }
 
-// sum over edges with a gradient term of -+ (a x b)/|x| . grad_S conj(Y)(u), up to degree L.
+// Returns the sum over edges with a gradient term of -+ (a x b)/|x| . grad_S conj(Y)(u), up to
+// degree L.
 Coefficients gradient_terms(const StarGeometry& geometry, const Weights& w,
                             const MethodOptions& options, const Allowance& allowance,
                             std::size_t& nodes, const Context& context) {
@@ -125,7 +126,7 @@ void add(Coefficients& to, const Coefficients& from) {
   for (std::size_t i = 0; i < to.values().size(); ++i) to.values()[i] += from.values()[i];
 }
 
-// int r conj(Y) dOmega over the grazing faces.
+// Returns int r conj(Y) dOmega over the grazing faces.
 Coefficients grazing_faces(const StarGeometry& geometry, const Weights& w,
                            const MethodOptions& options, std::size_t& nodes,
                            const Context& context) {

@@ -1,6 +1,6 @@
-// The gauge q = 1/r by integrals over the arcs of the edges alone:
-//   c_lm(q) = 1/(2 - l(l+1)) sum_e s_e int_arc conj(Y_lm) ds,  l != 1      (M4)
-// and degree 1 in closed form (M5).
+// Computes the gauge q = 1/r by integrals over the arcs of the edges alone:
+//   c_lm(q) = 1/(2 - l(l+1)) sum_e s_e int_arc conj(Y_lm) ds,  l != 1      (M4).
+// Degree 1 has a closed form (M5).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,8 +13,9 @@
 namespace rholm {
 namespace {
 
-// A face whose plane passes within this part of the radius from the centre has a gauge beyond
-// what double precision can sum with the others: 1/d against 1/r, squared in the norm.
+// Smallest distance of a face's plane from the centre, as a part of the radius. Below it, the gauge
+// is beyond what double precision can sum with the other faces: 1/d against 1/r, squared in the
+// norm.
 constexpr double kSmallestSlope = 1e-12;
 
 void check_planes(const StarGeometry& geometry) {
@@ -61,8 +62,8 @@ ArcJumps jumps_of(const StarGeometry& geometry) {
   return jumps;
 }
 
-// As for the radius, with |2 - l(l+1)| >= 2/3 l(l+1) from l = 2 on; on an arc nothing is lost at
-// low degrees that is not lost at L.
+// Equals divided_allowance() of the radius, with |2 - l(l+1)| >= 2/3 l(l+1) from l = 2 on. On an
+// arc, low degrees lose nothing that degree L does not lose.
 Allowance arc_allowance(const MethodOptions& options, double total) {
   const double root = std::sqrt(4 * std::numbers::pi);
   return {.allowed = options.allowed / std::max(total, 1e-300),
@@ -72,8 +73,9 @@ Allowance arc_allowance(const MethodOptions& options, double total) {
           .growth = Growth::kArc};
 }
 
-// Half of the error may come from the sums: the others' rule is generous. Sums of squares as if
-// each edge had one node; dividing by l(l+1) - 2 brings generic sums down to 1 / sqrt(4 pi).
+// Half of the error may come from the sums, because the rules of the other half are generous. Sums
+// of squares count each edge as one node. Dividing by l(l+1) - 2 brings generic sums down to 1 /
+// sqrt(4 pi).
 AdjointNeeds sum_needs(const MethodOptions& options, const ArcJumps& jumps) {
   const double root = std::sqrt(4 * std::numbers::pi);
   const double generic = 1.5 * std::sqrt(std::max(jumps.square, 1e-300)) / root;
@@ -83,8 +85,8 @@ AdjointNeeds sum_needs(const MethodOptions& options, const ArcJumps& jumps) {
           .sources = 4 * jumps.of_edge.size()};
 }
 
-// int_arc conj(Y) ds times the jump, from p on. Arcs too long for one rule are cut into equal
-// parts.
+// Adds int_arc conj(Y) ds times the jump, for the arc that begins at p. Arcs too long for one rule
+// are cut into equal parts.
 void add_arc(const Vec3& p, const EdgeJump& jump, const Allowance& allowance, Sources& sources) {
   const Vec3 q = cross(jump.normal, p);
   int parts = 1, exactness = 0;
@@ -99,7 +101,7 @@ void add_arc(const Vec3& p, const EdgeJump& jump, const Allowance& allowance, So
   }
 }
 
-// By 2 - l(l+1); degree 1, which has lost all, becomes 0.
+// Divides by 2 - l(l+1). Degree 1, where this divisor is 0, becomes 0.
 void divide_by_eigenvalue_of_gauge(Coefficients& c) {
   for (int l = 0; l <= c.degree(); ++l) {
     const double factor = l == 1 ? 0.0 : 1 / (2 - static_cast<double>(l) * (l + 1));

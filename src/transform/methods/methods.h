@@ -1,5 +1,5 @@
-// Direct routes from a star chart to its coefficients. Each returns those of the scaled geometry.
-// Two more are in paper/methods/paper_methods.h.
+// Direct methods from a star chart to coefficients. Each returns the coefficients of the scaled
+// geometry. Two more methods are in paper/methods/paper_methods.h.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace rholm {
 
 struct MethodOptions {
   int degree = 0;
-  Engine engine = Engine::kDirect;  // of the gauge's sums; the others are direct
+  Engine engine = Engine::kDirect;  // for the gauge's sums; other sums are direct
   double allowed = 0;               // l2 norm of the error over 1 <= l <= L
   double mean_allowed = 0;          // error of c_00
 };
@@ -33,13 +33,13 @@ MethodResult edge_method(const StarGeometry& geometry, const MethodOptions& opti
 MethodResult gauge_method(const StarGeometry& geometry, const MethodOptions& options,
                           const Context& context);
 
-// c_00 of r: (1/sqrt(4 pi)) sum_T d_T int_T dS / |x|^2, within `allowed`.
+// Returns c_00 of r: (1/sqrt(4 pi)) sum_T d_T int_T dS / |x|^2, within `allowed`.
 double radius_mean_coefficient(const StarGeometry& geometry, double allowed);
 
-// What cubature of r conj(Y) dOmega, undivided by l(l+1), may lose on sources of total weight
-// `weight`: an error of E(p; l) <= E(p; L) (l/L)^2 in each Y_lm adds up to
-// sqrt(sum (2l+1)/(4 pi) (l/L)^4) <= (L+1) / sqrt(12 pi), its part at low degrees to
-// sqrt(sum (2l+1)/(4 pi)) = (L+1) / sqrt(4 pi).
+// Returns the allowance for cubature of r conj(Y) dOmega, undivided by l(l+1), on sources of total
+// weight `weight`. An error of E(p; l) <= E(p; L) (l/L)^2 in each Y_lm adds up to sqrt(sum
+// (2l+1)/(4 pi) (l/L)^4) <= (L+1) / sqrt(12 pi). Its part at low degrees adds up to sqrt(sum
+// (2l+1)/(4 pi)) = (L+1) / sqrt(4 pi).
 Allowance undivided_allowance(double allowed, double weight, int degree);
 
 }  // namespace rholm

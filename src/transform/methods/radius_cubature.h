@@ -9,14 +9,14 @@
 
 namespace rholm {
 
-// int |r| dOmega over the face, roughly: |solid angle| times the largest radius.
+// Returns about int |r| dOmega over the face: |solid angle| times the largest radius.
 inline double radius_weight(const StarGeometry& geometry, std::size_t t) {
   double radius = 0;
   for (const Vec3& corner : geometry.corners(t)) radius = std::max(radius, norm(corner));
   return std::abs(geometry.faces[t].solid_angle) * radius;
 }
 
-// Of all faces.
+// Returns the sum over all faces.
 inline double radius_weight(const StarGeometry& geometry) {
   double total = 0;
   for (std::size_t t = 0; t < geometry.faces.size(); ++t) total += radius_weight(geometry, t);

@@ -1,4 +1,4 @@
-// Cubature of r dOmega over the flat faces: the mean, and what is undivided by l(l+1).
+// Cubature of r dOmega over the flat faces: the mean, and terms that are not divided by l(l+1).
 #include <cmath>
 #include <numbers>
 

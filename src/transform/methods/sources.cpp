@@ -11,12 +11,13 @@ namespace {
 
 constexpr std::size_t kBlock = 1 << 16;  // chosen: 2 MiB of sources at a time
 
-// A piece longer than this many times its distance is halved before a rule is tried: beyond, the
-// bound's ellipses are so thin that halving is cheaper (at ratio 1 a digit costs 2.6 degrees of
-// exactness, at ratio 4 it costs 9.3).
+// A piece whose half-length exceeds this many times its distance is halved before a rule is tried.
+// At larger ratios the ellipses of the bound are so thin that halving is cheaper. At ratio 1 a
+// digit costs 2.6 degrees of exactness, at ratio 4 it costs 9.3.
 constexpr double kLongest = 1.0;
 
-// Halvings: after 100 a piece is 2^-100 of the first, far below what doubles resolve.
+// Largest number of halvings: after 100, a piece is 2^-100 of the first, far below the resolution
+// of doubles.
 constexpr int kMaxDepth = 100;
 
 [[noreturn]] void throw_on_surface() {

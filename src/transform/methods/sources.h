@@ -1,4 +1,4 @@
-// The sources of an adjoint sum, collected piece by piece and summed in blocks of fixed size.
+// Collects the sources of an adjoint sum, and sums them in blocks of fixed size.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@ class Sources {
  public:
   Sources(const AdjointNeeds& needs, const Context& context);
 
-  // The source w conj(Y)(x/|x|); `part` of the work is done (for the progress).
+  // Adds the source w conj(Y)(x/|x|). set_progress() tells which part of the work is done.
   void add(const Vec3& x, double w);
   void set_progress(double part) { part_ = part; }
-  // Sums what is left and returns sum_j w_j conj(Y)(u_j).
+  // Sums the remaining sources and returns sum_j w_j conj(Y)(u_j).
   Coefficients finish();
 
   std::size_t count() const { return count_; }
@@ -37,15 +37,15 @@ class Sources {
   std::size_t count_ = 0;
 };
 
-// Calls visit(x, w) for the nodes of a rule on the segment a-b whose weights sum to 1 and that
-// keeps the allowance; halves the segment where it comes near the singular set. `distance` gives
-// the distance of a piece from that set. Throws InvalidInput if the segment touches it.
+// Calls visit(x, w) for the nodes of a rule on the segment a-b that keeps the allowance; the
+// weights sum to 1. Halves the segment near the singular set. `distance` returns the distance of a
+// piece from the singular set. Throws InvalidInput if the segment touches the set.
 using SegmentDistance = std::function<double(const Vec3& a, const Vec3& b)>;
 void visit_segment(const Vec3& a, const Vec3& b, const Allowance& allowance,
                    const SegmentDistance& distance,
                    const std::function<void(const Vec3& x, double w)>& visit);
 
-// The same on a triangle, whose singular point is the centre.
+// Does the same on a triangle, whose singular point is the centre.
 void visit_triangle(const std::array<Vec3, 3>& corners, const Allowance& allowance,
                     const std::function<void(const Vec3& x, double w)>& visit);
 

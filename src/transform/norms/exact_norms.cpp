@@ -30,11 +30,11 @@
 namespace rholm {
 namespace {
 
-// Triangles whose indices are checked, and corners asked for, ahead of use; and whose sums are
-// plain ones, as in view_scan.cpp.
+// Number of faces in a block. Their indices are checked, and their corners prefetched, ahead of
+// use. Sums over a block are plain sums, as in view_scan.cpp.
 constexpr std::size_t kBlock = FaceSizes::kRun;
 
-// binomial(-1/2, k): (1 + v)^(-1/2) = sum of them times v^k.
+// Coefficients of the series (1 + v)^(-1/2) = sum_k binomial(-1/2, k) v^k.
 struct Binomials {
   double value[kTerms8 + 1] = {1};
   constexpr Binomials() {
@@ -43,17 +43,17 @@ struct Binomials {
 };
 constexpr Binomials kBinomials;
 
-// From the mesh to where sums are made.
+// Maps the mesh's coordinates to the coordinates in which sums are made.
 struct Frame {
   Vec3 shift;        // -scale * center
   double scale = 1;  // a power of two
 };
 
-// What the means need of a block's triangles, in units of g: squares of corners less 1, squares of
-// edges, and the longest of these; 1/sqrt(g) and d2.
+// Values of a block's faces for the means. In units of g: squares of corners less 1, squares of
+// edges, and the largest square of an edge. Further 1/sqrt(g), d2 and twice the area.
 struct Block {
   alignas(64) double r[3][kBlock], l[3][kBlock];
-  alignas(64) double longest[kBlock];  // infinite for a normal that is all rounding
+  alignas(64) double longest[kBlock];  // infinite where rounding may decide the normal
   alignas(64) double inverse[kBlock], d2[kBlock];
   alignas(64) double twice_area[kBlock];
 };
@@ -82,11 +82,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using M = hn::Mask<D>;
 
-// Squares in units of g, as in Block.
+// Squares of corners and edges in units of g, as in Block.
 struct LaneSquares {
   V r0, r1, r2, l0, l1, l2;
 };
-// Powers of g^(1/2) left out: <1/|x|>, <1/|x|^3>.
+// Means <1/|x|> and <1/|x|^3> without their powers of g^(1/2).
 struct Means {
   V first, third;
 };
@@ -95,7 +95,7 @@ HWY_INLINE V CenterSquare(D d, V r0, V r1, V r2, V edges) {
                        hn::Mul(hn::Set(d, 1.0 / 3), hn::Add(hn::Add(r0, r1), r2)));
 }
 
-// f = (1+v)^(-1/2) - 1.
+// Returns f = (1+v)^(-1/2) - 1.
 template <int kTerms>
 HWY_INLINE V InverseRoot(D d, V v) {
   V p = hn::Set(d, kBinomials.value[kTerms]);
@@ -103,7 +103,7 @@ HWY_INLINE V InverseRoot(D d, V v) {
   return hn::Mul(p, v);
 }
 
-// Sums over the nodes of an orbit: of f and of (1+f)^3 - 1 = f (3 + f (3 + f)).
+// Sums over the nodes of an orbit of f and of (1+f)^3 - 1 = f (3 + f (3 + f)).
 struct OrbitSums {
   V first, third;
   HWY_INLINE void Add(D d, V f) {
@@ -121,7 +121,7 @@ template <int kTerms>
 HWY_INLINE void AddTriples(D d, const TripleOrbit& orbit, const LaneSquares& s, V edges,
                            OrbitSums& all) {
   const double a = orbit.a, b = 1 - 2 * a;
-  // a sum(r - 1) - a b sum(l), where sum(r - 1) = sum(l) / 3.
+  // The common part is a sum(r - 1) - a b sum(l), where sum(r - 1) = sum(l) / 3.
   const V common = hn::Mul(edges, hn::Set(d, a * (1.0 / 3 - b)));
   const V of_corner = hn::Set(d, b - a), of_edge = hn::Set(d, (b - a) * a);
   const auto f = [&](V r, V l) HWY_ATTR {
@@ -134,7 +134,7 @@ HWY_INLINE void AddTriples(D d, const TripleOrbit& orbit, const LaneSquares& s, 
   sums.AddTo(d, orbit.weight, all);
 }
 
-// The two points of a sextuple at which the first corner of those given has the part a.
+// Adds the two points of a sextuple at which the first given corner has the coordinate a.
 template <int kTerms>
 HWY_INLINE void AddTwins(D d, V r0, V r1, V r2, V l0, V l1, V l2, OrbitSums& sums) {
   constexpr double a = kDegree8Six.a, b = kDegree8Six.b, c = 1 - a - b;
@@ -166,7 +166,7 @@ HWY_INLINE Means MeansOf(D d, const LaneSquares& s) {
   return {hn::Add(sums.first, one), hn::Add(sums.third, one)};
 }
 
-// The same by the four triangles between the edges' midpoints.
+// Computes the same means from the four triangles between the edges' midpoints.
 HWY_NOINLINE Means MeansOfQuarters(D d, const LaneSquares& s) {
   const V quarter = hn::Set(d, 0.25), half = hn::Set(d, 0.5), one = hn::Set(d, 1.0);
   const V l0 = hn::Mul(quarter, s.l0), l1 = hn::Mul(quarter, s.l1), l2 = hn::Mul(quarter, s.l2);
@@ -176,7 +176,7 @@ HWY_NOINLINE Means MeansOfQuarters(D d, const LaneSquares& s) {
   const V m2 = hn::MulSub(half, hn::Add(s.r0, s.r1), l2);
   Means sum = {hn::Zero(d), hn::Zero(d)};
   const auto add = [&](V r0, V r1, V r2) HWY_ATTR {
-    const V g = CenterSquare(d, r0, r1, r2, edges);  // less 1
+    const V g = CenterSquare(d, r0, r1, r2, edges);  // g less 1
     const V inverse = hn::Div(one, hn::Sqrt(hn::Add(one, g))), q = hn::Mul(inverse, inverse);
     const auto unit = [&](V r) HWY_ATTR { return hn::Mul(hn::Sub(r, g), q); };
     const Means means = MeansOf<true>(
@@ -192,12 +192,12 @@ HWY_NOINLINE Means MeansOfQuarters(D d, const LaneSquares& s) {
   return sum;
 }
 
-// Squares over all triangles of a block.
+// Squares of the longest edge and of the nearest corner's distance, over all faces of a block.
 struct Extents {
   V longest, nearest;
 };
 
-// Prepares one vector of triangles.
+// Computes the block's values for one vector of faces.
 HWY_INLINE void Prepare(D d, const Vector3& p0, const Vector3& p1, const Vector3& p2,
                         std::size_t at, Block& block, Extents& extents) {
   const Vector3 e0 = Minus(p2, p1), e1 = Minus(p0, p2), e2 = Minus(p1, p0);
@@ -207,7 +207,8 @@ HWY_INLINE void Prepare(D d, const Vector3& p0, const Vector3& p1, const Vector3
   const V l0 = Dot(e0, e0), l1 = Dot(e1, e1), l2 = Dot(e2, e2);
   const V g = CenterSquare(d, r0, r1, r2, hn::Add(hn::Add(l0, l1), l2));
   const V longest = hn::Max(l0, hn::Max(l1, l2)), farthest = hn::Max(r0, hn::Max(r1, r2));
-  // Corners are exact to 2^-53 r, so a normal to about 2^-52 r |e|: beyond, the exact one decides.
+  // Corners are exact to 2^-53 r, so normals to about 2^-52 r |e|. Beyond, the exact normal
+  // decides.
   const M clear = hn::Gt(nn, hn::Mul(hn::Set(d, 0x1p-90), hn::Mul(farthest, longest)));
   const V one = hn::Set(d, 1.0), inverse = hn::Div(one, hn::Sqrt(g)), q = hn::Mul(inverse, inverse);
   hn::Store(hn::MulSub(r0, q, one), d, block.r[0] + at);
@@ -229,7 +230,7 @@ struct LaneSums {
   V first, third, volume6;
 };
 
-// Adds one vector of triangles and returns those left out.
+// Adds one vector of faces and returns the lanes that are left out.
 HWY_INLINE M AddTriangles(D d, const Block& block, std::size_t at, LaneSums& sums) {
   const LaneSquares s = {hn::Load(d, block.r[0] + at), hn::Load(d, block.r[1] + at),
                          hn::Load(d, block.r[2] + at), hn::Load(d, block.l[0] + at),
@@ -246,7 +247,7 @@ HWY_INLINE M AddTriangles(D d, const Block& block, std::size_t at, LaneSums& sum
     if (HWY_LIKELY(hn::AllFalse(d, left))) {
       means = MeansOf<true>(d, s);
     } else {
-      // Quarters are half as long, and at most (theta/2)^2 nearer.
+      // A quarter's edges are half as long, and it is nearer by at most (theta/2)^2.
       left = beyond(3.9 * kReach8);
       means = MeansOfQuarters(d, s);
     }
@@ -259,7 +260,7 @@ HWY_INLINE M AddTriangles(D d, const Block& block, std::size_t at, LaneSums& sum
   return left;
 }
 
-// Returns what FaceSizes says of the block as a whole.
+// Fills the block and returns its value of FaceSizes::angles2.
 template <class T>
 HWY_INLINE double PrepareBlock(const MeshView& mesh, const Frame& frame, std::size_t begin,
                                std::size_t n, bool whole, Block& block) {
@@ -290,8 +291,8 @@ HWY_INLINE double PrepareBlock(const MeshView& mesh, const Frame& frame, std::si
             local(LoadFew<T>(d, mesh, indices + 4, few)),
             local(LoadFew<T>(d, mesh, indices + 8, few)), at, block, extents);
   }
-  // Beyond the last triangle a vector repeats it. Triangles of size 0 at distance 1 count for
-  // nothing instead; weights of 0 would not do where the last one has its centre at the mesh's.
+  // Beyond the last face a vector repeats it. These copies become faces of size 0 at distance 1,
+  // which add nothing. Weights of 0 would fail where the last face has its centroid at the centre.
   for (double* row : {block.r[0], block.r[1], block.r[2], block.l[0], block.l[1], block.l[2],
                       block.longest, block.inverse, block.d2}) {
     for (std::size_t i = n; i < at; ++i) row[i] = 0;
@@ -300,7 +301,8 @@ HWY_INLINE double PrepareBlock(const MeshView& mesh, const Frame& frame, std::si
   return nearest > 0 ? hn::GetLane(hn::MaxOfLanes(d, extents.longest)) / nearest : kInfinity;
 }
 
-// Sums of n triangles but for those whose numbers come into `left`; returns how many these are.
+// Sums n faces, but for some that are left out. Writes their numbers to `left` and returns their
+// count.
 HWY_INLINE std::size_t SumBlock(const Block& block, std::size_t n, NormSums& result,
                                 std::size_t* left) {
   const D d;
@@ -321,7 +323,8 @@ HWY_INLINE std::size_t SumBlock(const Block& block, std::size_t n, NormSums& res
   return n_left;
 }
 
-// Of groups of faces, n in all. Returns whether the normal of one is all rounding.
+// Sums the areas of each group of n faces. Returns true if rounding may decide the normal of a
+// face.
 bool SumAreas(const Block& block, std::size_t n, std::uint32_t* sums) {
   double longest = 0;
   for (std::size_t at = 0; at < n; at += FaceSizes::kGroup) {
@@ -344,9 +347,9 @@ HWY_INLINE void SumRangeOf(const MeshView& mesh, const Frame& frame, std::size_t
   for (std::size_t first = begin; first < end; first += kBlock) {
     const std::size_t last = HWY_MIN(end, first + kBlock);
     const std::uint32_t largest = next_largest;
-    if (largest >= mesh.n_vertices) validate(mesh);  // throws, and says which
+    if (largest >= mesh.n_vertices) validate(mesh);  // throws and names the index
     next_largest = LookAhead(mesh, last, HWY_MIN(end, last + kBlock));
-    // Rows of floats are read with 4 bytes more: not the last one.
+    // A row of floats is read with 4 bytes beyond it, which the last row does not have.
     const bool whole = kWholeVectors && (sizeof(T) == 8 || largest + 1 < mesh.n_vertices);
     const double angle2 = PrepareBlock<T>(mesh, frame, first, last - first, whole, block);
     if (sizes != nullptr) {
@@ -384,17 +387,18 @@ HWY_EXPORT(SumRange);
 namespace {
 
 constexpr std::size_t kGrain = 32 * kBlock;  // chosen: about 50 us
-// Grains of a part; chosen: from 0.2 ms, which threads take little time to hand over, to some 20
-// ms, which is long beside a message. And parts, where they are neither: enough for many threads.
+// Grains of a part. Chosen: at least 0.2 ms of work, which threads take little time to hand over;
+// at most some 20 ms, which is long beside a message. Between these limits there are kParts parts,
+// enough for many threads.
 constexpr std::size_t kLeastGrains = 4, kMostGrains = 256, kParts = 64;
 static_assert(kBlock % FaceSizes::kGroup == 0);  // parts have whole groups
 
-// What another process needs to know.
+// Data that another process needs to compute parts.
 struct NormsJob {
   Vec3 center;
   double scale = 1;
   bool with_sizes = false;
-  std::size_t triangles = 0;  // of a part
+  std::size_t triangles = 0;  // number of faces in a part
 
   Frame frame() const { return {.shift = -scale * center, .scale = scale}; }
 };
@@ -426,7 +430,7 @@ std::size_t triangles_of_part(std::size_t n_triangles) {
   return kGrain * std::clamp(grains, kLeastGrains, kMostGrains);
 }
 
-// The triangles of a part as a mesh, its sums and sizes as bytes.
+// Takes the faces of a part as a mesh, and returns its sums and sizes as bytes.
 std::string work(const MeshView& mesh, const NormsJob& job, std::size_t part) {
   MeshView some = mesh;
   some.triangles += part * job.triangles * mesh.triangle_stride;
@@ -447,7 +451,7 @@ std::string work(const MeshView& mesh, const NormsJob& job, std::size_t part) {
   return writer.take();
 }
 
-// Puts those of a part where they belong, which begins with that triangle.
+// Puts the sums and sizes of a part, which begins with face `first`, in their places.
 void take(std::size_t first, const std::string& bytes, std::vector<NormSums>& grains,
           FaceSizes* sizes) {
   const auto put = [](const auto& from, std::size_t at, auto& to) {
@@ -507,7 +511,7 @@ Executor::Work norms_work(const MeshView& mesh, std::string_view input) {
 }
 
 bool covers_once(const ExactNorms& norms) {
-  // A whole multiple of 4 pi but for rounding.
+  // The solid angle is a whole multiple of 4 pi except for rounding.
   return std::abs(norms.solid_angle / (4 * std::numbers::pi) - 1) < 1e-3;
 }
 

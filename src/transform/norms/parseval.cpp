@@ -11,8 +11,8 @@
 namespace rholm {
 namespace {
 
-// Norms are compensated sums of triangles' parts, each of which its rule may leave 4e-15 off
-// (exact_norms_rules.h): as much as 35 roundings.
+// Norms are compensated sums over faces. The rule of a face may leave an error of 4e-15
+// (exact_norms_rules.h), as much as 35 roundings.
 constexpr double kNormRounding = rounding_of_sum(35);
 
 double varying_norm(double norm_squared, const Coefficients& coefficients) {

@@ -1,5 +1,5 @@
-// What the degrees of a function beyond those that are known hold, as the difference of its norm
-// and theirs, (M7), and how far that can be trusted.
+// Energy of a function beyond the known degrees, and its error bound. The energy is the squared
+// norm less the energy of the known degrees, (M7).
 #pragma once
 
 #include <optional>
@@ -8,33 +8,33 @@
 
 namespace rholm {
 
-// Of the coefficients, absolute: of c_00, and the l2 norm of that of all others.
+// Absolute errors: of c_00, and the l2 norm of the errors of all other coefficients.
 struct CoefficientErrors {
   double mean = 0, varying = 0;
 };
-// That of the coefficients, or what it is assumed to be: the default of AnalyzeOptions.
+// Returns the precision of the coefficients or, if it is unknown, the default of AnalyzeOptions.
 double precision_of(const Expansion& expansion);
-// The larger of both errors, relative: the inverse of what follows.
+// Returns the larger one of the two errors, both relative: the inverse of coefficient_errors().
 double precision_of(double norm_squared, const Coefficients& coefficients,
                     const CoefficientErrors& errors);
-// From relative ones: of c_00, and of the function without its mean.
+// Converts relative errors: `mean` of c_00, `varying` of the function without its mean.
 CoefficientErrors coefficient_errors(double norm_squared, const Coefficients& coefficients,
                                      double mean, double varying);
 
 struct ParsevalRest {
-  double value = 0;  // ||f||^2 - sum |c|^2; may be below 0 where the doubt is larger
-  // How far the rest is at most from that of exact coefficients: 2 |c| |dc| + |dc|^2, for c_00 and
-  // for the others by Cauchy and Schwarz, and the rounding of the norms.
+  double value = 0;  // ||f||^2 - sum |c|^2; negative at most by `doubt`
+  // Bound on the difference from the rest of exact coefficients: 2 |c| |dc| + |dc|^2 for c_00 and,
+  // by Cauchy and Schwarz, for the other coefficients. It includes the rounding of the norms.
   double doubt = 0;
 };
 ParsevalRest parseval_rest(double norm_squared, const Coefficients& coefficients,
                            const CoefficientErrors& errors);
 
-// sqrt(rest / 4 pi), if the rest is at least this many times its doubt.
+// Returns sqrt(rest / 4 pi) if the rest is at least `least` times its error bound.
 std::optional<double> rms_of(const ParsevalRest& rest, double least);
-// Where a rest that is at least 4 times its doubt is believed: 13 % of its root at most.
+// A rest is reported from 4 times its error bound on: its root is then off by 13 % at most.
 inline constexpr double kBelieved = 4;
-// How far sqrt(rest / 4 pi) of a rest above its doubt may be off.
+// Returns the largest error of sqrt(rest / 4 pi), for a rest above its error bound.
 double rms_doubt(const ParsevalRest& rest);
 
 }  // namespace rholm

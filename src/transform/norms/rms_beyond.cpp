@@ -9,7 +9,8 @@
 namespace rholm {
 namespace {
 
-// Where an rms by Parseval is called exact, its doubt is a fiftieth of the rest (truncation.cpp).
+// An rms by Parseval is called exact where its error bound is at most a fiftieth of the rest
+// (truncation.cpp).
 constexpr double kExact = 50;
 
 double rms_of_energy(double energy) {
@@ -33,7 +34,8 @@ RmsBeyond rms_beyond(const Expansion& expansion) {
   result.precision_is_assumed = !expansion.precision;
   result.rms.resize(energy.size());
   result.rms_within.resize(energy.size());
-  // From the top, so that small remainders are not lost against the large first degrees.
+  // The sum begins at the top, so that small remainders are not lost against the large first
+  // degrees.
   double within = 0;
   for (std::size_t l = energy.size(); l-- > 0;) {
     result.rms_within[l] = rms_of_energy(within);
@@ -65,7 +67,8 @@ bool RmsBeyond::is_exact(int l) const {
   return value && 4 * std::numbers::pi * *value * *value >= kExact * *doubt;
 }
 
-// A rest that is not believed is less than kBelieved doubts, and one more below the true one.
+// A rest that is not reported is below kBelieved error bounds; the true rest may be one bound
+// larger.
 std::optional<double> RmsBeyond::bound() const {
   if (!doubt) return std::nullopt;
   return rms_of_energy((kBelieved + 1) * *doubt);

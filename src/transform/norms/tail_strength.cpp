@@ -1,4 +1,4 @@
-// The tail of the spectrum, from the jumps of the slope across the edges: method 5.
+// Computes the tail of the spectrum from the jumps of the slope across the edges: method 5.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@ double tail_strength(const StarChart& chart, RadialFunction function) {
     poll();
     const EdgeJump e = edge_jump(geometry, edge);
     const Vec3 &a = geometry.vertices[edge.a], &b = geometry.vertices[edge.b];
-    // r^4 ds = |x|^2 |a x b| dt along the flat edge, quadratic in t.
+    // r^4 ds = |x|^2 |a x b| dt along the flat edge is quadratic in t.
     const double integral = function == RadialFunction::kGauge
                                 ? e.angle
                                 : norm(cross(a, b)) * (dot(a, a) + dot(a, b) + dot(b, b)) / 3;
@@ -37,18 +37,18 @@ double tail_strength(const StarChart& chart, RadialFunction function) {
 namespace {
 
 struct HalfEdge {
-  std::uint64_t name = 0;  // by the coordinates of its ends
+  std::uint64_t name = 0;  // hash of the coordinates of its ends
   double value = 0;
 };
 
-// Half-edges that wait for their twins. The last few thousand are at hand; those that are pushed
-// out wait apart.
+// Half-edges that wait for their twins. The last few thousand wait in a table; older ones, which
+// newer ones replace there, wait in a list.
 class WaitingEdges {
  public:
-  // Calls join(value, value) for two of a name.
+  // Adds a half-edge. Calls join(value, value) for two half-edges of the same name.
   template <typename Join>
   void add(std::uint64_t name, double value, const Join& join) {
-    name |= 1;  // 0 is an empty place
+    name |= 1;  // 0 marks an empty place
     HalfEdge& half = at_hand_[name >> (64 - kBits)];
     if (half.name == name) {
       join(half.value, value);
@@ -58,7 +58,7 @@ class WaitingEdges {
     if (half.name != 0) pushed_out_.push_back(half);
     half = {name, value};
   }
-  // Those that have met none.
+  // Returns the half-edges that have not met a twin.
   std::vector<HalfEdge> take_rest() {
     for (const HalfEdge& half : at_hand_) {
       if (half.name != 0) pushed_out_.push_back(half);
@@ -72,7 +72,7 @@ class WaitingEdges {
   std::vector<HalfEdge> pushed_out_;
 };
 
-// Calls join(value, value) for two of a name.
+// Calls join(value, value) for each two half-edges of the same name.
 template <typename Join>
 void join_twins(std::vector<HalfEdge>& edges, const Join& join) {
   std::ranges::stable_sort(edges, {}, &HalfEdge::name);
@@ -83,8 +83,8 @@ void join_twins(std::vector<HalfEdge>& edges, const Join& join) {
   }
 }
 
-// One of the sides of each edge: the jump of the slope there, times the root of what the edge
-// counts.
+// Visits each edge of a face: the face's term of the jump of the slope, times the root of the
+// edge's weight.
 template <typename Visit>
 void visit_sides(const std::array<Vec3, 3>& p, const Visit& visit) {
   std::array<std::uint64_t, 3> place;
@@ -97,7 +97,7 @@ void visit_sides(const std::array<Vec3, 3>& p, const Visit& visit) {
     const Vec3 &a = p[i], &b = p[j];
     const Vec3 across = cross(a, b);
     const double size = norm(across);
-    // On both sides of an edge the same N up to its sign, which the product with the slope keeps.
+    // Both faces of an edge have the same N up to its sign, so their terms add up to the jump.
     const double side = size > 0 ? dot(slope, across) / size : 0.0;
     const double weight = size * (dot(a, a) + dot(a, b) + dot(b, b)) / 3;
     visit(mix_bits(place[i] ^ place[j]) + place[i] + place[j], side * std::sqrt(weight));
@@ -108,7 +108,7 @@ void visit_sides(const std::array<Vec3, 3>& p, const Visit& visit) {
 
 double tail_strength(const MeshView& mesh, const Vec3& center, const Context& context) {
   const double scale = unit_scale(mesh, center, context);
-  constexpr std::size_t kGrain = 1 << 15;  // chosen: some 2 ms, and few edges between two of them
+  constexpr std::size_t kGrain = 1 << 15;  // chosen: some 2 ms, and few edges between two grains
   struct Part {
     CompensatedSum sum;
     std::vector<HalfEdge> rest;

@@ -1,15 +1,15 @@
-// The largest truncation error, at the vertices: method 5.
+// Computes the largest truncation error, which is at a vertex: method 5.
 //
-// Near a vertex v the Laplacian of f = r or 1/r has the jumps j_e of the normal derivative on the
-// edges that leave it, j_e = s_e for the gauge, -r^2 s_e for the radius. By the projection on
-// degree l, (2l+1)/(4 pi) P_l(u . v), and Lap Y = -l(l+1) Y, an arc that is long against 1/l adds
+// Near a vertex v the Laplacian of f = r or 1/r has jumps j_e of the normal derivative on the edges
+// at v. The gauge has j_e = s_e, the radius j_e = -r^2 s_e. The projection on degree l is (2l+1)/(4
+// pi) P_l(u . v), and Lap Y = -l(l+1) Y. So an arc that is long against 1/l adds
 //   -(2l+1)/(4 pi l(l+1)) j_e int P_l(cos s) ds,    int P_l(cos s) ds -> 1/(l + 1/2),
-// to f at v, and all degrees beyond L together
+// to f at v. All degrees beyond L together add
 //   (f - f_L)(v) = -sum_e j_e / (2 pi (L+1)) (1 + O(1/L)).
-// Inside an edge two such halves meet: twice its jump takes the place of the sum.
+// Inside an edge two such halves meet: twice the edge's jump replaces the sum.
 //
-// s_e = (a_L - a_R) . N, a = n_T/d_T, is the sum of a_T . N_T over its two half-edges, N_T = p_i x
-// p_j / |p_i x p_j| in the sense of each: nothing needs to be paired.
+// s_e = (a_L - a_R) . N, a_T = n_T/d_T, is the sum of a_T . N_T over its two half-edges. N_T = p_i
+// x p_j / |p_i x p_j| has the direction of each half-edge, so that no half-edges need to be paired.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,7 +26,7 @@
 namespace rholm {
 namespace {
 
-// For each vertex the first one at its place: open addressing.
+// Returns for each vertex the first vertex at the same place, by open addressing.
 std::vector<std::uint32_t> first_at_place(const MeshView& mesh) {
   const auto n = static_cast<std::uint32_t>(mesh.n_vertices);
   std::size_t size = 16;
@@ -45,10 +45,10 @@ std::vector<std::uint32_t> first_at_place(const MeshView& mesh) {
   return first;
 }
 
-// Sums over the triangles at a vertex.
+// Sums over the faces at a vertex.
 struct VertexSums {
-  double jumps = 0;  // of s_e
-  Vec3 slope;        // of a_T times the angle of T at the vertex, seen from the centre
+  double jumps = 0;  // sum of s_e
+  Vec3 slope;        // sum of a_T times the angle of T at the vertex, seen from the centre
 };
 
 double angle_between(const Vec3& a, const Vec3& b) {
@@ -60,7 +60,7 @@ void add_triangle(const std::array<Vec3, 3>& p, const std::array<VertexSums*, 3>
   const double d2 = dot(normal.twice_area, p[0]);
   if (normal.degenerate || d2 == 0) return;
   const Vec3 slope = normal.twice_area / d2;
-  // N of the edge from corner i; zero if its ends lie in one direction.
+  // N of the edge from corner i is zero if the edge's ends are in one direction.
   const Vec3 across[3] = {normalized(cross(p[0], p[1])), normalized(cross(p[1], p[2])),
                           normalized(cross(p[2], p[0]))};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -90,8 +90,9 @@ ErrorStrengths vertex_error_strengths(const MeshView& mesh, const Vec3& center) 
     poll();
     const Vec3 p = local(i);
     const double gauge = std::abs(sums[i].jumps), radius = gauge * dot(p, p);
-    // The gradient of f_L at a vertex is the mean of the faces' over directions: a = sum / 2 pi,
-    // for which a . u = 1/r, is its normal, and cos gamma = (a . u) / |a|.
+    // The gradient of f_L at a vertex is the mean of the faces' gradients over directions. The
+    // vector a = sum / 2 pi, for which a . u = 1/r, is the normal there, and cos gamma = (a . u) /
+    // |a|.
     const double slope = norm(sums[i].slope) / (2 * std::numbers::pi) * norm(p);
     largest.gauge = std::max(largest.gauge, gauge);
     largest.radius = std::max(largest.radius, radius);

@@ -8,7 +8,8 @@
 namespace rholm {
 namespace {
 
-// ln of 4 M(rho) rho^-p / (rho - 1), or infinity where the ellipse reaches the singular set.
+// Returns ln of 4 M(rho) rho^-p / (rho - 1), or infinity where the ellipse reaches the singular
+// set.
 double log_error(double rho, int p, double ratio, int degree, Growth growth) {
   const double q = ratio * (rho - 1 / rho) / 2;
   double grown = degree * q;
@@ -24,13 +25,13 @@ double log_error(double rho, int p, double ratio, int degree, Growth growth) {
 
 double quadrature_error(int exactness, double half_length, double distance, int degree,
                         Growth growth) {
-  // A constant is integrated exactly by any rule; there is nothing to lose at degree 0 but the
-  // factor 1/|x|^2.
+  // Any rule integrates a constant exactly. At degree
+  // 0 only the factor 1/|x|^2 causes an error.
   if (degree == 0 && growth != Growth::kFlatInverseSquare) return 0;
   const double ratio = half_length / distance;
   if (!(ratio > 0)) return half_length > 0 ? INFINITY : 0;
-  // The minimum of kappa (rho - 1/rho)/2 - p ln rho, kappa = l a / r, lies at p/kappa +
-  // sqrt((p/kappa)^2 - 1); the singular set moves it down to a point with q < 1.
+  // The minimum of kappa (rho - 1/rho)/2 - p ln rho, kappa = l a / r, is at p/kappa +
+  // sqrt((p/kappa)^2 - 1). The singular set moves it down to a point with q < 1.
   const double kappa = std::max(degree, 1) * ratio;
   const double half = exactness / kappa;
   const double best = half > 1 ? half + std::sqrt(half * half - 1) : 1.0;
@@ -83,8 +84,8 @@ void add_orbit(TriangleRule& rule, double a, double weight) {
   }
 }
 
-// Symmetric rules with positive weights and inner points, in closed form: centroid; the three
-// points of degree 2; Strang and Fix 1973 (degree 4, 6 points, closed form by Lyness and
+// Returns symmetric rules with positive weights and inner points, in closed form: centroid; the
+// three points of degree 2; Strang and Fix 1973 (degree 4, 6 points, closed form by Lyness and
 // Jespersen 1975); Radon 1948 (degree 5, 7 points).
 TriangleRule make_symmetric_rule(int exactness) {
   TriangleRule rule;
@@ -122,7 +123,7 @@ double segment_distance(const Vec3& a, const Vec3& b) {
 }
 
 double triangle_distance(const std::array<Vec3, 3>& corners) {
-  // A ball around the centroid settles it for small triangles.
+  // For small triangles a ball around the centroid is enough.
   const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
   double reach = 0;
   for (const Vec3& corner : corners) reach = std::max(reach, norm(corner - middle));

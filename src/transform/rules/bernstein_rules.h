@@ -1,17 +1,17 @@
-// Quadrature on segments and triangles for functions Y(x/|x|), with as many nodes as the wanted
-// error needs.
+// Quadrature on segments and triangles for functions Y(x/|x|), with the number of nodes that the
+// wanted error needs.
 //
-// Error bound. Along a straight line a harmonic of degree l continues to complex x; on the
-// Bernstein ellipse of parameter rho around a segment of half length a it grows at most like
-//   M(rho) = exp(l artanh(q)),   q = a (rho - 1/rho) / (2 r),
-// r the smallest distance from the segment to the singular set (the centre; for the curl
-// method the z axis). On an arc of half angle a the growth is exp(l a (rho - 1/rho) / 2). A rule
-// with positive weights that is exact to polynomial degree p then has an error of its mean of at
-// most
-//   E(p) = min over rho of 4 M(rho) rho^-p / (rho - 1)                                (Trefethen,
-// Approximation Theory and Approximation Practice, theorems 8.2 and 19.3; a factor
-// 1/(1-q^2) more for integrands with 1/|x|^2). For triangles the same with half the longest
-// edge: a harmonic is locally a superposition of plane waves, functions of one variable each.
+// Error bound. Along a straight line a harmonic of degree l continues to complex x. On the
+// Bernstein ellipse of parameter rho around a segment of half length a it grows at most like:
+//   M(rho) = exp(l artanh(q)),   q = a (rho - 1/rho) / (2 r).
+// Here r is the smallest distance from the segment to the singular set (the centre; for the curl
+// method the z axis). On an arc of half angle a the growth is exp(l a (rho - 1/rho) / 2). Then a
+// rule with positive weights that is exact to polynomial degree p has a mean with an error of at
+// most:
+//   E(p) = min over rho of 4 M(rho) rho^-p / (rho - 1)
+// (Trefethen, Approximation Theory and Approximation Practice, theorems 8.2 and 19.3). Integrands
+// with 1/|x|^2 have the further factor 1/(1-q^2). Triangles use half the longest edge: a harmonic
+// is locally a superposition of plane waves, functions of one variable each.
 #pragma once
 
 #include <array>
@@ -29,13 +29,13 @@ enum class Growth {
   kArc                 // Y on a great circle, parametrised by angle; r = 1
 };
 
-// E(p) for degree l, half length a and distance r.
+// Returns E(p) for degree l, half length a and distance r.
 double quadrature_error(int exactness, double half_length, double distance, int degree,
                         Growth growth);
 
-// What an integral is allowed to lose: its error is taken as
+// The error that an integral is allowed to have. Its error is taken as
 //   first * E(p; l = 1) + last * E(p; l = L).
-// The two weights say how the error of a low and of the highest degree enters the result.
+// The weights describe how errors of a low degree and of the highest degree enter the result.
 struct Allowance {
   double allowed = 0;
   double first = 1;
@@ -43,18 +43,18 @@ struct Allowance {
   int degree = 0;
   Growth growth = Growth::kFlat;
 };
-// The smallest exactness that keeps the allowance, or 0 if none up to kMaxExactness does: the
-// piece must be halved.
+// Returns the smallest exactness that keeps the allowance, or 0 if none up to kMaxExactness does.
+// The piece must then be halved.
 inline constexpr int kMaxExactness = 199;  // chosen: rules of at most 101 points a side
 int exactness_for(const Allowance& allowance, double half_length, double distance);
 
-// Nodes and weights on [0, 1] (weights sum to 1), exact to degree p: Gauss-Legendre.
+// Returns nodes and weights on [0, 1], exact to degree p: Gauss-Legendre. The weights sum to 1.
 const GaussRule& segment_rule(int exactness);
 
-// Calls visit(a, b, c, weight) for the nodes of a rule on a triangle, exact to degree p, in
-// barycentric coordinates with weights of sum 1: symmetric rules for p <= 5, then products of Gauss
-// rules in collapsed coordinates x = a p0 + (1-a)((1-t) p1 + t p2), dS = 2 |T| (1-a) da dt, one
-// degree more in a.
+// Calls visit(a, b, c, weight) for the nodes of a rule on a triangle, exact to degree p. The nodes
+// are barycentric; the weights sum to 1. Rules are symmetric for p <= 5. Others are products of
+// Gauss rules in collapsed coordinates x = a p0 + (1-a)((1-t) p1 + t p2), dS = 2 |T| (1-a) da dt,
+// with one degree more in a.
 struct TriangleRule {
   std::vector<std::array<double, 3>> nodes;
   std::vector<double> weights;
@@ -80,7 +80,7 @@ void visit_triangle_rule(int exactness, const Visit& visit) {
   }
 }
 
-// Smallest distance from the origin to a segment, and to a triangle.
+// Return the smallest distance from the origin to a segment, and to a triangle.
 double segment_distance(const Vec3& a, const Vec3& b);
 double triangle_distance(const std::array<Vec3, 3>& corners);
 

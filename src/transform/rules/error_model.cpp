@@ -6,13 +6,13 @@
 
 namespace rholm {
 namespace {
-// Elements so many times as narrow as long may be those of a fan, which count up to so many times
+// Elements this many times as long as wide may belong to a fan. Then they count up to kFan times
 // (chosen; as in a fan of 160 triangles that are as long as a tenth of a wave).
 constexpr double kNarrow = 2, kFan = 7;
 }  // namespace
 
 double degree_factor(const NodeAllowance& allowance, double p) {
-  if (allowance.degree == 0 && !allowance.divided) return 1;  // what is asked for is the integral
+  if (allowance.degree == 0 && !allowance.divided) return 1;  // the integral itself is wanted
   const double l = std::max(allowance.degree, 1);
   return allowance.divided ? std::sqrt(1 / (4 * std::numbers::pi * (p - 1))) / l
                            : std::sqrt(1 / (4 * std::numbers::pi * (p + 1))) * (l + 1);

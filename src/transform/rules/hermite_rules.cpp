@@ -8,7 +8,7 @@
 namespace rholm {
 namespace {
 
-// Beyond z^2 of this, the derivatives of a rule weigh as much as its values.
+// Beyond this z^2, the derivatives of a rule weigh as much as its values.
 constexpr double kFarthestBare = 30, kFarthest = 120;
 
 template <typename Rule, std::size_t kRules>

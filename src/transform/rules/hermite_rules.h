@@ -1,5 +1,5 @@
-// Hermite's rules, which lump edges and faces at their vertices: with gradients (VG), with Hessians
-// as well (VGH), and what they leave by the model of error_model.h.
+// Hermite's rules, which lump edges and faces at their vertices, with gradients (VG) or with
+// Hessians as well (VGH), and their errors by the model of error_model.h.
 #pragma once
 
 #include <array>
@@ -7,19 +7,19 @@
 
 namespace rholm {
 
-// Error of lumping (VG) per unit of weight and z^4 / L: 1/720 of Hermite's rule, the mean of cos^8
-// over directions 35/128, p = 4.
+// Returns the error of lumping (VG) per unit of weight and z^4 / L. Hermite's rule gives 1/720, the
+// mean of cos^8 over directions is 35/128, and p = 4.
 double lumping_error(int degree);
 
 // Hermite's rules with values, gradients and Hessians at the ends of an edge or the corners of a
-// face (VGH), and nodes between where that does not do. The mean over an edge e from a to b:
+// face (VGH), and nodes between where these are not enough. The mean over an edge e from a to b is
 //   value (f(a) + f(b)) + gradient e . (f'(a) - f'(b)) + hessian ee : (f''(a) + f''(b)) + nodes,
-// exact to degree 5, 7, 9 with none, one, two nodes: the weights solve the moment equations, the
-// constants are those of the remainder term times the root mean square of cos^p over directions.
+// exact to degree 5, 7, 9 with none, one, two nodes. The weights solve the moment equations. A
+// constant is the remainder term's times the root mean square of cos^p over directions.
 struct HermiteEdge {
   double value, gradient, hessian;
-  int nodes;        // evenly spaced between the ends
-  double node;      // the weight of each
+  int nodes;        // number of nodes, evenly spaced between the ends
+  double node;      // weight of each node
   double constant;  // see error_model.h: C z^p
   int power;
 };
@@ -31,19 +31,19 @@ inline constexpr std::array<HermiteEdge, kHermiteEdgeRules> kHermiteEdges = {{
 }};
 
 // Nodes at the permutations of (at, at, 1 - 2 at) or (at, other, 1 - at - other), all of one
-// weight; none where that is 0.
+// weight. There are none if the weight is 0.
 struct HermiteOrbit {
   double weight = 0, at = 0, other = 0;
   constexpr int nodes() const { return weight == 0 ? 0 : at == other ? 3 : 6; }
 };
 
-// The mean over a face, a and b the edges that leave a corner:
-//   sum over corners of value f + gradient (a + b) . f' + square (aa + bb) : f''
-//     + product (ab + ba) : f''  and of the nodes, center f(centroid) and the orbits,
-// exact to degree 4, 5, 6, 7, 8 with none, one, four, six, ten nodes; those of six and ten were
-// found by Newton's method on the moments of invariant polynomials. Constants found with plane
-// waves as those of the other rules, the largest for z = 1 ... 8, those of six and ten nodes on a
-// needle, where they are 1.2 and 2.2 times as large.
+// The mean over a face, where a and b are the edges that leave a corner, is:
+//   Sum over corners of value f + gradient (a + b) . f' + square (aa + bb) : f''
+//     + product (ab + ba) : f''  and over the nodes, center f(centroid) and the orbits.
+// It is exact to degree 4, 5, 6, 7, 8 with none, one, four, six, ten nodes. The rules of six and
+// ten nodes were found by Newton's method on the moments of invariant polynomials. Constants were
+// found with plane waves like the other rules' constants, the largest for z = 1 ... 8. Constants of
+// six and ten nodes are of a needle, where they are 1.2 and 2.2 times as large.
 struct HermiteFace {
   double value, gradient, square, product;
   double center;
@@ -83,7 +83,7 @@ inline constexpr std::array<HermiteFace, kHermiteFaceRules> kHermiteFaces = {{
      9},
 }};
 
-// z^2 of an edge for these rules: p^2 of the bending (see Extent), as for VG, of p = 8.
+// Weight of the bending in z^2 of an edge for these rules (see Extent), as for VG, with p = 8.
 inline constexpr double kHermiteBend = 25;
 
 // C z^p of each rule in units of lumping_error(L): the l2 factors differ by sqrt(1 / (p - 1)).
@@ -104,10 +104,10 @@ constexpr std::array<double, kRules> hermite_units(const std::array<Rule, kRules
 inline constexpr auto kHermiteEdgeUnits = hermite_units(kHermiteEdges);
 inline constexpr auto kHermiteFaceUnits = hermite_units(kHermiteFaces);
 
-// The number of the cheapest rule for an extent: those reach to z^2 = reach2[k], the last to any.
+// Limits for the cheapest rule for an extent: rule k reaches to z^2 = reach2[k], the last to any.
 using HermiteEdgeReach = std::array<double, kHermiteEdgeRules - 1>;
 using HermiteFaceReach = std::array<double, kHermiteFaceRules - 1>;
-// Up to where each rule leaves at most the part `allowed` of its weight, in units of
+// Return the z^2 up to which each rule leaves at most the part `allowed` of its weight, in units of
 // lumping_error(L).
 HermiteEdgeReach hermite_edge_reach(double allowed);
 HermiteFaceReach hermite_face_reach(double allowed);

@@ -12,11 +12,12 @@ namespace rholm {
 namespace {
 
 constexpr double kBend = 0.6;      // see Extent
-constexpr int kMaxEdgeNodes = 24;  // pieces of extent up to about 30 at any precision
+constexpr int kMaxEdgeNodes = 24;  // enough for extents up to about 30 at any precision
 constexpr int kMaxProductOrder = 14;
 
-// Gauss's rule of n nodes on an edge: (n!)^4 / ((2n+1) ((2n)!)^3) z^2n (remainder term), times the
-// root mean square of cos^2n over directions: 0.61 for n = 1, 0.52 for n = 2, then less.
+// Returns (n!)^4 / ((2n+1) ((2n)!)^3), the constant of z^2n in the remainder of Gauss's rule of n
+// nodes on an edge. A further factor is the root mean square of cos^2n over directions: 0.61 for n
+// = 1, 0.52 for n = 2, then less.
 double gauss_constant(int n) {
   double c = 1;
   for (int k = 1; k <= n; ++k) {
@@ -67,7 +68,7 @@ struct Orbit {
   double weight, a, b;
 };
 
-// A rule by the weight of its centre, if it has one, and by orbits.
+// Returns a rule from the weight of its centre, if it has one, and from orbits.
 TriangleNodes symmetric(int power, double constant, double center,
                         std::initializer_list<Orbit> orbits) {
   TriangleNodes rule{{}, power, constant};
@@ -79,14 +80,14 @@ TriangleNodes symmetric(int power, double constant, double center,
   return rule;
 }
 
-// One by the turns of (a, b, 1 - a - b) alone.
+// Returns a rule from the turns of (a, b, 1 - a - b) alone.
 TriangleNodes turned(int power, double constant, std::initializer_list<Orbit> turns) {
   TriangleNodes rule{{}, power, constant};
   for (const Orbit& turn : turns) add_turns(rule.nodes, turn.weight, turn.a, turn.b);
   return rule;
 }
 
-// Products of Gauss's rules in collapsed coordinates, exact to degree 2n - 1.
+// Returns products of Gauss's rules in collapsed coordinates, exact to degree 2n - 1.
 std::vector<FaceNode> product_nodes(int n) {
   const GaussRule across = gauss_legendre(n), along = gauss_legendre(n + 1);
   std::vector<FaceNode> nodes;
@@ -101,11 +102,12 @@ std::vector<FaceNode> product_nodes(int n) {
   return nodes;
 }
 
-// In the order of their nodes. Of Strang and Fix (1973), Radon (1948), Gatermann (1988), Dunavant
-// (1985), their numbers found anew by Newton's method on the moments of invariant polynomials, then
-// products. The constants of the error (plane_wave_rules_test) were found with plane waves in all
-// directions on the equilateral triangle of edge z, those of 25 and 33 nodes, where it is twice as
-// small, on a needle; those of products follow 0.55/n times that of Gauss's rule.
+// Rules in the order of their numbers of nodes: by Strang and Fix (1973), Radon (1948), Gatermann
+// (1988), Dunavant (1985), then products. Their numbers were found anew by Newton's method on the
+// moments of invariant polynomials. Error constants (plane_wave_rules_test) were found with plane
+// waves in all directions on the equilateral triangle of edge z. Constants of 25 and 33 nodes are
+// half as large there, and were found on a needle. Constants of products follow 0.55/n times the
+// constant of Gauss's rule.
 const std::vector<TriangleNodes>& triangle_rules() {
   static const std::vector<TriangleNodes> rules = [] {
     const auto [near, far] = kSixNodes;
@@ -117,7 +119,7 @@ const std::vector<TriangleNodes>& triangle_rules() {
         symmetric(6, 1.1e-7, 0.225,
                   {{0.12593918054482715, 0.10128650732345634, 0.10128650732345634},
                    {0.13239415278850618, 0.47014206410511509, 0.47014206410511509}}),
-        // Either of twelve is the better one on short or on long edges.
+        // Two rules have twelve nodes: one is better on short edges, the other on long edges.
         symmetric(7, 3.3e-10, 0,
                   {{0.116786275726379, 0.249286745170910, 0.249286745170910},
                    {0.050844906370207, 0.063089014491502, 0.063089014491502},
@@ -157,7 +159,7 @@ const std::vector<TriangleNodes>& triangle_rules() {
     for (int n = 7; n <= kMaxProductOrder; ++n) {
       all.push_back({product_nodes(n), 2 * n, 0.6 / n * gauss_constant(n)});
     }
-    // Weights known to 15 digits: sums of exactly 1.
+    // The weights are known to 15 digits; they are scaled to sums of exactly 1.
     for (TriangleNodes& rule : all) {
       double sum = 0;
       for (const FaceNode& node : rule.nodes) sum += node.weight;
@@ -172,8 +174,8 @@ const std::vector<TriangleNodes>& triangle_rules() {
 
 namespace {
 
-// What each rule leaves per unit of weight and z^p, for one allowance after the other: mostly the
-// same two.
+// Error of each rule per unit of weight and z^p, for one allowance. Two allowances are kept,
+// because mostly the same two follow each other.
 struct Factors {
   NodeAllowance of = {.degree = -1};
   std::vector<double> edge, face;
@@ -195,9 +197,10 @@ const Factors& factors_for(const NodeAllowance& allowance) {
   return factors;
 }
 
-// z^p of an element whose bending counts as it does for derivative p, less what the remainder's
-// next terms take off long waves: e^(-0.03 z^2 / n) of Gauss's rule with n = p/2 nodes, within a
-// factor of 3 for z <= 30 (computed), the exponential by its series.
+// Returns z^p of an element, whose bending counts as for derivative p. For long waves this is
+// divided by e^u, u = 0.035 z^2 / p up to 2, for the next terms of the remainder. The exponential
+// is by its series. Gauss's rule with n = p/2 nodes falls by e^(-0.03 z^2 / n), within a factor of
+// 3 for z <= 30 (computed).
 double extent_power(const Extent& z, int p) {
   double square = z.wave2 + kBend * kBend * (p * p) * z.bend2;
   double result = p % 2 == 0 ? 1 : std::sqrt(square);
@@ -214,14 +217,14 @@ double extent_power(const Extent& z, int p) {
 
 namespace {
 
-// By how much more the errors of an element count for its neighbours.
+// Returns the factor for errors of an element that its neighbours have alike.
 double crowding(const NodeAllowance& allowance, const Extent& z) {
   if (allowance.degree == 0 || z.crowd.needle) return 1;
   const double along = neighbours_in_step(z.wave2), across = kInStep * z.crowd.per_wave;
   return std::sqrt(crowd_in_step2(along, across));
 }
 
-// Those of needles that go as z^p.
+// Returns the factor for rows of needles, whose errors go as z^p.
 double in_row(const Extent& z, int p) {
   if (!z.crowd.needle) return 1;
   const double energy = 2 * std::sqrt(std::numbers::pi * p) * z.crowd.per_wave;
@@ -232,8 +235,9 @@ double in_row(const Extent& z, int p) {
 
 namespace {
 
-// The smallest of n rules that leaves no more than is allowed, what it leaves given by left(k):
-// less with every rule, but for one that may be worse than the one before it. Number n: none does.
+// Returns the smallest of n rules whose error, left(k), is at most `allowed`, or n if there is
+// none. Each rule has a smaller error than the rule before it, but for one that may have a larger
+// error.
 template <typename Left>
 int smallest_rule(int n, double allowed, int likely, double& error, const Left& left) {
   int k = likely;

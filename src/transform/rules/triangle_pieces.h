@@ -1,9 +1,9 @@
-// Triangles cut into pieces for rules that want them short against their distance from the centre.
+// Cuts triangles into pieces for rules, which need them short against the distance from the centre.
 //
-// Halving the longest edge alone is exponential for needles that pass near the centre: the halves
-// lie side by side, and both are as near to it. A needle is cut across its length instead, into
-// sections that grow with their distance: as many as the logarithm of the length over the larger of
-// width and distance.
+// Halving only the longest edge takes exponentially many pieces for needles that pass near the
+// centre. The halves lie side by side, and both are as near. Instead a needle is cut across its
+// length into sections that grow with their distance. Their number is the logarithm of the length
+// over the larger of width and distance.
 #pragma once
 
 #include <algorithm>
@@ -15,16 +15,16 @@
 
 namespace rholm {
 
-// Edge i of these lengths runs from corner i on; which is the longest.
+// Returns the longest edge; edge i begins at corner i.
 inline std::size_t longest_side(const std::array<Vec3, 3>& p) {
   const Vec3 a = p[1] - p[0], b = p[2] - p[1], c = p[0] - p[2];
   const std::array<double, 3> squares = {dot(a, a), dot(b, b), dot(c, c)};
   return static_cast<std::size_t>(std::ranges::max_element(squares) - squares.begin());
 }
 
-// The part of a triangle a, b, c between two places t on its longest edge ab, on one side of the
-// height on it: P(t) = a + t (b - a) is one border, Q(t) = end + width(t) (c - end) the other,
-// where `end` is a or b and width runs from 0 there to 1 at the height.
+// The part of a triangle a, b, c between two places t on its longest edge ab, on one side of its
+// height. One border is P(t) = a + t (b - a), the other Q(t) = end + width(t) (c - end). `end` is a
+// or b, and the width runs from 0 there to 1 at the height.
 template <typename Visit>
 class NeedleSide {
  public:
@@ -71,8 +71,8 @@ class NeedleSide {
   const Visit& visit_;
 };
 
-// Cuts a triangle. Calls visit(piece, share) with the piece's share of the area; pieces of needles
-// are no longer than `longest` times their distance from the origin, or than the needle is wide.
+// Cuts a triangle. Calls visit(piece, share) with the piece's share of the area. Pieces of needles
+// are at most as long as `longest` times their distance, or as the needle's width.
 template <typename Visit>
 void cut_triangle(const std::array<Vec3, 3>& p, double longest, const Visit& visit) {
   const std::size_t k = longest_side(p);
@@ -80,7 +80,7 @@ void cut_triangle(const std::array<Vec3, 3>& p, double longest, const Visit& vis
   const Vec3 along = b - a;
   const double length2 = dot(along, along), length = std::sqrt(length2);
   const double height = norm(cross(along, c - a)) / length;
-  constexpr double kNeedle = 0.125;  // chosen: wider ones keep their shape when halved
+  constexpr double kNeedle = 0.125;  // chosen: wider triangles keep their shape when halved
   if (height > kNeedle * length || length <= longest * triangle_distance(p)) {
     const Vec3 middle = 0.5 * (a + b);
     visit(std::array<Vec3, 3>{a, middle, c}, 0.5);

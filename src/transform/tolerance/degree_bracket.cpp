@@ -14,8 +14,8 @@ void DegreeBracket::add(int degree, double value, double limit) {
   (is_good ? good_value : bad_value) = value;
 }
 
-// By the power of the degree that both ends follow; if the last guesses were on one side, by that
-// of these; halving if that goes on.
+// Guesses by the power of the degree that both ends follow. If the last guesses were on one side,
+// it uses the power that these guesses follow; if that goes on, it halves.
 int DegreeBracket::guess(double limit) const {
   const double from = std::log(std::max(bad, 0) + 1.0), to = std::log(good + 1.0);
   double at = (from + to) / 2;

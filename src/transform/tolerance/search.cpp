@@ -16,31 +16,31 @@
 namespace rholm {
 namespace {
 
-// An error in this range, times the tolerance, ends a search between degrees; its middle is aimed
-// at. The lower end (chosen): where the error falls like 1 / (L + 1), as at vertices and slower
-// than elsewhere, a degree 5 % lower would be too low; without it commands took up to twice as long
-// on boxes. The upper end leaves room for what coarse coefficients add or take: final ones were
-// above the tolerance after all in one search of 180 (scripts/measure-tolerance: one more degree
+// A search between degrees ends at an error in this range, times the tolerance, and aims at the
+// middle. The lower end is chosen: without it commands took up to twice as long on boxes. Where the
+// error falls like 1 / (L + 1), as at vertices and slower than elsewhere, a degree 5 % lower would
+// be too low. The upper end leaves room for the errors of coarse coefficients. In one search of 180
+// final coefficients were above the tolerance after all (scripts/measure-tolerance: one more degree
 // computed).
 constexpr double kEnough = 0.95, kMargin = 0.997, kAim = (kEnough + kMargin) / 2;
-// Tails of final coefficients are exact, those of coarse ones off by 0.7 % (sampled_rms): three
-// times that is 1.4 % of the degree where they fall like (L + 1)^-1.5, as those of edges do (method
-// 5), and less where faster. What was too much is cut off.
+// Tails of final coefficients are exact, tails of coarse ones are off by 0.7 % (sampled_rms). Three
+// times that is 1.4 % of the degree where tails fall like (L + 1)^-1.5, as for edges (method 5),
+// and less where they fall faster. Degrees that are too many are cut off.
 constexpr double kFinalByEnergies = 1.014;
 
-// Final coefficients have 3 % more degrees than coarse ones ask for: coarse ones may be a little
-// too good (chosen).
+// Final coefficients have 3 % more degrees than coarse ones ask for, because coarse ones may be a
+// little too good (chosen).
 constexpr double kFinalByWitnesses = 1.03;
-// The largest error that coefficients make at points, in root mean squares (chosen).
+// Largest error at points because of errors of coefficients, in root mean squares (chosen).
 constexpr double kDoubt = 10;
 
-// Distances to first order that are so many times too large are too large indeed (chosen).
+// A distance that is this many times too large to first order is too large in fact (chosen).
 constexpr double kTooFar = 2;
-// Root mean squares of distances are in proportion to those of the radius within this part
-// (chosen).
+// Root mean squares of distances and of radial errors
+// are proportional within this factor (chosen).
 constexpr double kProportional = 1.1;
-// A degree whose distances are this many times too large at few points is not measured at all of
-// them (chosen: twice what they differ by).
+// A degree whose distances are this many times too large at few points is not measured at all
+// points (chosen: twice the difference between both).
 constexpr double kScreened = 1.01;
 
 class Search {
@@ -62,7 +62,7 @@ class Search {
       finish(degree);
       result_.met = result_.reached <= result_.allowed;
       if (result_.met || highest() == tolerance_.max_degree) return std::move(result_);
-      // Coarse ones were a little too good.
+      // The coarse coefficients were a little too good.
       degree = std::ceil((highest() + 1) * result_.reached / result_.allowed);
     }
   }
@@ -72,7 +72,7 @@ class Search {
   bool is_distance() const { return tolerance_.measure == ErrorMeasure::kDistance; }
   bool by_energies() const { return !is_largest() && !is_distance(); }
   Expansion& expansion() { return result_.analysis.expansion; }
-  // Degree of the coefficients there are.
+  // Returns the degree of the present coefficients.
   int highest() { return expansion().coefficients.degree(); }
 
   void take(Analysis analysis) {
@@ -87,16 +87,17 @@ class Search {
     return static_cast<int>(std::min<double>(degree, tolerance_.max_degree));
   }
 
-  // Whether the error of the coefficients there are is too large, and higher ones may be had.
+  // Returns true if the error of the present coefficients is too large, and higher degrees are
+  // allowed.
   bool goes_on(double error, double limit) {
     return error > limit && highest() < tolerance_.max_degree;
   }
-  // Coarse coefficients of twice as many degrees.
+  // Computes coarse coefficients of twice as many degrees.
   void double_degree() {
     take(problem_.pilot({within_most(2.0 * (highest() + 1)), precisions_.pilot}));
   }
 
-  // Parseval's tails are known at every degree at once, but for what is beyond all of them.
+  // Parseval's tails are known at every degree at once, except for the energy beyond all degrees.
   int degree_by_energies() {
     double beyond = rms_beyond();
     while (goes_on(beyond, result_.allowed)) {
@@ -108,7 +109,8 @@ class Search {
   double rms_beyond() { return sampled_rms(expansion(), sites_, precisions_.pilot, context_); }
   static double energy_of(double rms) { return 4 * std::numbers::pi * rms * rms; }
 
-  // Errors at points: of all degrees there are until that is good, then between.
+  // Measures errors at points: of all present degrees until their error is small enough, then
+  // between.
   int degree_by_points() {
     DegreeBracket bracket;
     while (goes_on(try_degree(highest(), bracket), kMargin * result_.allowed)) double_degree();
@@ -126,7 +128,7 @@ class Search {
     return error;
   }
 
-  // Final coefficients, and their error as it is measured for any model.
+  // Computes final coefficients, and their error as it is measured for any model.
   void finish(double degree) {
     take(problem_.transform({within_most(degree), precisions_.final}));
     if (by_energies()) {
@@ -144,8 +146,8 @@ class Search {
     result_.reached = error_in(*expansion().errors, tolerance_);
   }
 
-  // To the smallest degree within the tolerance, if there is one: each lower one errs more, at
-  // points at which some degree erred most or where it was measured.
+  // Cuts to the smallest degree within the tolerance, if there is one. Each lower degree errs more,
+  // at points at which some degree erred most or where it was measured.
   void cut_to_smallest() {
     const Analysis all = result_.analysis;
     const Coefficients& coefficients = all.expansion.coefficients;
@@ -174,7 +176,7 @@ class Search {
     }
   }
 
-  // What the error of each degree is at least, as far as a look at all of them says.
+  // Returns a lower limit of the error of each degree, as far as a look at all degrees gives one.
   std::vector<double> least_errors(const Coefficients& coefficients) {
     if (!is_distance()) return largest_partial_errors(error_.witnesses(), coefficients, context_);
     std::vector<double> least;
@@ -196,14 +198,14 @@ class Search {
     return error_.of(all, degree, result_.allowed) > kScreened * result_.allowed;
   }
 
-  // The error of the coefficients may add this to errors at points.
+  // Returns the amount that errors of coefficients may add to errors at points.
   double doubt() const {
     return kDoubt * precisions_.final * std::sqrt(problem_.norm_squared / (4 * std::numbers::pi));
   }
 
-  // Takes the first degrees of final coefficients, and if these may be good enough coefficients of
-  // just that degree, the same as without a tolerance: then the answer does not depend on how many
-  // more degrees there were.
+  // Takes the first degrees of final coefficients. If these may be good enough, computes
+  // coefficients of just that degree, the same as without a tolerance. Then the answer does not
+  // depend on the number of further degrees.
   void measure_first(int degree, const Analysis& all, ErrorPoints& worst) {
     result_.analysis = all;
     const bool cut = degree < highest();
@@ -258,7 +260,7 @@ ToleranceAnalysis analyze_by(MethodFunction method, const StarChart& chart,
     wanted.precision = target.precision;
     return analyze_without_norms(method, chart, wanted, context);
   };
-  // Pilots by the fast sums whatever the method: the coefficients are the same.
+  // Pilots use the fast sums for every method: the coefficients are the same.
   problem.pilot = [&](const TransformTarget& target) {
     const MeshPassOptions wanted{.degree = target.degree, .precision = target.precision};
     return analysis_of(mesh_pass(mesh, wanted, context), target.precision);

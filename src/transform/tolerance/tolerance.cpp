@@ -29,8 +29,8 @@ void require_one_sheet(const StarReport& star) {
 }
 
 int first_degree(std::size_t n_triangles, const Tolerance& tolerance) {
-  // The edges' angle times this is about 0.6: most triangles are lumped (performance.md). Within 12
-  // and 96 (chosen: lower ones are no cheaper, higher ones seldom needed).
+  // The edges' angle times this degree is about 0.6: most faces are lumped (performance.md). It is
+  // within 12 and 96 (chosen: lower degrees are no cheaper, higher ones seldom needed).
   const double degree = 0.15 * std::sqrt(static_cast<double>(n_triangles));
   return std::min(static_cast<int>(std::clamp(degree, 12.0, 96.0)), tolerance.max_degree);
 }
@@ -63,12 +63,12 @@ double absolute_tolerance(const ToleranceProblem& problem, const Tolerance& tole
 Precisions precisions_for(const ToleranceProblem& problem, const Tolerance& tolerance) {
   const double size = std::sqrt(problem.norm_squared / (4 * std::numbers::pi));
   const double relative = absolute_tolerance(problem, tolerance, size) / size;
-  // Parseval's difference of squares must hold a few parts in a thousand.
+  // Parseval's difference of squares must be right to a few parts in a thousand.
   const bool parseval =
       tolerance.norm == ErrorNorm::kRms && tolerance.measure == ErrorMeasure::kRadius;
   const double needed = parseval ? 1e-3 * relative * relative : 1e-3 * relative;
   const double final = std::min(problem.precision, std::clamp(needed, 1e-13, 1e-2));
-  // At single points errors of coefficients add up to more than their root mean square (measured).
+  // At single points, errors of coefficients add up to more than their root mean square (measured).
   const double coarse = (tolerance.norm == ErrorNorm::kMax ? 0.02 : 0.1) * relative;
   return {.pilot = std::max(final, std::clamp(coarse, 1e-7, 1e-3)), .final = final};
 }

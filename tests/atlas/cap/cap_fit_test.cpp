@@ -1,5 +1,5 @@
-// Least squares on a cap, its potential and surface. Oracles: surfaces made from coefficients by
-// the sums of harmonic.h, with normals from differences; the sphere.
+// Least squares on a cap, its potential and its surface. Oracles: the sphere, and surfaces made
+// from coefficients by the sums of harmonic.h, with normals from differences.
 #include "atlas/cap/cap_fit.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ CapFrame make_frame() {
   return cap_frame({1, 2, 3}, {0.3, -0.5, 0.9}, kSupport, kHalfAngle, kOpened);
 }
 
-// A known function of one basis: coefficients in the order of atlas.h, and as harmonic.h has them.
+// A known function of one basis, with coefficients in the order of atlas.h and of harmonic.h.
 struct Known {
   std::vector<double> listed;
   Coefficients f;
@@ -63,7 +63,7 @@ std::vector<Direction> directions(std::size_t n, double part = 1) {
   return all;
 }
 
-// The surface of the cap over directions of its frame.
+// Returns points of the cap's surface in directions given in its frame.
 std::vector<Vec3> surface_at(const CapFrame& frame, const Coefficients& f,
                              const std::vector<Direction>& at) {
   std::vector<Vec3> opened, points;
@@ -82,7 +82,7 @@ std::vector<Vec3> surface_at(const CapFrame& frame, const Coefficients& f,
   return points;
 }
 
-// Points of the surface with outward normals from central differences: exact to a few 1e-9.
+// Points of the surface with outward normals from central differences, exact to a few 1e-9.
 struct Samples {
   std::vector<Vec3> points, normals;
 };
@@ -136,7 +136,7 @@ TEST(CapFit, a_surface_in_the_span_is_recovered) {
   for (const auto& [basis, degree] : kCases) {
     const Known truth = known(basis, degree, 0.01);
     const CapPoints points = points_of(frame, truth.f, 200);
-    // What other directions see of it: the coefficients themselves are less well determined.
+    // Fits are compared in other directions: the coefficients themselves are less well determined.
     const Samples others = sample(frame, truth.f, directions(50, 0.9));
     const Cap cap = known_cap(frame, basis, degree);
     test::for_each_target([&](const char* target) {
@@ -172,7 +172,7 @@ TEST(CapFit, weights_of_normals_choose_between_points_and_normals) {
   const double by_points = fit.rms;
   ASSERT_TRUE(fit_cap(frame, turned, {.gradient_weight = 1e4, .penalty = 0}, scratch, fit));
   EXPECT_LT(by_points, 1e-6);
-  // A tilt by a tenth is a tenth of the distance from the seed: half the support in the mean.
+  // A tilt by 0.1 gives 0.1 times the distance from the seed, whose mean is half the support.
   EXPECT_GT(fit.rms, 0.02 * kSupport);
 }
 
@@ -211,12 +211,12 @@ TEST(CapFit, of_a_sphere_misses_what_degree_three_misses) {
     CapFitScratch scratch;
     CapFit fit;
     ASSERT_TRUE(fit_cap(frame, points, {}, scratch, fit));
-    // Height over the tangent plane: d^2/2 + d^4/8 + ...; the penalty adds its share.
+    // The height over the tangent plane is d^2/2 + d^4/8 + ...; the penalty adds its share.
     const double r4 = std::pow(support, 4) / 8;
     EXPECT_LT(fit.rms, r4 + 1e-4 * support);
     EXPECT_NEAR(fit.deviation, 1 - std::sqrt(1 - support * support), 0.01 * support * support);
-    // A distance to first order: at height h the error is at most of order h^2, with the
-    // curvature 1.
+    // The distance is exact to first order: at height h the error is at most of order h^2, because
+    // the curvature is 1.
     const Cap cap = known_cap(frame, CapBasis::kFull, 3);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3 p = seed + points.offset(i);
@@ -253,8 +253,8 @@ TEST(CapPoints, of_a_sunflower_stand_for_equal_areas) {
   CapPoints points;
   add_sunflower(frame, 20000, points);
   ASSERT_EQ(points.size(), 20000u);
-  // Point k is the k-th from the seed, a golden angle after the one before it: of every half plane
-  // and every disc about the seed as many as it has of the area, up to some.
+  // Point k is the k-th nearest to the seed, a golden angle after point k - 1. Every half plane and
+  // every disc about the seed has a number of points proportional to its area, except for a few.
   std::size_t left = 0, above = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const double x = dot(points.offset(k), frame.x), y = dot(points.offset(k), frame.y);
@@ -352,7 +352,7 @@ TEST(CapSystem, leading_blocks_are_the_fits_of_lower_degrees) {
     CapFit fit;
     ASSERT_TRUE(fit_cap(frame, points, {.basis = CapBasis::kEven, .degree = degree}, other, fit));
     ASSERT_EQ(fit.coefficients.size(), n);
-    // Of a condition below 1e6.
+    // The condition of the matrix is below 1e6.
     for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(coefficients[i], fit.coefficients[i], 1e-9);
   }
 }

@@ -1,5 +1,5 @@
-// The kernels of caps with any number of points, on scratch memory that holds anything: with every
-// instruction set, for what is left over of a whole vector differs.
+// The kernels of caps with any number of points, and with arbitrary values in scratch memory. Every
+// instruction set is tested, because the number of points in the last vector differs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ constexpr std::size_t kMostPoints = 33;
 
 CapFrame make_frame() { return cap_frame({1, 2, 3}, {0.3, -0.5, 0.9}, 0.3, kHalfAngle, kOpened); }
 
-// Point i near the tangent plane, with a normal near the axis.
+// Adds point i near the tangent plane, with a normal near the axis.
 void add_point(const CapFrame& frame, std::uint64_t i, double share, CapPoints& points) {
   const auto at = [&](std::uint64_t stream, double size) {
     return random_in(-size, size, stream, i);
@@ -41,7 +41,7 @@ CapPoints some_points(const CapFrame& frame, std::size_t n) {
   return points;
 }
 
-// What counts of the normal equations.
+// Returns the used part of the normal equations.
 std::vector<double> matrix_of(const CapFrame& frame, const CapPoints& points, int degree,
                               CapFitScratch& scratch) {
   const CapFitOptions options{.degree = degree, .penalty = 0};
@@ -57,7 +57,7 @@ std::vector<double> matrix_of(const CapFrame& frame, const CapPoints& points, in
   return upper;
 }
 
-// Eight times the same point fill the vectors of every target: nothing is left over.
+// Eight copies of a point fill the vectors of every instruction set, so that no vector is partial.
 TEST(CapKernels, normal_equations_are_the_sum_of_those_of_single_points) {
   const CapFrame frame = make_frame();
   test::for_each_target([&](const char* target) {
@@ -100,9 +100,9 @@ TEST(CapKernels, a_fit_has_the_same_bits_on_fresh_and_on_used_scratch) {
   });
 }
 
-// One at the centre of the cap has no direction, one opposite the axis no place in the plane: both
-// to the last bit where the axis is one of the coordinates'. Without weight, so that the penalty is
-// the same.
+// The point at the centre of the cap has no direction, and the point opposite the axis no place in
+// the plane. Both are exact because the axis is a coordinate axis. Their weight is zero, so that
+// the penalty stays the same.
 TEST(CapKernels, points_that_cannot_be_fitted_do_not_matter) {
   const CapFrame frame = cap_frame({}, {0, 0, 1}, 0.3, kHalfAngle, kOpened);
   const CapPoints points = some_points(frame, 30);
@@ -134,7 +134,7 @@ TEST(CapKernels, values_at_a_point_do_not_depend_on_those_beside_it) {
   std::vector<double> coefficients(n_coefficients(CapBasis::kFull, 3));
   for (std::size_t i = 0; i < coefficients.size(); ++i)
     coefficients[i] = random_in(-0.01, 0.01, 7, i);
-  // Positions, normals, distances: seven rows, the length of each.
+  // Seven rows of `stride` values: three of positions, three of normals, one of distances.
   const auto values = [&](const CapPoints& points) {
     const std::size_t stride = points.padded();
     std::vector<double> all(7 * stride);

@@ -1,5 +1,5 @@
-// The support of a cap. Expected values: the second moments of discs, ellipses and lines in closed
-// form, and differences of the quadratic form.
+// The support of a cap. Expected values are the second moments of discs, ellipses and lines in
+// closed form, and differences of the quadratic form.
 #include "atlas/cap/cap_support.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ Cap make_cap() {
   return cap;
 }
 
-// An ellipse that is turned and beside the seed.
+// Returns a cap whose ellipse is turned and is not centred at the seed.
 constexpr double kLong = 0.3, kShort = 0.2, kTurn = 0.7, kP = 0.05, kQ = -0.03;
 Cap oblique_cap() {
   Cap cap = make_cap();
@@ -37,14 +37,14 @@ Cap oblique_cap() {
   return cap;
 }
 
-// Offset from the seed, by coordinates along the ellipse's axes from its middle, and the height.
+// Returns the offset from the seed of a point given along the ellipse's axes and the normal.
 Vec3 along_axes(const Cap& cap, double along, double across, double height) {
   const double c = std::cos(kTurn), s = std::sin(kTurn);
   return (kP + c * along - s * across) * cap.frame.x + (kQ + s * along + c * across) * cap.frame.y +
          height * cap.frame.z;
 }
 
-// Points of equal area of the ellipse with these half axes.
+// Returns points that each stand for an equal area of the ellipse with these semi-axes.
 CapPoints fill(const Cap& cap, double along, double across) {
   constexpr int kRings = 64;
   CapPoints points;
@@ -88,7 +88,7 @@ TEST(CapSupport, gradient_is_that_of_the_place) {
     const Vec3 at = {random_in(-0.4, 0.4, 1, i), random_in(-0.4, 0.4, 2, i),
                      random_in(-0.4, 0.4, 3, i)};
     const Vec3 gradient = support_gradient(cap, at);
-    // Differences of a quadratic form are exact but for rounding.
+    // Central differences of a quadratic form are exact except for rounding.
     for (const Vec3& u : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
       const double slope = (place(cap, at + h * u) - place(cap, at - h * u)) / (2 * h);
       EXPECT_NEAR(dot(gradient, u), slope, 1e-9);
@@ -105,7 +105,7 @@ TEST(CapSupport, longer_half_axis_is_the_farthest_that_the_ellipse_reaches) {
   }
 }
 
-// Rings of equal angles have the moments of the ellipse to rounding, but for the mean of r^2.
+// Rings of equal angles have the ellipse's moments to rounding, except for the mean of r^2.
 TEST(CapSupport, points_that_fill_an_ellipse_have_it) {
   const Cap cap = oblique_cap();
   const CapPoints points = fill(cap, kLong, kShort);
@@ -123,7 +123,7 @@ TEST(CapSupport, points_that_fill_an_ellipse_have_it) {
   EXPECT_NEAR(found.yy, cap.where.yy, 1e-11);
 }
 
-// On a line the ellipse is as long as the support, and as thin as one may be.
+// For points on a line the ellipse is as long as the support and has the smallest allowed width.
 TEST(CapSupport, points_on_a_line_have_the_thinnest_ellipse) {
   Cap cap = make_cap();
   const PlaneMoments moments = moments_of(cap.frame, fill(cap, 2 * kRadius, 0));

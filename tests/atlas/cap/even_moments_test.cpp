@@ -1,4 +1,4 @@
-// Fits of even harmonics, whose matrix is made from moments. Oracle: the rows of all harmonics.
+// Fits of even harmonics, with a matrix made from moments. Oracle: the rows of all harmonics.
 #include "atlas/cap/even_moments.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using test::random_in;
 
 CapFrame make_frame() { return cap_frame({1, 2, 3}, {0.3, -0.5, 0.9}, 0.3, kHalfAngle, kOpened); }
 
-// Points about the cap, some of which face away, one of them at the seed.
+// Returns points about the cap; some of them face away, and one lies at the seed.
 CapPoints make_points(const CapFrame& frame, std::size_t n) {
   CapPoints points;
   for (std::uint64_t i = 0; i < n; ++i) {
@@ -35,7 +35,7 @@ CapPoints make_points(const CapFrame& frame, std::size_t n) {
   return points;
 }
 
-// The places of the even harmonics among all.
+// Returns the indices of the even harmonics among all harmonics.
 std::vector<std::size_t> even_places(int degree) {
   std::vector<std::size_t> places;
   for (int l = 0; l <= degree; ++l) {
@@ -64,7 +64,7 @@ TEST(EvenMoments, matrix_is_that_of_the_rows_of_the_harmonics) {
         ASSERT_EQ(system.n, places.size());
         EXPECT_EQ(system.usable, rows.usable);
         EXPECT_LT(system.usable, n);
-        // Rows in the order of the matrix: the right-hand side first.
+        // Rows are in the order of the matrix, whose first row is the right-hand side.
         std::vector<std::size_t> from = {0};
         for (const std::size_t place : places) from.push_back(1 + place);
         const auto of_rows = [&](std::size_t i, std::size_t j) {

@@ -1,5 +1,5 @@
-// Against plain sums and substitutions in long double, with every instruction set: what is left
-// over of a whole vector differs.
+// Compares with plain sums and substitutions in long double. Every instruction set is tested,
+// because the number of values in the last vector differs.
 #include "atlas/cap/normal_equations.h"
 
 #include <gtest/gtest.h>
@@ -30,8 +30,8 @@ std::vector<std::size_t> sizes_to_test() {
   return sizes;
 }
 
-// Random rows of n unknowns, at least four times as many numbers in each: a condition of a few
-// tens. Not a number beyond their length, and beyond the last.
+// Random rows of n unknowns with at least four times as many values each: the condition is a few
+// tens. Memory after the length of each row is NaN, and so is memory after the last row.
 struct Problem {
   std::size_t n, length, stride;
   std::vector<double> rows, weights;
@@ -59,7 +59,7 @@ struct Sum {
   Real value = 0, size = 0;
 };
 
-// Of the products of rows a and b, and of their absolute values.
+// Returns the sum of the products of rows a and b, and the sum of their absolute values.
 Sum product(const Problem& p, std::size_t a, std::size_t b, bool weighted) {
   Sum sum;
   for (std::size_t k = 0; k < p.length; ++k) {
@@ -71,13 +71,14 @@ Sum product(const Problem& p, std::size_t a, std::size_t b, bool weighted) {
   return sum;
 }
 
-// A of the matrix, from either side of its diagonal.
+// Returns an entry of the matrix A, on either side of its diagonal.
 Real entry(const std::vector<double>& matrix, std::size_t n, std::size_t i, std::size_t j) {
   return matrix[(1 + std::min(i, j)) * (n + 1) + 1 + std::max(i, j)];
 }
 
-// What x leaves of the leading m equations of n, against what a backward stable Cholesky solution
-// may: (A + dA) x = b, |dA_ij| <= (3 m + 1) u sqrt(a_ii a_jj) (Higham 2002, Theorem 10.4), twice.
+// Compares the residual of the leading m of n equations with twice the bound of a backward stable
+// Cholesky solution: (A + dA) x = b, |dA_ij| <= (3 m + 1) u sqrt(a_ii a_jj) (Higham 2002, Thm
+// 10.4).
 void expect_solution(const std::vector<double>& matrix, std::size_t n, std::size_t m,
                      const double* x) {
   for (std::size_t i = 0; i < m; ++i) {
@@ -185,8 +186,8 @@ TEST(NormalEquations, nested_blocks_are_solved_side_by_side) {
   });
 }
 
-// A X = 1. Half of X is the other's mirror image, so that the bound of each column has the matrix's
-// condition as a factor: 100 at most.
+// A X = 1. One half of X mirrors the other half. The bound of each column therefore has the
+// condition of the matrix as a factor, which is at most 100.
 TEST(NormalEquations, inverse_times_matrix_is_one) {
   test::for_each_target([](const char* target) {
     NormalFactor factor;
@@ -216,7 +217,7 @@ TEST(NormalEquations, inverse_times_matrix_is_one) {
   });
 }
 
-// Unknown `which` stands by twice the numbers of the first: it has no pivot.
+// Unknown `which` has twice the values of the first unknown, so that it has no pivot.
 TEST(NormalEquations, unknowns_up_to_the_first_singular_one_are_factored) {
   test::for_each_target([](const char* target) {
     SCOPED_TRACE(target);

@@ -1,6 +1,6 @@
-// The kernel of a cap, in both precisions, with every instruction set. Expected values: the
-// dilation and the frame of chart/cap, a linear function on the opened sphere, and differences
-// along its surface.
+// The kernel of a cap, in both precisions, with every instruction set. Expected values come from
+// the dilation and the frame of chart/cap, from a linear function on the opened sphere, and from
+// differences along its surface.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,28 +21,28 @@
 #ifndef RHOLM_OPENED_SPHERE_TEST_ROWS
 #define RHOLM_OPENED_SPHERE_TEST_ROWS
 namespace rholm::test {
-// What the kernel gives at a point, one row of each.
+// Rows of results that the kernel gives for each point.
 enum Row {
   kX,
   kY,
   kZ,
-  kRho,  // the ray
+  kRho,  // kX ... kRho: the ray
   kS1,
   kS2,
   kOpenX,
   kOpenY,
-  kOpenZ,  // the place
+  kOpenZ,  // kS1 ... kOpenZ: the place on the opened sphere
   kFactor,
   kLevel,
   kG1,
   kG2,
-  kFlatness,  // the surface
+  kFlatness,  // kFactor ... kFlatness: the surface
   kPotential,
   kValid,
   kNx,
   kNy,
   kNz,
-  kRows  // normals in space
+  kRows  // kNx ... kNz: normals in space
 };
 }  // namespace rholm::test
 #endif
@@ -52,7 +52,7 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// rows[kRows][stride] of the offsets [3][stride] from the seed, a multiple of 16 long.
+// Computes rows[kRows][stride] from offsets [3][stride] to the seed; stride is a multiple of 16.
 template <class T>
 void All(const LaneFrame<T>& frame, int degree, const T* coefficients, const T* offsets,
          std::size_t stride, T* rows) {
@@ -108,7 +108,7 @@ HWY_EXPORT(AllDouble);
 using namespace test;
 
 constexpr std::size_t kMostPoints = 33;
-constexpr double kUnit = 0.5;  // of length, in which the kernel works
+constexpr double kUnit = 0.5;  // unit of length in which the kernel computes
 
 CapFrame make_frame() { return cap_frame({1, 2, 3}, {0.3, -0.5, 0.9}, 0.4, 0.5, 1.4); }
 
@@ -124,7 +124,7 @@ Vec3 offset(std::size_t i) {
   return {random_in(-0.5, 0.5, 1, i), random_in(-0.5, 0.5, 2, i), random_in(-0.2, 0.2, 3, i)};
 }
 
-// Rows of n points; what is beyond them is NaN, and so is all that the kernel does not write.
+// Rows of n points. Values after the last point, and values that are not written, are NaN.
 template <class T>
 struct Seen {
   std::size_t stride = 0;
@@ -155,19 +155,19 @@ Seen<T> see(const CapFrame& frame, const std::vector<Vec3>& offsets) {
   return seen;
 }
 
-// r(u) / R_0 in the direction of a ray in the frame.
+// Returns r(u) / R_0 in the direction of a ray in the frame.
 double level_at(const CapFrame& frame, const Vec3& ray) {
   return 1 + dot(kSlope, dilated(frame.dilation, normalized(ray)));
 }
 
-// Its surface there, in space.
+// Returns the point of the surface in that direction, in space.
 Vec3 surface_at(const CapFrame& frame, const Vec3& ray) {
   const Vec3 u = normalized(ray);
   return frame.center +
          frame.radius * level_at(frame, ray) * (u.x * frame.x + u.y * frame.y + u.z * frame.z);
 }
 
-// Of the surface, by central differences along both tangents.
+// Returns the normal of the surface, by central differences along two tangents.
 Vec3 normal_at(const CapFrame& frame, const Vec3& ray) {
   const double h = 1e-5;
   const Vec3 u = normalized(ray), e = normalized(cross(u, Vec3{0.3, 1, 0.2})), f = cross(u, e);
@@ -175,7 +175,7 @@ Vec3 normal_at(const CapFrame& frame, const Vec3& ray) {
                           surface_at(frame, u + h * f) - surface_at(frame, u - h * f)));
 }
 
-// `rounding` is of a few operations; slopes are a few times as large as their arguments.
+// `rounding` bounds the error of a few operations. Slopes have errors a few times as large.
 template <class T>
 void expect_all(const CapFrame& frame, const std::vector<Vec3>& offsets, const Seen<T>& seen,
                 double rounding) {
@@ -235,7 +235,7 @@ TEST(OpenedSphere, points_do_not_depend_on_those_beside_them) {
   });
 }
 
-// At the seed the ray is the axis, and the factor the dilation.
+// At the seed the ray is the axis, and the factor is the dilation.
 TEST(OpenedSphere, at_the_seed_the_factor_is_the_dilation) {
   const CapFrame frame = make_frame();
   for_each_target([&](const char* target) {
@@ -247,8 +247,8 @@ TEST(OpenedSphere, at_the_seed_the_factor_is_the_dilation) {
   });
 }
 
-// Behind the centre, at it, and opposite the axis, where the plane ends: no potential, whatever the
-// numbers are.
+// Points behind the centre, at the centre, and opposite the axis, where the plane ends, have no
+// potential, whatever the coefficients are.
 TEST(OpenedSphere, there_is_no_potential_behind_the_centre) {
   const CapFrame frame = cap_frame({}, {0, 0, 1}, 0.4, 0.5, 1.4);
   const double below = frame.radius;
@@ -258,7 +258,7 @@ TEST(OpenedSphere, there_is_no_potential_behind_the_centre) {
     const Seen<float> in_float = see<float>(frame, offsets);
     const Seen<double> in_double = see<double>(frame, offsets);
     for (std::size_t i = 0; i < offsets.size(); ++i) {
-      // The last is at a cosine of 0.287.
+      // The cosine of the last point is 0.287.
       EXPECT_EQ(in_float(kValid, i), 0) << target << " " << i;
       EXPECT_EQ(in_double(kValid, i), 0) << target << " " << i;
     }

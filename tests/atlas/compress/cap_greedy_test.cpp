@@ -1,5 +1,5 @@
-// Expected values: surfaces with a closed form of the distance (sphere, torus), and fits of each
-// degree by itself.
+// Expected values come from surfaces with a closed form of the distance (sphere, torus), and from
+// separate fits of each degree.
 #include "atlas/compress/cap_greedy.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ struct Samples {
   std::vector<Vec3> points, normals;
 };
 
-// A Fibonacci lattice: equal areas, evenly whatever part of the list is taken.
+// A Fibonacci lattice: points of equal areas; any part of the list is evenly distributed.
 Samples sphere(std::size_t n) {
   Samples s;
   for (std::size_t i = 0; i < n; ++i) {
@@ -37,7 +37,7 @@ Samples sphere(std::size_t n) {
 
 constexpr double kTube = 0.4;
 
-// Radii 1 and kTube; theta spread so that areas are equal: theta + kTube sin(theta) is uniform.
+// Radii 1 and kTube. Areas are equal, because theta + kTube sin(theta) is uniform.
 Samples torus(std::size_t n) {
   Samples s;
   for (std::size_t i = 0; i < n; ++i) {
@@ -97,11 +97,11 @@ TEST(greedy_cover, covered_samples_of_a_sphere_are_within_four_tolerances) {
   const GreedyCover cover = greedy_cover(levels, std::sqrt(12.0), options_for(tolerance),
                                          std::vector<std::uint8_t>(levels.size()), {});
   EXPECT_LE(cover.uncovered, 0.002);
-  // A cap that sees 30 degrees of a sphere is nearly constant: a dozen or two hold it.
+  // A cap over 30 degrees of a sphere is nearly constant, so that a dozen or two caps suffice.
   EXPECT_LT(cover.chosen.size(), 40U);
   for (const Candidate& chosen : cover.chosen) {
     EXPECT_LE(chosen.rms, tolerance);
-    // Points of the caps' surfaces: their distance to the sphere is | |x| - 1 |.
+    // The distance of a point x of a cap's surface to the sphere is | |x| - 1 |.
     const CapFrame& f = chosen.cap.frame;
     CapPoints at;
     for (double r = 0; r < 0.9 * f.support; r += 0.1 * f.support) at.add(r * f.x, f.z, 1);
@@ -115,7 +115,7 @@ TEST(greedy_cover, covered_samples_of_a_sphere_are_within_four_tolerances) {
   }
 }
 
-// To the tolerance that the caps were fitted to.
+// Prunes to the tolerance that the caps were fitted to.
 PruneReport prune(const SampleLevels& samples, const PruneOptions& options, Atlas& atlas,
                   const Context& context) {
   Pruning pruning(samples, options, atlas, context);
@@ -157,7 +157,7 @@ TEST(pruning, keeps_the_tolerance_and_drops_coefficients) {
   }
 }
 
-// Random as samples of a mesh are: without the evenness of a lattice.
+// Returns random points, as uneven as samples of a mesh, in contrast to a lattice.
 Samples random_sphere(std::size_t n) {
   Samples s;
   for (std::size_t i = 0; i < n; ++i) s.points.push_back(test::random_direction(1, i));
@@ -165,14 +165,14 @@ Samples random_sphere(std::size_t n) {
   return s;
 }
 
-// The even coefficients of a function f + c have that of degree 0 changed.
+// Adds a constant to the function: only the coefficient of degree 0 changes.
 void lift(Candidate& candidate, double height) {
   candidate.coefficients[0] += height / candidate.cap.frame.radius * std::sqrt(4 * pi);
 }
 
 TEST(strays, voids_between_random_samples_are_no_edges) {
-  // Samples are seven tolerances apart, as 200 000 of a mesh are at 3e-4 of its diagonal: the
-  // widest of their voids have radii of 1.7 spacings.
+  // Samples are seven tolerances apart, like 200 000 samples of a mesh at 3e-4 of its diagonal. The
+  // widest holes between them have radii of 1.7 spacings.
   const Samples s = random_sphere(60000);
   const SampleLevels levels = make_levels(s.points, s.normals, {});
   const double tolerance = levels.finest().spacing / 7;
@@ -185,7 +185,7 @@ TEST(strays, voids_between_random_samples_are_no_edges) {
                                options, {}, scratch, candidate));
     EXPECT_FALSE(strays(levels, candidate.cap, candidate.coefficients, options.stray, options.stray,
                         scratch));
-    // But a surface off the samples does, by more than the band and a spacing.
+    // A surface that is off the samples by more than the band and a spacing is rejected.
     lift(candidate, 11 * tolerance);
     EXPECT_TRUE(strays(levels, candidate.cap, candidate.coefficients, options.stray, options.stray,
                        scratch));
@@ -208,7 +208,7 @@ TEST(strays, surfaces_that_go_on_where_samples_end_do) {
   std::size_t tried = 0;
   for (std::uint32_t seed = 0; seed < all.size(); ++seed) {
     const double z = all.finest().points[seed].z;
-    // The cap reaches 0.1 beyond the border, four spacings, or ends before it.
+    // The cap reaches 0.1 (four spacings) beyond the border, or it ends before the border.
     if (!(std::abs(z - 0.2) < 1e-4 || std::abs(z - 0.4) < 1e-4)) continue;
     ++tried;
     ASSERT_TRUE(make_candidate(all, candidate_place(all, seed, 0.3, options, scratch), 0.5, options,

@@ -1,4 +1,4 @@
-// Expected values: distances to the surface of all degrees, measured.
+// Expected values are measured distances to the surface of full degree.
 #include "atlas/compress/cap_level.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ Atlas one_cap() {
   return atlas;
 }
 
-// Offsets from the seed within the support, in its plane.
+// Returns offsets from the seed in the plane of the support.
 CapPoints plane() {
   CapPoints points;
   for (double x = -0.48; x <= 0.5; x += 0.04) {
@@ -42,7 +42,7 @@ CapPoints plane() {
   return points;
 }
 
-// The cap fitted to waves over a plane.
+// Returns an atlas with one cap, fitted to waves over a plane.
 Atlas wavy_cap() {
   Atlas atlas = one_cap();
   CapPoints points;
@@ -63,7 +63,7 @@ Atlas wavy_cap() {
   return atlas;
 }
 
-// rms distance of the only cap of an atlas to the surface of another within its support.
+// Returns the rms distance between the only caps of two atlases within the support.
 double distance(const Atlas& from, const Atlas& to) {
   const CapPoints flat = plane();
   const std::size_t stride = flat.padded();
@@ -87,14 +87,15 @@ TEST(at_degree, leaves_caps_of_lower_degrees_alone) {
   EXPECT_EQ(level.band, atlas.band);
 }
 
-// Three deviations of the difference of two such caps.
+// The band grows by three standard deviations of the difference between truncated caps.
 TEST(at_degree, widens_the_band_by_what_caps_lose) {
   const Atlas atlas = wavy_cap();
   for (const int degree : {0, 2, 4}) {
     const Atlas level = at_degree(atlas, degree);
     EXPECT_EQ(level.caps[0].degree, degree);
     const double lost = level.band / (3 * std::sqrt(2.0));
-    // A mean over the opened hemisphere beside one over the cap: equal areas here are not there.
+    // One mean is over the opened hemisphere, the other over the cap: equal areas do not
+    // correspond.
     EXPECT_NEAR(lost / distance(level, atlas), 1, 0.35) << degree;
   }
 }

@@ -1,4 +1,4 @@
-// Expected values: derivatives of shares by differences, and the disagreement of two caps before
+// Expected values are derivatives of shares by differences, and the disagreement of two caps before
 // and after, measured from their potentials.
 #include "atlas/compress/cap_shares.h"
 
@@ -17,7 +17,7 @@ namespace {
 constexpr double kOpened = 88 * std::numbers::pi / 180;
 constexpr double kSupport = 0.5, kApart = 0.6;
 
-// Waves over the plane z = 0 that a cap of degree 6 cannot follow.
+// Waves over the plane z = 0 that a cap of degree 6 cannot represent.
 double height(double x, double y) { return 0.01 * std::cos(28 * x + 1) * std::cos(22 * y); }
 
 SampleLevels wavy_samples() {
@@ -32,7 +32,7 @@ SampleLevels wavy_samples() {
   return make_levels(points, normals, {});
 }
 
-// Two caps beside each other, each fitted to its own samples.
+// Returns two caps side by side, each fitted to its own samples.
 Atlas two_caps(const SampleLevel& samples) {
   Atlas atlas;
   for (const double x : {0.0, kApart}) {
@@ -59,7 +59,7 @@ Atlas two_caps(const SampleLevel& samples) {
   return atlas;
 }
 
-// The share of cap `index`, the factors of the band left out.
+// Returns the share of cap `index`, without the factors of the band.
 double share(const Atlas& atlas, std::size_t index, const Vec3& x) {
   double all = 0, own = 0;
   for (std::size_t c = 0; c < atlas.caps.size(); ++c) {
@@ -71,9 +71,9 @@ double share(const Atlas& atlas, std::size_t index, const Vec3& x) {
   return own / all;
 }
 
-// rms slope of the ledges that the caps leave: sum grad p e, of two caps |grad p| |e_1 - e_2|;
-// where both end at one place slopes have no bound.
-constexpr float kMostSlope = 50;  // squared
+// Returns the rms slope of the steps between caps: sum grad p e, for two caps |grad p| |e_1 - e_2|.
+// Where both caps end at one place, slopes have no bound.
+constexpr float kMostSlope = 50;  // square of the slope
 double ledges(const Atlas& atlas, const SampleLevel& samples) {
   const CapShares shares = shares_of(atlas, samples, atlas.band, {});
   std::vector<double> first(samples.points.size(), NAN);
@@ -95,7 +95,7 @@ TEST(shares_of, slopes_are_those_of_shares_along_the_surface) {
   const SampleLevel& samples = levels.finest();
   Atlas atlas = two_caps(samples);
   atlas.caps[1].weight = 2;
-  atlas.band = 1e3;  // its factors are 1
+  atlas.band = 1e3;  // the band's factors are 1
   const CapShares shares = shares_of(atlas, samples, atlas.band, {});
   std::size_t compared = 0;
   for (std::size_t c = 0; c < 2; ++c) {
@@ -107,7 +107,7 @@ TEST(shares_of, slopes_are_those_of_shares_along_the_surface) {
       const double h = 1e-5;
       const double du = (share(atlas, c, at + h * u) - share(atlas, c, at - h * u)) / (2 * h);
       const double dv = (share(atlas, c, at + h * v) - share(atlas, c, at - h * v)) / (2 * h);
-      // Weights are floats.
+      // Weights have single precision.
       EXPECT_NEAR(shares.slopes[c][i], du * du + dv * dv, 1e-5 * (1 + du * du + dv * dv));
       ++compared;
     }
@@ -115,8 +115,8 @@ TEST(shares_of, slopes_are_those_of_shares_along_the_surface) {
   EXPECT_GT(compared, 500U);
 }
 
-// The ledge between two caps has the slope |grad p| |g_1 - g_2|; there is none where one of them is
-// alone, nor between a cap and itself.
+// The step between two caps has the slope |grad p| |g_1 - g_2|. There is no step where one cap is
+// alone, or between a cap and itself.
 TEST(share_of_ledges, is_the_part_where_shares_change_fast_for_what_caps_disagree_by) {
   const SampleLevels levels = wavy_samples();
   const SampleLevel& samples = levels.finest();
@@ -130,7 +130,7 @@ TEST(share_of_ledges, is_the_part_where_shares_change_fast_for_what_caps_disagre
   std::size_t leaning = 0, weighted = 0;
   for (const Vec3& at : samples.points) {
     const double own = share(atlas, 0, at);
-    if (std::isnan(own)) continue;  // beyond both
+    if (std::isnan(own)) continue;  // outside both caps
     ++weighted;
     if (!(own > 0 && own < 1)) continue;
     CapValue values[2];
@@ -154,7 +154,7 @@ TEST(agree, brings_caps_together_where_they_meet) {
   Atlas atlas = two_caps(samples);
   const double before = ledges(atlas, samples), error = blend(atlas, samples, atlas.band, {}).rms;
   agree(samples, {.tolerance = 0.02, .band = atlas.band}, atlas, {});
-  // A third less for one step, at no cost: the error of the blend stays.
+  // One step lowers the slopes by a third at no cost: the error of the blend stays the same.
   EXPECT_LT(ledges(atlas, samples), 0.7 * before);
   EXPECT_LT(blend(atlas, samples, atlas.band, {}).rms, 1.05 * error);
 }

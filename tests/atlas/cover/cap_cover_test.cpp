@@ -34,8 +34,8 @@ Ordered ordered(const PointCloud& cloud) {
   return result;
 }
 
-// A plane is r = R_0 / cos(theta) on a cap of support R_0 tan(15 degrees), and degree 3 leaves no
-// more of it than its term 5 theta^4 / 24; of a sphere as large as this one less.
+// On a cap of support R_0 tan(15 degrees) a plane is r = R_0 / cos(theta). Degree 3 leaves at most
+// its term 5 theta^4 / 24 as error; the error for a sphere as large as this one is smaller.
 constexpr double kMissed = 0.0037;
 
 std::span<const double> coefficients_of(const Cover& made, const Cap& cap) {
@@ -64,8 +64,8 @@ TEST(CapCover, every_point_of_a_sphere_lies_within_a_cap_and_on_it) {
     }
   }
   EXPECT_EQ(std::count(covered.begin(), covered.end(), 1), 10000);
-  // Each point is in the area of one cap; discs of random points scatter by a fifth (24 points),
-  // their mean over hundreds of caps hardly.
+  // Each point belongs to the area of one cap. Areas of discs with 24 random points scatter by a
+  // fifth; their mean over hundreds of caps hardly scatters.
   EXPECT_NEAR(area, 4 * std::numbers::pi, 0.1 * 4 * std::numbers::pi);
 }
 
@@ -78,7 +78,7 @@ TEST(CapCover, a_tolerance_makes_fewer_and_larger_caps_that_keep_it) {
 }
 
 TEST(CapCover, caps_at_an_edge_fit_as_well_as_a_surface_must) {
-  // The edge of a wedge along y: two planes that meet at right angles.
+  // A wedge with its edge along y: two planes that meet at right angles.
   PointCloud cloud;
   for (std::uint64_t i = 0; i < 8000; ++i) {
     const double a = test::random_in(0, 1, 1, i), y = test::random_in(0, 1, 2, i);
@@ -114,14 +114,15 @@ TEST(CapCover, both_sides_of_a_plate_have_caps_of_their_own) {
   }
   const Ordered points = ordered(plate);
   const Cover made = cover(points.view(), {}, {});
-  EXPECT_LE(made.rejected.size(), 8U);  // at the border of both
+  EXPECT_LE(made.rejected.size(), 8U);  // at the border of both planes
   for (const Cap& cap : made.caps) {
     EXPECT_GT(cap.frame.seed().z * cap.frame.z.z, 0.009);
-    EXPECT_LT(cap.error, 1e-4);  // those of the other side would be off by the thickness
+    // Points of the other side would give errors of the plate's thickness.
+    EXPECT_LT(cap.error, 1e-4);
   }
 }
 
-// Random points of the strip -1/2 < x < 1/2, |y| < width / 2 in the plane z = 0.
+// Returns random points of the strip -1/2 < x < 1/2, |y| < width / 2 in the plane z = 0.
 PointCloud strip(double width, std::size_t n) {
   PointCloud cloud;
   for (std::uint64_t i = 0; i < n; ++i) {
@@ -133,8 +134,9 @@ PointCloud strip(double width, std::size_t n) {
 }
 
 TEST(CapCover, caps_of_a_strip_have_no_weight_beside_it) {
-  // One point wide: the 24 nearest points reach 12 widths to either side, where the thinnest
-  // ellipse is 12 sqrt(0.1) = 3.8 widths from the middle; the 9 nearest 4.5, where it is 1.4.
+  // The strip is one point wide. The 24 nearest points reach 12 widths to either side, where the
+  // thinnest ellipse reaches 12 sqrt(0.1) = 3.8 widths from the middle. The 9 nearest points reach
+  // 4.5 widths, and the ellipse 1.4 widths.
   constexpr double kWidth = 0.004;
   constexpr std::size_t kPoints = 250;
   const Ordered points = ordered(strip(kWidth, kPoints));
@@ -149,16 +151,16 @@ TEST(CapCover, caps_of_a_strip_have_no_weight_beside_it) {
   }
 }
 
-// The faces of a box of 2 x 1 x `thickness`, points by their areas.
+// Returns points of the faces of a box of 2 x 1 x `thickness`, distributed by area.
 PointCloud box_points(double thickness, std::size_t n) {
   return sample_surface(box({2, 1, thickness}), {.points = n, .seed = 1});
 }
 
 TEST(CapCover, caps_of_both_sides_of_a_plate_have_all_the_points_they_are_to_have) {
-  // Sheets much nearer than points: half of the nearest ones are on the other.
+  // The sheets are much nearer than the points: half of the nearest points lie on the other sheet.
   const Ordered points = ordered(box_points(0.001, 8000));
   const Cover made = cover(points.view(), {}, {});
-  const double wanted = std::sqrt(24 * 4.0 / 8000 / std::numbers::pi);  // of 24 of one sheet
+  const double wanted = std::sqrt(24 * 4.0 / 8000 / std::numbers::pi);  // 24 points of one sheet
   double sum = 0;
   std::size_t n = 0;
   for (const Cap& cap : made.caps) {
@@ -172,7 +174,7 @@ TEST(CapCover, caps_of_both_sides_of_a_plate_have_all_the_points_they_are_to_hav
   EXPECT_NEAR(sum / static_cast<double>(n), wanted, 0.05 * wanted);
 }
 
-// A plate, and one point lifted off its upper side.
+// A plate with one point lifted off its upper side.
 TEST(CapCover, a_noisy_seed_settles_on_the_mean_of_the_points_around_it) {
   constexpr double kLifted = 0.02, kThickness = 0.03;
   PointCloud plate;
@@ -191,7 +193,7 @@ TEST(CapCover, a_noisy_seed_settles_on_the_mean_of_the_points_around_it) {
   CapWorker worker;
   worker.middle = *lifted;
   points.tree->nearest_to(seed, 60, worker.near);
-  std::size_t n = 0;  // of the upper side among the nearest quarter, the seed with them
+  std::size_t n = 0;  // points of the upper side among the nearest quarter, with the seed
   for (std::size_t j = 0; j < 15; ++j) n += points.normals[worker.near[j].index].z > 0;
   ASSERT_GT(n, 4U);
   settle(points.view(), seed, worker);
@@ -205,8 +207,8 @@ TEST(CapCover, a_noisy_seed_settles_on_the_mean_of_the_points_around_it) {
 }
 
 TEST(CapCover, a_noisy_cap_counts_by_the_square_of_its_points) {
-  // On the plane all caps take the 60 points they are given. Where two planes meet at right angles
-  // those of both fit worse than the noise, and caps are smaller.
+  // In the plane all caps use the 60 points that they are given. Caps across the right angle
+  // between two planes fit worse than the noise, so that they are made smaller.
   PointCloud cloud;
   for (std::uint64_t i = 0; i < 8000; ++i) {
     const double a = test::random_in(0, 1, 13, i), y = test::random_in(0, 1, 14, i);
@@ -219,9 +221,9 @@ TEST(CapCover, a_noisy_cap_counts_by_the_square_of_its_points) {
   const Cover made = cover(points.view(), {.neighbours = 60, .noise = 0.003}, {});
   std::size_t whole = 0, small = 0;
   for (const Cap& cap : made.caps) {
-    // Those whose residuals exceed the noise count for less besides.
+    // Caps whose residuals exceed the noise have a smaller weight in addition.
     if (cap.error > 0.003) continue;
-    // A cap has 60, 39, 25, ... points less those that face away: here none.
+    // A cap has 60, 39, 25, ... points minus the points that face away: here there are none.
     const double n = 60 * std::sqrt(cap.weight);
     EXPECT_NEAR(n, std::round(n), 1e-9);
     const double nearest = std::min(

@@ -1,4 +1,5 @@
-// How many points a cap should have, and how noisy they are: spheres with known noise.
+// The best number of points for a cap and the noise of the points, tested on spheres of known
+// noise.
 #include "atlas/cover/cap_size.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ Ordered ordered(const PointCloud& cloud) {
   return result;
 }
 
-// Deviations of points along the normals, and of normals by angles about random tangents.
+// Moves points of a sphere along normals, and turns normals by angles about random tangents.
 PointCloud noisy_sphere(std::size_t n, double sigma, double angle) {
   PointCloud cloud = test::sphere_points(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -54,8 +55,8 @@ TEST(CapSize, clean_points_have_no_noise) {
 }
 
 TEST(CapSize, exact_caps_do_not_grow_beyond_the_other_side_of_a_plate) {
-  // Points on both sides of a square of 2 x 2, which is four times as thick as they are apart: the
-  // circle of 50 reaches as far.
+  // Points on both sides of a square plate of 2 x 2. Its thickness is four spacings of the points,
+  // which is also the radius of a circle with 50 points.
   constexpr double kApart = 4 * 0.04;
   PointCloud plate;
   for (std::size_t i = 0; i < kPoints; ++i) {
@@ -71,7 +72,7 @@ TEST(CapSize, exact_caps_do_not_grow_beyond_the_other_side_of_a_plate) {
   EXPECT_GT(choose_cap_size(ordered(plate).view(), 3, {}).neighbours, 81U);
 }
 
-// A small part of the spacing and half of it, with good normals and with bad ones.
+// The noise is a small part of the spacing or half of it, with exact or inexact normals.
 TEST(CapSize, noise_of_a_smooth_body_is_found_to_a_tenth) {
   for (const double part : {0.15, 0.5}) {
     for (const double angle : {0.0, 0.1}) {
@@ -92,7 +93,7 @@ TEST(CapSize, noise_of_normals_is_found_to_a_tenth) {
 }
 
 TEST(CapSize, noise_asks_for_larger_caps_than_detail_does) {
-  // Ripples a few spacings long: only small caps follow them.
+  // Ripples are a few spacings long, so that only small caps follow them.
   PointCloud rippled = test::sphere_points(kPoints);
   const double k = 2 * std::numbers::pi / (12 * kSpacing), height = 0.5 * kSpacing;
   for (std::size_t i = 0; i < kPoints; ++i) {

@@ -1,4 +1,4 @@
-// Expected values: the definition, method 7.1 and 7.2.
+// Expected values follow from the definition (method 7.1 and 7.2).
 #include "chart/cap/cap_frame.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace rholm {
 namespace {
 
-// Along the coordinate axes, between them, and anywhere.
+// Returns axes along the coordinate axes, between them, and in random directions.
 std::vector<Vec3> axes() {
   std::vector<Vec3> all = {{1, 0, 0}, {0, -2, 0}, {0, 0, 3}, {1, 1, 0}, {-1, 1, 1}};
   for (std::uint64_t i = 0; i < 20; ++i) {

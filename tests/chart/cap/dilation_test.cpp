@@ -1,4 +1,4 @@
-// Expected values: tan(theta'/2) = a tan(theta/2), and the derivative of it.
+// Expected values are tan(theta'/2) = a tan(theta/2) and its derivative.
 #include "chart/cap/cap_frame.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(dilation, of_the_inverse_undoes_it) {
   }
 }
 
-// Central differences, along the meridian and along the parallel: the same, it is conformal.
+// Central differences along the meridian and along the parallel agree: the map is conformal.
 TEST(dilation, the_conformal_factor_is_how_lengths_grow) {
   const double h = 1e-5;
   for (const double a : kDilations) {
@@ -52,7 +52,7 @@ TEST(dilation, the_conformal_factor_is_how_lengths_grow) {
       const double factor = conformal_factor(a, std::cos(theta));
       const Vec3 down = dilated(a, direction(theta + h, 1)) - dilated(a, direction(theta - h, 1));
       const Vec3 along = dilated(a, direction(theta, 1 + h)) - dilated(a, direction(theta, 1 - h));
-      // Of second order in h a, the third derivative's size; rounding of 1e-16 / h.
+      // The error is of second order in h a (third derivative), plus rounding of 1e-16 / h.
       const double slack = factor * (a * a + 1 / (a * a)) * h * h + 1e-10;
       EXPECT_NEAR(norm(down) / (2 * h), factor, slack) << a << " " << theta;
       EXPECT_NEAR(norm(along) / (2 * h * std::sin(theta)), factor, slack / std::sin(theta));

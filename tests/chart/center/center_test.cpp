@@ -1,4 +1,4 @@
-// Centres with a known answer, and the laws they keep.
+// Centres with a known answer, and laws that centres obey.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,7 +42,7 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance) {
   EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
-// The two bounds of the search meet within 1e-12 of the unit frame, two of which are a diagonal.
+// The search ends with bounds 1e-12 apart in the unit frame; two units are a diagonal.
 constexpr double kGap = 4e-12;
 
 TEST(kernel_center, of_a_box_is_its_middle_with_half_the_shortest_edge) {
@@ -61,7 +61,7 @@ TEST(kernel_center, of_a_turned_box_is_still_its_middle) {
   expect_near(center_of(mesh, CenterKind::kKernel).center, {0, 0, 0}, 1e-9);
 }
 
-// Inradius 3 volume / area.
+// The inradius is 3 volume / area.
 TEST(kernel_center, of_a_tetrahedron_is_the_centre_of_its_inscribed_ball) {
   const double r = 0.5 / (1.5 + std::sqrt(3) / 2);
   const StarReport report = center_of(tetrahedron(), CenterKind::kKernel);
@@ -77,7 +77,7 @@ TEST(kernel_center, of_an_l_is_the_middle_of_its_corner_though_the_centroid_is_o
     expect_near(report.center, {0.5, 0.5, 0}, 1e-9);
     EXPECT_TRUE(report.star_shaped);
     EXPECT_FALSE(report.center_fell_back);
-    // Two arms of 4 and 3 unit squares: the centroid is (4 * 2 + 3 * 0.5) / 7 from either side.
+    // Two arms of 4 and 3 unit squares: both coordinates of the centroid are (4 * 2 + 3 * 0.5) / 7.
     const Vec3 centroid = inspect(mesh).volume_centroid;
     expect_near(centroid, {9.5 / 7, 9.5 / 7, 0}, 1e-14);
     EXPECT_NEAR(min_d(mesh, centroid), 1 - 9.5 / 7, 1e-14);
@@ -100,7 +100,7 @@ TEST(kernel_center, of_a_star_prism_has_the_distance_of_the_edges_lines) {
   expect_near(report.center, {0, 0, 0}, 1e-9);
 }
 
-// The smallest d_T is a concave function of the centre: no better point nearby, none anywhere.
+// The smallest d_T is a concave function of the centre: a local maximum is the global maximum.
 TEST(kernel_center, cannot_be_improved_by_moving_it) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Mesh mesh = bumpy_sphere(4, 0.3, seed);
@@ -115,7 +115,7 @@ TEST(kernel_center, cannot_be_improved_by_moving_it) {
   }
 }
 
-// cos gamma > s is a convex set of centres for s > 0: what is best nearby is best everywhere.
+// For s > 0 the centres with cos gamma > s form a convex set: a local maximum is the global one.
 void expect_best_cosine_nearby(const Mesh& mesh, const StarReport& report) {
   for (const double step : {1e-5, 1e-3, 0.1}) {
     for (int i = 0; i < 60; ++i) {
@@ -135,7 +135,7 @@ TEST(cosine_center, cannot_be_improved_by_moving_it) {
   }
 }
 
-// By symmetry the middle; its corners see the largest faces at (half shortest) / (half diagonal).
+// By symmetry the centre is the middle. The cosine at corners is (half shortest) / (half diagonal).
 TEST(cosine_center, of_a_box_is_its_middle) {
   for (const Vec3& size : {Vec3{1, 1, 1}, Vec3{4, 2, 1}, Vec3{1, 1, 20}}) {
     const StarReport report = center_of(box(size, 2), CenterKind::kCosine);
@@ -143,8 +143,8 @@ TEST(cosine_center, of_a_box_is_its_middle) {
   }
 }
 
-// An exhaustive search on ever finer grids around the best point so far, each moved until its
-// middle is the best.
+// An exhaustive search on ever finer grids around the best point so far. Each grid is moved until
+// its middle is the best point.
 double best_cosine_by_grid(const Mesh& mesh, Vec3 center, double reach) {
   double best = min_cos(mesh, center);
   while (reach > 1e-6) {
@@ -175,13 +175,13 @@ TEST(cosine_center, is_not_beaten_by_an_exhaustive_search) {
     const Vec3 start = center_of(mesh, CenterKind::kKernel).center;
     const double grid = best_cosine_by_grid(mesh, start, 1);
     EXPECT_GE(report.min_cos_gamma, grid * (1 - 2e-6));
-    expect_best_cosine_nearby(mesh, report);  // the grid may stop on a ridge a little below
+    expect_best_cosine_nearby(mesh, report);  // the grid may stop on a ridge slightly below
   }
 }
 
-// int |grad_S r|^2 dOmega by plain sums over the middles of small pieces of the faces.
+// Computes int |grad_S r|^2 dOmega as a sum over the middles of small parts of the faces.
 double slope_by_pieces(const Mesh& mesh, const Vec3& center) {
-  constexpr int kPieces = 12;  // to a side
+  constexpr int kPieces = 12;  // per edge
   double sum = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& corners = mesh.triangles[t];
@@ -191,7 +191,7 @@ double slope_by_pieces(const Mesh& mesh, const Vec3& center) {
     const double area = norm(normal) / 2 / (kPieces * kPieces);
     for (int i = 0; i < kPieces; ++i) {
       for (int j = 0; j < kPieces - i; ++j) {
-        for (const double third : {1.0, 2.0}) {  // upright pieces, and those upside down
+        for (const double third : {1.0, 2.0}) {  // upright parts, and parts upside down
           if (third == 2 && i + j + 1 >= kPieces) continue;
           const double u = (i + third / 3) / kPieces, v = (j + third / 3) / kPieces;
           const Vec3 m = a + u * (b - a) + v * (c - a) - center;
@@ -214,7 +214,7 @@ TEST(slope_center, keeps_the_symmetries_of_the_body) {
   expect_near(of_l, {of_l.x, of_l.x, 0}, 1e-9);
 }
 
-// On the way from the middle of the kernel through the centroid no other point has less slope.
+// On the line from the centre of the kernel through the centroid no other point has less slope.
 TEST(slope_center, has_the_least_slope_on_its_line) {
   for (const Mesh& mesh : {tetrahedron(), l_prism(2), test::random_octahedron(4)}) {
     const StarReport kernel = center_of(mesh, CenterKind::kKernel);
@@ -222,7 +222,7 @@ TEST(slope_center, has_the_least_slope_on_its_line) {
     const StarReport found = center_of(mesh, CenterKind::kSlope);
     const Vec3 way = inspect(mesh).volume_centroid - kernel.center;
     EXPECT_LT(norm(cross(found.center - kernel.center, way)), 1e-9);
-    // The sums of few points on few faces are not exact.
+    // The sums use so few points on so few faces that they are not exact.
     const double least = slope_by_pieces(mesh, found.center);
     for (double t = -1; t <= 2; t += 0.1) {
       const Vec3 other = kernel.center + t * way;
@@ -230,17 +230,17 @@ TEST(slope_center, has_the_least_slope_on_its_line) {
       EXPECT_LT(least, 1.02 * slope_by_pieces(mesh, other)) << t;
     }
   }
-  // Of an L, whose arms the middle of the kernel sees aslant.
+  // The arms of an L are seen at small angles from the centre of its kernel.
   const Mesh l = l_prism(2);
   EXPECT_LT(slope_by_pieces(l, center_of(l, CenterKind::kSlope).center),
             0.99 * slope_by_pieces(l, center_of(l, CenterKind::kKernel).center));
 }
 
-// A sample of the faces starts the search, and which faces it has depends on their order.
+// The search starts with a sample of the faces, which depends on the order of the faces.
 TEST(slope_center, does_not_depend_on_the_order_of_faces_and_corners) {
-  Mesh drawn_out = bumpy_sphere(5, 0.3, 3);  // its centre is at the end of the permitted way
+  Mesh drawn_out = bumpy_sphere(5, 0.3, 3);  // its centre is at the end of the allowed segment
   for (Vec3& v : drawn_out.vertices) v = (1 + 5 * std::pow(std::max(0.0, v.x), 6)) * v;
-  Mesh lopsided = bumpy_sphere(5, 0.3, 3);  // centroid and middle of the kernel are far apart
+  Mesh lopsided = bumpy_sphere(5, 0.3, 3);  // centroid and centre of the kernel are far apart
   for (Vec3& v : lopsided.vertices) v = (1 + std::pow(std::max(0.0, v.x), 3)) * v;
   for (const Mesh& mesh : {bumpy_sphere(6, 0.3), lopsided, drawn_out}) {
     const StarReport in_order = center_of(mesh, CenterKind::kSlope);
@@ -262,7 +262,7 @@ TEST(slope_center, does_not_depend_on_the_order_of_faces_and_corners) {
   }
 }
 
-// A drawn out bump moves the centroid to the border of the kernel or beyond.
+// A long bump moves the centroid to the border of the kernel or beyond it.
 TEST(slope_center, stays_a_quarter_of_the_kernel_within_it) {
   std::vector<Mesh> shapes = {l_prism(0.5), l_prism(6)};
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -321,7 +321,8 @@ TEST(centers, move_turn_and_grow_with_the_shape) {
       motion.scale = scale;
       motion.shift = scale * Vec3{3, -4, 5};
       const StarReport other = center_of(moved(mesh, motion), kind);
-      // The cosine is promised to 1e-6; its optimum is sharp here, so that the centre follows.
+      // The cosine is promised to 1e-6. Its maximum is sharp here, so that the centre is as
+      // accurate.
       const double tolerance = kind == CenterKind::kCosine ? 1e-5 : 1e-10;
       expect_near(other.center / scale, motion(report.center) / scale, tolerance);
       EXPECT_NEAR(other.min_d / scale, report.min_d, tolerance);
@@ -359,7 +360,7 @@ TEST(centers, kinds_name_the_point_they_mean) {
   const Mesh mesh = moved(tetrahedron(), {.shift = {1, 2, 3}});
   expect_near(center_of(mesh, CenterKind::kNone).center, {0, 0, 0}, 0);
   expect_near(center_of(mesh, CenterKind::kVolume).center, {1.25, 2.25, 3.25}, 1e-15);
-  // Three right triangles of area 1/2 with centroids at 1/3, one of sqrt(3)/2 at (1, 1, 1)/3.
+  // Three right triangles of area 1/2 have centroids at 1/3, one of sqrt(3)/2 at (1, 1, 1)/3.
   const double c = (2 * 0.5 + std::sqrt(3) / 2) / 3 / (1.5 + std::sqrt(3) / 2);
   expect_near(center_of(mesh, CenterKind::kCentroid).center, {1 + c, 2 + c, 3 + c}, 1e-15);
   const CenterOptions given{.kind = CenterKind::kGiven, .point = {1.1, 2.2, 3.3}, .rays = 0};

@@ -25,7 +25,7 @@ long double determinant(const std::array<Quad, 4>& columns) {
          a[2] * determinant3(b, c, d, 0, 1, 3) - a[3] * determinant3(b, c, d, 0, 1, 2);
 }
 
-// The largest t over all vertices of the feasible set, by trying every four rows.
+// Returns the largest t over all vertices of the feasible set, by trying all sets of four rows.
 double largest_by_enumeration(const std::vector<Row>& rows) {
   const std::size_t n = rows.size();
   double best = -1e300;
@@ -72,7 +72,7 @@ double worst_violation(const LinearProgram& program) {
   return worst;
 }
 
-// Weights of the basis make up the objective: with feasibility, the proof of optimality.
+// The weights of the basis add up to the objective. With feasibility, this proves optimality.
 void expect_certified(const LinearProgram& program) {
   EXPECT_LE(worst_violation(program), 1e-13);
   Vec3 sum;
@@ -103,7 +103,7 @@ TEST(linear_program, agrees_with_the_enumeration_of_all_vertices) {
   }
 }
 
-// Rows through one point, with normals on a lattice: every vertex is degenerate many times over.
+// Rows pass through one point and have normals on a lattice: every vertex is highly degenerate.
 TEST(linear_program, does_not_cycle_on_degenerate_rows) {
   LinearProgram program(1, 3);
   for (int i = -2; i <= 2; ++i) {
@@ -140,7 +140,7 @@ TEST(linear_program, takes_rows_in_rounds_as_well_as_at_once) {
   expect_certified(once);
 }
 
-// Two sides 1 apart, each of many faces that rounding has turned.
+// Two groups of planes face each other at distance 1; rounding turns the planes of each group.
 TEST(linear_program, ends_where_rounding_turns_planes_against_each_other) {
   constexpr double kTurn = 1e-7;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {

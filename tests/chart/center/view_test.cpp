@@ -1,4 +1,4 @@
-// Centres and checks of meshes that lie in somebody else's memory, against slow plain answers.
+// Centres and checks of meshes in memory of the caller, compared with slow, plain computations.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,7 @@ const Context kOneThread{.threads = 1, .progress = {}};
 
 LocalView local(const MeshView& mesh) { return local_view(mesh, kOneThread); }
 
-// Calls `run` with each set of vector instructions this machine has.
+// Calls `run` with each instruction set of this machine.
 template <class Test>
 void for_each_target(const Test& run) {
   test::for_each_target([&](const char* target) {
@@ -42,7 +42,8 @@ void for_each_target(const Test& run) {
   });
 }
 
-// A sphere with noise: every normal is off, and faces of all depths are near the optimum.
+// Returns a sphere with noise: all normals are inexact, and faces of all depths are near the
+// optimum.
 Mesh rough_sphere(int subdivisions, double noise) {
   Mesh mesh = icosphere(subdivisions);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -60,8 +61,8 @@ Mesh shuffled(Mesh mesh) {
   return mesh;
 }
 
-// A sphere and one small face that looks along x from -0.4: the best centre is (-0.7, 0, 0), far
-// from where it is without that face, which no sample of every second or later face finds.
+// Returns a sphere and one small face that looks along x from -0.4. It moves the best centre far,
+// to (-0.7, 0, 0). A sample of every second face, or of fewer, does not contain this face.
 Mesh cut_sphere(int subdivisions) {
   Mesh mesh = icosphere(subdivisions);
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -72,7 +73,7 @@ Mesh cut_sphere(int subdivisions) {
   return mesh;
 }
 
-// The linear program with all faces at once.
+// Solves the linear program with all faces at once.
 double best_distance(const LocalView& view) {
   LinearProgram program(1.0625, 4);
   for (std::size_t t = 0; t < view.mesh.n_triangles; ++t) {
@@ -103,7 +104,7 @@ TEST(chebyshev_center, is_that_of_the_program_with_all_faces) {
     for (const MeshView& view : {view_of(mesh), floats.view, doubles.view}) {
       const LocalView seen = local(view);
       const KernelCenter center = chebyshev_center(seen, kOneThread);
-      // Two gaps of 1e-12: of the search, and of its bound.
+      // The search and its bound each have a gap of 1e-12.
       EXPECT_NEAR(center.value, best_distance(seen), 2e-12);
       EXPECT_NEAR(center.value, smallest_distance(seen, center.point), 1e-14);
     }
@@ -123,7 +124,7 @@ TEST(chebyshev_center, is_the_same_with_all_vector_instructions_and_any_number_o
   });
 }
 
-// The bounds of a pass prove the next optimum: the second pass is over few faces.
+// The bounds of the first pass prove the next optimum: the second pass reads few faces.
 TEST(chebyshev_center, of_a_smooth_shape_takes_little_more_than_one_pass) {
   const PackedMesh mesh = packed<float>(bumpy_sphere(7, 0.3));  // 328 000 faces
   EXPECT_LT(chebyshev_center(local(mesh.view), kOneThread).scans, 1.5);
@@ -133,7 +134,7 @@ TEST(chebyshev_center, follows_floats_to_the_ends_of_their_range_and_far_away) {
   const Mesh mesh = bumpy_sphere(4, 0.3);
   const PackedMesh here = packed<float>(mesh);
   const KernelCenter center = chebyshev_center(local(here.view), kOneThread);
-  for (const int exponent : {-100, -20, 20, 126}) {  // powers of two change no digit
+  for (const int exponent : {-100, -20, 20, 126}) {  // powers of two leave all digits unchanged
     const PackedMesh there =
         packed<float>(moved(mesh, {.scale = std::ldexp(1, exponent), .shift = {}}));
     const KernelCenter other = chebyshev_center(local(there.view), kOneThread);
@@ -159,7 +160,7 @@ TEST(chebyshev_center, passes_over_faces_without_area) {
   }
 }
 
-// Every triangle that must be visited is; those that need not be are few.
+// Checks that every triangle below a limit is visited, and only few others.
 template <class T>
 void expect_scan_complete(const Mesh& mesh, const Vec3& center, const ScanLimits& limits) {
   const PackedMesh bytes = packed<T>(mesh, sizeof(T) == 4 ? 0 : 3);
@@ -200,7 +201,7 @@ TEST(scan_below, visits_all_faces_below_the_limits_in_order) {
   });
 }
 
-// Ranges of 1 ... 33 faces that begin anywhere, against one after the other.
+// Compares ranges of 1 ... 33 faces that begin anywhere with a loop over single faces.
 template <class T>
 void expect_any_range(const Mesh& mesh) {
   const PackedMesh bytes = packed<T>(mesh);
@@ -226,7 +227,7 @@ TEST(view_scan, takes_any_number_of_faces) {
   });
 }
 
-// area (rho / d - d / rho) of one face by one point in its middle, as seen from `from`.
+// Returns area (rho / d - d / rho) of one face as seen from `from`, by one point in its middle.
 double slope_of_face(const LocalView& view, std::size_t t, const Vec3& from) {
   const auto corners = view.corners(t);
   const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -235,7 +236,7 @@ double slope_of_face(const LocalView& view, std::size_t t, const Vec3& from) {
   return norm(normal) / 2 * (rho / d - d / rho);
 }
 
-// Differences of sixth order; `h` as small as rounding of the sums allows.
+// Differences of sixth order; `h` is as small as rounding of the sums allows.
 double rise_by_differences(const LocalView& view, std::size_t begin, std::size_t end,
                            const SlopeLine& line, double t) {
   constexpr double h = 0.01;
@@ -252,7 +253,7 @@ double rise_by_differences(const LocalView& view, std::size_t begin, std::size_t
   return rise;
 }
 
-// 1 ... 33 faces that begin anywhere.
+// Ranges have 1 ... 33 faces and begin anywhere.
 template <class T>
 void expect_rises(const Mesh& mesh) {
   const PackedMesh bytes = packed<T>(mesh);
@@ -297,7 +298,7 @@ TEST(sum_rises, tells_planes_that_are_too_near_and_visits_large_faces) {
     EXPECT_TRUE(near({0, 0.05, 0.1, 0.21}));
     EXPECT_TRUE(near({0.21, 0.1, 0.05, 0}));
     visited.clear();
-    line.middle.x = -0.405 * scale;  // so near that the face is large
+    line.middle.x = -0.405 * scale;  // at this distance the face is large
     sum_rises(view, 0, view.mesh.n_triangles, line, {0}, 1, visit);
     EXPECT_EQ(visited, (std::vector<std::size_t>{7}));
   });
@@ -306,7 +307,7 @@ TEST(sum_rises, tells_planes_that_are_too_near_and_visits_large_faces) {
 TEST(volume_centroid, is_that_of_sums_one_after_the_other) {
   const Mesh mesh = rough_sphere(3, 0.05);
   for (std::uint64_t gap = 1; gap <= 33;
-       ++gap) {  // any number of faces; open, as the sum is defined
+       ++gap) {  // any number of faces; the sum is defined for open meshes too
     Mesh some = mesh;
     some.triangles.resize(mesh.triangles.size() - gap);
     const PackedMesh floats = packed<float>(some), doubles = packed<double>(some, 5);

@@ -17,7 +17,7 @@
 namespace rholm {
 namespace {
 
-// How many triangles the half line meets, each on its own.
+// Counts the triangles that the half line meets, testing each triangle separately.
 int meetings(const Mesh& mesh, const Vec3& center, const Vec3& direction) {
   int count = 0;
   for (const Triangle& t : mesh.triangles) {
@@ -40,15 +40,15 @@ Mesh together(Mesh a, const Mesh& b) {
   return a;
 }
 
-// All of a mesh: those with low planes are among them.
+// Returns all faces of a mesh, which include the faces with low planes.
 std::vector<std::uint32_t> all_faces(const Mesh& mesh) {
   std::vector<std::uint32_t> all(mesh.triangles.size());
   std::iota(all.begin(), all.end(), 0U);
   return all;
 }
 
-// From within a body, from its hole, from beside it, of one inside out, of two, of one in another;
-// with faces as wide as a third of the sky and as narrow as a direction's share of it.
+// Centres lie within a body, in its hole and beside it; bodies are inside out, two, or nested.
+// Faces are as wide as a third of the sphere and as narrow as the solid angle of one direction.
 TEST(count_meetings, are_those_of_each_triangle) {
   Mesh inward = test::rotated(bumpy_sphere(2, 0.3));
   flip(inward);
@@ -75,7 +75,7 @@ TEST(count_meetings, are_those_of_each_triangle) {
   }
 }
 
-// What the star check hands on is enough.
+// The faces that the star check passes on are sufficient.
 TEST(count_meetings, of_the_star_check_are_those_of_each_triangle) {
   const Mesh mesh = test::rotated(torus(2, 0.5, 40, 20));
   for (const Vec3& center : {Vec3{2.1, 0.1, 0.05}, Vec3{0.3, -0.1, 0.7}}) {
@@ -92,7 +92,7 @@ TEST(count_meetings, of_the_star_check_are_those_of_each_triangle) {
   }
 }
 
-// Half of the sky, or an eighth of it, is seen through the face or corner in which the centre lies.
+// A centre in a face or corner sees a half or an eighth of all directions through it.
 TEST(count_meetings, are_left_to_rays_from_the_surface) {
   const Mesh cube = box({1, 2, 3});
   for (const Vec3& center : {Vec3{0.5, 0.1, 0.2}, Vec3{-0.5, 0.1, 0.2}, Vec3{0.5, 1, 1.5}}) {
@@ -102,7 +102,7 @@ TEST(count_meetings, are_left_to_rays_from_the_surface) {
     EXPECT_GT(report.once_share, 0.05);
     EXPECT_LT(report.once_share, 0.95);
   }
-  // Seen edge-on from outside, a face is in nobody's way.
+  // A face that is seen edge-on from outside does no harm.
   EXPECT_TRUE(count_meetings(local_view(view_of(cube), {}), {0.5, 9, 0.2}, 100, all_faces(cube), {})
                   .has_value());
 }

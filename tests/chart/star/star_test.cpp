@@ -20,7 +20,7 @@ const Context kOneThread{.threads = 1, .progress = {}};
 
 ChartOptions from_origin() { return {.center = {.kind = CenterKind::kNone, .point = {}}}; }
 
-// From the middle of a cube of edge 2: every face plane at 1, every corner at sqrt(3).
+// From the middle of a cube of edge 2, every face plane is at 1 and every corner at sqrt(3).
 TEST(check_star, of_a_cube_from_its_middle) {
   const StarReport report = check_star(box({2, 2, 2}, 3), {0, 0, 0}, 5000, kOneThread);
   EXPECT_EQ(report.min_d, 1);
@@ -50,8 +50,8 @@ TEST(check_star, outside_a_cube_one_face_turns_its_back) {
   EXPECT_NEAR(report.min_cos_gamma, -2 / std::sqrt(6), 1e-15);
 }
 
-// From the middle of a torus with tube half as wide as its centre line, directions below asin(1/2)
-// meet it twice, others never: sin(30 degrees) of the sphere.
+// The tube of the torus is half as wide as its centre line. From the middle, directions below
+// asin(1/2) meet the torus twice, others never: the share is sin(30 degrees).
 TEST(check_star, half_of_the_directions_meet_a_torus_twice_and_half_never) {
   const StarReport report = check_star(torus(2, 1, 200, 200), {0, 0, 0}, 20000, kOneThread);
   EXPECT_EQ(report.once_share, 0);
@@ -82,7 +82,7 @@ TEST(check_star, refuses_a_centre_that_is_no_point_near_the_shape) {
   EXPECT_NO_THROW(check_star(tetrahedron(), {1e14, 0, 0}, 10));
 }
 
-// Two nested spheres, both outward: all d_T are positive, but every direction is covered twice.
+// Two nested spheres face outwards: all d_T are positive, but every direction is covered twice.
 TEST(check_star, nested_spheres_are_not_one_star) {
   const Mesh mesh = joined(icosphere(2), moved(icosphere(2), {.scale = 0.5, .shift = {}}));
   const StarReport report = check_star(mesh, {0, 0, 0}, 1000);
@@ -143,7 +143,7 @@ TEST(make_star_chart, moves_the_centre_to_the_origin_and_drops_attributes) {
   }
 }
 
-// A vertex in the middle of one side of an edge, and a triangle without area that closes the gap.
+// A vertex splits an edge in one of its faces, and a triangle without area closes the gap.
 TEST(make_star_chart, passes_over_triangles_without_area) {
   Mesh mesh = box({2, 2, 2}, 1);
   const Edge edge = pair_edges(mesh).front();

@@ -31,7 +31,7 @@ TEST(PatchKernels, sums_of_any_number_of_rows_are_plain_sums) {
   });
 }
 
-// Columns stand for themselves: those of a block of eight are those of longer ones.
+// Columns are independent: columns of a block of eight equal the ones of longer blocks.
 TEST(PatchKernels, rows_at_a_point_do_not_depend_on_those_beside_it) {
   const CapFrame frame{.center = {0, 0, -1},
                        .x = {1, 0, 0},

@@ -12,7 +12,7 @@
 namespace rholm {
 namespace {
 
-// The smooth step of degree 5, by its closed form.
+// Returns the smooth step of degree 5, in closed form.
 double step(double t) {
   const double s = 1 - std::min(1.0, std::max(0.0, t));
   return 6 * std::pow(s, 5) - 15 * std::pow(s, 4) + 10 * std::pow(s, 3);
@@ -40,8 +40,8 @@ TEST(Region, box_is_one_inside_and_zero_beyond_the_transition) {
   }
 }
 
-// Distances on a sphere are arcs. Fast marching is exact to first order: measured 1.6 % of an
-// edge's length per edge at worst, 0.04 allows for that at the steepest point of the step.
+// Distances on a sphere are arcs. Fast marching is exact to first order: its measured error is at
+// most 1.6 % of an edge's length per edge. The bound 0.04 allows for it where the step is steepest.
 TEST(Region, disc_follows_the_surface) {
   const Mesh mesh = icosphere(5);
   const std::vector<double> w = weights(mesh, DiscRegion{100, 0.8}, 0.6);
@@ -83,7 +83,7 @@ TEST(Region, color_and_mask_are_the_same_and_spread_along_the_surface) {
   EXPECT_EQ(a, weights(mesh, PropertyRegion{"scar"}, 0.5));
   for (std::size_t i = 0; i < n; ++i) {
     EXPECT_TRUE(mask[i] == 0 || a[i] == 1);
-    // The mask's rim is up to an edge inside its circle.
+    // The rim of the mask lies inside its circle by up to an edge.
     EXPECT_TRUE(norm(mesh.vertices[i]) < 1.01 || a[i] == 0);
   }
 }

@@ -28,7 +28,7 @@ DetailMap map_of(const Heights& heights) {
   return map;
 }
 
-// Ten waves, 0.15 ... 0.35 long, whose heights have a mean square of 1 / 2 together.
+// Ten waves of lengths 0.15 ... 0.35; the mean square of their sum is 1 / 2.
 Heights random_texture(std::uint64_t seed) {
   return [seed](double p, double q) {
     double sum = 0;
@@ -43,7 +43,7 @@ Heights random_texture(std::uint64_t seed) {
   };
 }
 
-// Calls visit(p, q) over some cells of any lattice.
+// Calls visit(p, q) on an area that contains several cells of any lattice.
 template <class Visit>
 void over_the_plane(const Visit& visit) {
   for (double q = -2; q < 2; q += 0.037) {
@@ -51,8 +51,8 @@ void over_the_plane(const Visit& visit) {
   }
 }
 
-// Where the texture has a lattice of its own the seams are perfect, but for how finely shifts are
-// looked for: a thousandth of the radius a tile, two tiles off, of waves of 0.2 is 6 %.
+// A periodic texture has perfect seams, except for the resolution of the search for shifts. This is
+// a thousandth of the radius per tile; two tiles away, it is 6 % for waves of 0.2.
 TEST(RepeatedMap, what_repeats_by_itself_goes_on_as_if_it_had_no_end) {
   const Heights stripes = [](double p, double q) {
     return std::cos(2 * pi * (0.8 * p + 0.6 * q) / 0.23 + 0.4);
@@ -71,7 +71,7 @@ TEST(RepeatedMap, what_repeats_by_itself_goes_on_as_if_it_had_no_end) {
   }
 }
 
-// Two unlike heights, half and half, would have 0.71 of the rms; the fade is a sixth of the plane.
+// The mean of two different heights would have 0.71 of the rms; fades cover a sixth of the plane.
 TEST(RepeatedMap, random_texture_stays_as_high) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const Heights heights = random_texture(seed);
@@ -87,8 +87,8 @@ TEST(RepeatedMap, random_texture_stays_as_high) {
   }
 }
 
-// Seams of a cell of 1.8 are 3 long and fade over a tenth: at a sixth of the places at most heights
-// are not those of one copy. Where whole overlaps fade that is half of them.
+// Seams of a cell of 1.8 are 3 long and fade over a tenth: at most a sixth of all heights are a mix
+// of copies. If whole overlaps faded, half of all heights would be a mix.
 TEST(RepeatedMap, nearly_everywhere_there_is_one_copy_and_no_double) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const Heights heights = random_texture(seed);
@@ -111,9 +111,9 @@ TEST(RepeatedMap, nearly_everywhere_there_is_one_copy_and_no_double) {
   }
 }
 
-// Bumps (1 - r^2 / w^2)^3 that stand alone, steepest 1.717 / w at r^2 = w^2 / 5. A seam through one
-// would be a cliff, 1 high over a tenth: 20 with the fade's steepest part, and the bump's own.
-// Between bumps of a copy there is 0.15.
+// Isolated bumps (1 - r^2 / w^2)^3 are steepest at r^2 = w^2 / 5, with the slope 1.717 / w. A seam
+// through a bump would be a step of 1 over a tenth. This is a slope of 20 at the steepest part of
+// the fade, in addition to the bump's slope. The gaps between bumps of a copy are 0.15 wide.
 TEST(RepeatedMap, seams_go_around_what_stands_alone) {
   constexpr double kWidth = 0.1;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -138,8 +138,8 @@ TEST(RepeatedMap, seams_go_around_what_stands_alone) {
   }
 }
 
-// Heights are at most sqrt(10) high, so that a fade over a tenth at least, whose steepest slope is
-// twice its mean, adds 2 * 2 sqrt(10) / 0.1 to the texture's own slope, 2 pi / 0.15 times as much.
+// Heights are at most sqrt(10). A fade over at least a tenth, whose steepest slope is twice its
+// mean, adds 2 * 2 sqrt(10) / 0.1. The texture's own slope is at most sqrt(10) 2 pi / 0.15.
 TEST(RepeatedMap, heights_and_slopes_are_continuous_across_seams_and_cells) {
   const RepeatedMap repeated = repeat(map_of(random_texture(3)));
   const double steepest = std::sqrt(10.0) * (4 / 0.1 + 2 * pi / 0.15);
@@ -149,7 +149,7 @@ TEST(RepeatedMap, heights_and_slopes_are_continuous_across_seams_and_cells) {
     const double before = repeated({p - kStep, q}), at = repeated({p, q});
     const double after = repeated({p + kStep, q});
     ASSERT_LT(std::abs(after - at), kStep * steepest);
-    // A kink would be of the order of the slope.
+    // A crease would give a difference of the order of the slope.
     ASSERT_LT(std::abs(after - 2 * at + before), 1e-3 * kStep * steepest);
   }
 }

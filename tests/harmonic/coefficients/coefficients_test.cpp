@@ -75,10 +75,10 @@ TEST(coefficients, resized_cuts_off_or_fills_with_zeros) {
   }
 }
 
-// The constant function 1 has the coefficient sqrt(4 pi) in the orthonormal basis, whose Y_00 is
-// 1/sqrt(4 pi), and 1 where Y_00 = 1. z = cos theta = sqrt(4 pi / 3) Y_10: 1/sqrt(3) where
-// Y_10 = sqrt(3) z (mean square 1), and 1 where Y_10 = z (mean square 1/3). Likewise x and C_11,
-// y and S_11, with the sign turned where the phase is part of the basis.
+// The constant function 1 has the coefficient sqrt(4 pi) in the orthonormal basis, where Y_00 is
+// 1/sqrt(4 pi). It has the coefficient 1 where Y_00 = 1. The function z is cos theta, or sqrt(4 pi
+// / 3) Y_10. Its coefficient is 1/sqrt(3) where Y_10 = sqrt(3) z (mean square 1), and 1 where Y_10
+// = z (mean square 1/3). For x and C_11, y and S_11 the sign changes if the basis has the phase.
 TEST(conventions, constant_and_coordinates_have_their_textbook_coefficients) {
   Coefficients f(1);
   f.c(0, 0) = std::sqrt(4 * kPi);
@@ -127,9 +127,9 @@ TEST(conventions, phase_turns_the_sign_of_odd_orders_only) {
   }
 }
 
-// x / k * k with both results rounded: the quotient is off by a factor 1 +- 2^-53, its product with
-// k by less than one unit in the last place of x, so that the rounded product is x or one of its
-// neighbours.
+// x / k * k, with both results rounded: the quotient has the relative error 2^-53. Its product with
+// k differs from x by less than one unit in the last place. The rounded product is therefore x or
+// one of its neighbours.
 TEST(conventions, there_and_back_is_within_one_unit_in_the_last_place) {
   const Coefficients f = random_coefficients(40);
   for (const Convention& convention : kAllConventions) {

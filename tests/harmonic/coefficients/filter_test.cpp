@@ -41,7 +41,7 @@ void expect_refused(Call call) {
   }
 }
 
-// The step as coefficients by Gauss quadrature over [1/2, 1], where it is 1: an independent way.
+// Expands the step independently: Gauss quadrature over [1/2, 1], where the step is 1.
 Coefficients step(int degree) {
   Coefficients f(degree);
   const GaussRule rule = gauss_legendre(degree / 2 + 2);
@@ -54,12 +54,12 @@ Coefficients step(int degree) {
   }
   add_adjoint({.directions = directions, .weights = weights}, f, {.engine = Engine::kDirect});
   for (int l = 0; l <= degree; ++l) {
-    for (int m = 1; m <= l; ++m) f.c(l, m) = f.s(l, m) = 0;  // of one meridian only
+    for (int m = 1; m <= l; ++m) f.c(l, m) = f.s(l, m) = 0;  // constant in phi
   }
   return f;
 }
 
-// Largest value - 1 and minus the smallest value of a filtered step, by its values on a meridian.
+// Returns the largest value - 1 and minus the smallest value of a filtered step on a meridian.
 Overshoot direct_overshoot(std::span<const double> gains) {
   const int degree = static_cast<int>(gains.size()) - 1;
   const Coefficients f = filter(step(degree), gains);
@@ -76,8 +76,8 @@ Overshoot direct_overshoot(std::span<const double> gains) {
   return {high, low};
 }
 
-// Known figures of filters on the sphere: Gibbs' constant is 8.949 % of the step; each within a
-// fifth.
+// Known overshoots of filters on the sphere, each to a fifth. Gibbs' constant is 8.949 % of the
+// step.
 TEST(filter, overshoot_of_a_spherical_step_is_the_known_one) {
   EXPECT_NEAR(overshoot(Window::kIdeal, 64).above, 0.089, 0.089 / 5);
   EXPECT_NEAR(overshoot(Window::kLanczos, 64).above, 0.014, 0.014 / 5);
@@ -100,7 +100,7 @@ TEST(windows, each_has_a_name_of_its_own_that_is_read_back) {
     EXPECT_EQ(parse_window(info.name), info.window);
     EXPECT_EQ(&window_info(info.window), &info);
   }
-  EXPECT_TRUE(names.contains("plateau"));  // the last of the enumerators has a row, too
+  EXPECT_TRUE(names.contains("plateau"));  // the table has a row for the last enumerator, too
 }
 
 TEST(windows, both_ends_of_a_parameter_are_in_its_range_and_nothing_beyond) {
@@ -134,7 +134,7 @@ TEST(filter, overshoot_is_that_of_the_filtered_values) {
     for (const int degree : {1, 8, 64}) {
       const std::vector<double> gains = low_pass(degree, 64, {.window = window});
       const Overshoot series = overshoot(gains), direct = direct_overshoot(gains);
-      // The parabola between points: a part in a thousand.
+      // The parabola between points is exact to a part in a thousand.
       EXPECT_NEAR(series.above, direct.above, 1e-3 * direct.above + 2e-12) << to_string(window);
       EXPECT_NEAR(series.below, direct.below, 1e-3 * direct.below + 2e-12) << to_string(window);
     }
@@ -213,7 +213,7 @@ TEST(filter, coefficients_are_multiplied_and_cut_off) {
 }
 
 TEST(filter, heat_of_a_positive_function_stays_positive) {
-  // A spike on a small sphere, r = 0.01 + exp(40 (z - 1)): its ideal low pass is negative.
+  // A spike on a small sphere, r = 0.01 + exp(40 (z - 1)), has a negative ideal low pass.
   const int degree = 60;
   const GaussRule rule = gauss_legendre(120);
   Coefficients f(degree);
@@ -252,11 +252,11 @@ TEST(filter, of_an_expansion_says_so_and_forgets_what_no_longer_holds) {
   EXPECT_EQ(filtered.unit, "km");
   EXPECT_EQ(filtered.center, e.center);
   EXPECT_FALSE(filtered.norm_squared || filtered.tail_strength);
-  e.method = std::string(250, 'x');  // no room for more
+  e.method = std::string(250, 'x');  // leaves no room for more text
   EXPECT_EQ(filter(e, low_pass(2, 4), "low-pass 2 lanczos").method, "low-pass 2 lanczos");
 }
 
-// Of a function of degree 8 that is expanded to degree 6, everything is known in closed form.
+// A function of degree 8 that is expanded to degree 6 has all its errors in closed form.
 TEST(filter, of_an_expansion_keeps_what_follows_of_the_errors) {
   const Coefficients whole = random_coefficients(8, 2);
   const auto rms_to_whole = [&](const Coefficients& c) {
@@ -290,7 +290,7 @@ TEST(filter, of_an_expansion_keeps_what_follows_of_the_errors) {
     EXPECT_EQ(cut.coefficients.degree(), degree);
     EXPECT_EQ(cut.norm_squared, e.norm_squared);
   }
-  EXPECT_EQ(truncated(e, 6).errors->measured_max, 1);  // nothing is cut off, nothing put on
+  EXPECT_EQ(truncated(e, 6).errors->measured_max, 1);  // nothing is cut off or added
   EXPECT_EQ(truncated(e, 500).coefficients.degree(), 6);
   EXPECT_THROW(truncated(e, -1), Error);
   e.function = RadialFunction::kGauge;

@@ -19,7 +19,7 @@ TEST(LengthUnit, symbols_and_words_of_one_unit_are_equal) {
   for (const char* name : {"um", "\u00b5m", "\u03bcm", "micron", "microns", "micrometre"}) {
     EXPECT_EQ(metres_of(name), 1e-6) << name;
   }
-  EXPECT_EQ(metres_of("feet"), 0.3048);  // by definition, since 1959
+  EXPECT_EQ(metres_of("feet"), 0.3048);  // exact by definition, since 1959
   EXPECT_EQ(metres_of("in"), metres_of("inches"));
 }
 
@@ -65,11 +65,11 @@ TEST(LengthUnit, a_scaled_surface_has_scaled_points) {
       EXPECT_NEAR(s, 1000 * r, 1e-12 * s);
     }
     EXPECT_EQ(after.center, (Vec3{1000, -2000, 3000}));
-    // The integral of f^2 is that of (k f)^2 / k^2.
+    // The integral of f^2 is the integral of (k f)^2 divided by k^2.
     const double k = gauge ? 1e-3 : 1e3;
     EXPECT_DOUBLE_EQ(*after.norm_squared, 320 * k * k);
     EXPECT_DOUBLE_EQ(*after.tail_strength, 2 * k * k);
-    EXPECT_DOUBLE_EQ(*after.errors->rms, 100);  // a length either way
+    EXPECT_DOUBLE_EQ(*after.errors->rms, 100);  // a length for radius and gauge
     EXPECT_DOUBLE_EQ(*after.errors->measured_max, 500);
     EXPECT_DOUBLE_EQ(*after.errors->max_bound, 625);
     EXPECT_EQ(after.errors->predicted_max, std::nullopt);

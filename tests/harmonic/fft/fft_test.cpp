@@ -22,7 +22,7 @@ TEST(Fft, lengths_have_only_the_factors_two_and_five) {
   EXPECT_EQ(smooth_length(3, 8), 8u);
 }
 
-// A Kronecker delta at j = 1 has the transform e^{-2 pi i k/n}, and comes back n times itself.
+// A Kronecker delta at j = 1 has the transform e^{-2 pi i k/n}; the way back multiplies by n.
 template <typename T>
 void expect_shifted_delta(std::size_t n) {
   AlignedArray<T> row(n + 2), work(n + 2);
@@ -38,7 +38,7 @@ void expect_shifted_delta(std::size_t n) {
   }
 }
 
-// One wave comes back as itself, twice, for k and -k; the constant once.
+// Wave k comes back doubled, because of k and -k; the constant comes back once.
 template <typename T>
 void expect_waves(std::size_t n) {
   AlignedArray<T> row(n + 2), work(n + 2);

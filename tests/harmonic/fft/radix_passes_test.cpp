@@ -1,4 +1,4 @@
-// Against sums of long double for all short lengths, and against FFTW for all that plans ask for.
+// Compares with long double sums for all short lengths, and with FFTW for all lengths of plans.
 #include "harmonic/fft/radix_passes.h"
 
 #include <fftw3.h>
@@ -32,7 +32,7 @@ std::vector<std::complex<T>> random_row(std::size_t n) {
   return row;
 }
 
-// By its plan, in memory that is full of NaN before.
+// Transforms a row by its plan, in memory that was filled with NaN.
 template <typename T>
 std::vector<std::complex<T>> transformed(const std::vector<std::complex<T>>& row) {
   const std::size_t n = row.size();
@@ -46,7 +46,7 @@ std::vector<std::complex<T>> transformed(const std::vector<std::complex<T>>& row
   return {out.begin(), out.end()};
 }
 
-// X_k = sum_j x_j w^(j k), the powers of w from a table.
+// Returns X_k = sum_j x_j w^(j k), with the powers of w from a table.
 template <typename T>
 std::vector<Long> direct_sums(const std::vector<std::complex<T>>& row) {
   const std::size_t n = row.size();
@@ -62,10 +62,10 @@ std::vector<Long> direct_sums(const std::vector<std::complex<T>>& row) {
   return sums;
 }
 
-// Of the whole row in the l2 norm. Each of some log2 n passes of radix 2 makes at most about 7
-// roundings, of eps / 2 each (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed.,
-// theorem 24.2), which partly cancel: with every instruction set, rows here use up to 0.29 of what
-// is allowed, and 0.86 where three transforms of twice the length make one.
+// Compares whole rows in the l2 norm. Each of some log2 n passes of radix 2 makes at most about 7
+// roundings of eps / 2 each, which partly cancel (Higham, Accuracy and Stability of Numerical
+// Algorithms, 2nd ed., theorem 24.2). Rows here use up to 0.29 of the bound with every instruction
+// set, and 0.86 where three transforms of twice the length make one.
 template <typename T, typename Other>
 void expect_equal(const std::vector<std::complex<T>>& found, const std::vector<Other>& right) {
   long double error = 0, norm = 0;
@@ -103,7 +103,7 @@ TEST(radix_passes, are_the_direct_sums_for_every_length_of_small_factors) {
   EXPECT_EQ(lengths, 67u);  // OEIS A051037 up to 500
 }
 
-// Lengths of grids that are not ours to choose: 2 L + 1 columns, say.
+// Lengths of grids that other programs choose, for example 2 L + 1 columns.
 TEST(chirp_plan, gives_the_direct_sums_for_every_other_length) {
   for (std::size_t n = 1; n <= 260; ++n) {
     if (is_radix_length(n)) continue;
@@ -121,7 +121,7 @@ TEST(chirp_plan, gives_that_of_fftw_for_long_primes) {
   }
 }
 
-// What smooth_length() gives up to the grids of kMaxDegree, and their halves.
+// Lengths that smooth_length() returns up to the grids of kMaxDegree, and half lengths.
 TEST(radix_passes, are_those_of_fftw_for_every_length_of_a_plan) {
   for (const std::size_t odd : {1, 5, 25}) {
     for (std::size_t n = odd; n <= 100000; n *= 2) {
@@ -137,7 +137,7 @@ TEST(radix_passes, are_those_of_fftw_for_every_length_of_a_plan) {
   }
 }
 
-// Each number of the input in each number of the output: one wave a row.
+// Each input value contributes to each output value: one wave per row.
 TEST(radix_passes, of_each_wave_are_one_number) {
   for (const std::size_t n : {24u, 80u, 100u, 135u}) {
     for (std::size_t wave = 0; wave < n; ++wave) {
@@ -160,7 +160,7 @@ TEST(radix_passes, lengths_have_no_other_factors) {
   EXPECT_FALSE(is_radix_length(2 * 11));
 }
 
-// A plan is used by all threads at once; a row does not depend on what was transformed before.
+// All threads share a plan: the result of a row does not depend on rows transformed before.
 TEST(radix_passes, give_the_same_bits_again) {
   const std::vector<std::complex<float>> row = random_row<float>(400);
   const auto first = transformed(row);

@@ -34,7 +34,7 @@ TEST(legendre_row, agrees_with_the_closed_forms_of_low_degrees) {
   }
 }
 
-// sum_m Y_lm(u)^2 = (2l+1)/(4 pi) at every direction: with phi = 0 only the cosine terms are left.
+// sum_m Y_lm(u)^2 = (2l+1)/(4 pi) in every direction; at phi = 0 only cosine terms remain.
 TEST(legendre_row, addition_theorem_holds_to_degree_2000_at_every_colatitude) {
   constexpr int L = 2000;
   const std::vector<double> mu = legendre_mu(L);
@@ -46,21 +46,21 @@ TEST(legendre_row, addition_theorem_holds_to_degree_2000_at_every_colatitude) {
       const auto row = legendre_row(order, std::cos(theta), std::sin(theta));
       for (int l = m; l <= L; ++l) {
         ASSERT_TRUE(std::isfinite(row[l - m]));
-        // The sine terms have the same Pt; at phi = 0 they vanish, at phi averaged they share
-        // the sum with the cosine ones: (cos^2 + sin^2) Pt^2 = Pt^2.
+        // Sine and cosine terms have the same Pt. Sine terms vanish at phi = 0; averaged over phi,
+        // both share the sum: (cos^2 + sin^2) Pt^2 = Pt^2.
         sum[l] += row[l - m] * row[l - m];
       }
     }
     for (int l = 0; l <= L; ++l) {
-      // m eps/2 from the rounding of sin theta, twice for the square, and l eps/2 from the
-      // recurrence: 3 l eps/2 with slack for the accumulation.
+      // Rounding of sin theta gives m eps/2, twice for the square; the recurrence gives l eps/2.
+      // The sum is 3 l eps/2; the bound adds room for the accumulation.
       EXPECT_NEAR(sum[l] / ((2 * l + 1) / (4 * kPi)), 1, 1e-15 * (4 + l)) << l << " " << theta;
     }
   }
 }
 
-// The same recurrence in long double: 11 more bits of mantissa, exponents to 1e-4932 so that no
-// scaling is needed for the colatitudes below.
+// Long double has 11 more bits of mantissa and exponents to 1e-4932, so that the same recurrence
+// needs no scaling for the colatitudes below.
 TEST(legendre_row, agrees_with_a_recurrence_in_extended_precision_at_degree_2000) {
   constexpr int L = 2000;
   const std::vector<double> mu = legendre_mu(L);
@@ -68,7 +68,7 @@ TEST(legendre_row, agrees_with_a_recurrence_in_extended_precision_at_degree_2000
     const double x = std::cos(theta), s = std::sin(theta);
     for (const int m : {0, 1, 2, 17, 100, 500, 1000, 1500, 1900, 1999, 2000}) {
       const auto row = legendre_row(legendre_order(m, L, mu[m]), x, s);
-      // The argument in extended precision, from whichever of cos and sin determines it better.
+      // The argument in extended precision, from cos or sin, whichever determines it better.
       const long double exact_x =
           std::abs(x) < s ? x : std::copysign(std::sqrt(1 - static_cast<long double>(s) * s), x);
       long double p0 = 0, p1 = std::sqrt(1 / (4 * std::numbers::pi_v<long double>));
@@ -77,7 +77,7 @@ TEST(legendre_row, agrees_with_a_recurrence_in_extended_precision_at_degree_2000
       long double largest = 0;
       for (int l = m; l <= L; ++l) {
         largest = std::max(largest, std::abs(p1));
-        // Relative to the largest value of the row so far: zeros between extrema are absolute.
+        // Errors are relative to the largest value of the row so far: near zeros they are absolute.
         EXPECT_NEAR(row[l - m], static_cast<double>(p1),
                     static_cast<double>(largest) * 1e-15 * (4 + l) + 1e-140)
             << l << " " << m << " " << theta;

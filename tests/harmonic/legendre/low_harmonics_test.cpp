@@ -1,4 +1,4 @@
-// Harmonics of low degree in lanes, against the sums at scattered directions of harmonic.h.
+// Harmonics of low degree in lanes, compared with the sums at scattered directions of harmonic.h.
 #include "harmonic/legendre/low_harmonics.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 
-// One direction in all lanes.
+// Puts one direction into all lanes.
 LowDirection<V> Towards(const double* u) {
   const D d;
   LowDirection<V> at;
@@ -33,7 +33,7 @@ LowDirection<V> Towards(const double* u) {
   return at;
 }
 
-// Value and slopes of lane 0.
+// Returns value and slopes of lane 0.
 void SumAt(int degree, bool even, const double* c, const double* u, double* out) {
   const LowSum<V> sum = SumLowHarmonics(D(), degree, even, c, Towards(u));
   out[0] = hn::GetLane(sum.value), out[1] = hn::GetLane(sum.d1), out[2] = hn::GetLane(sum.d2);
@@ -68,7 +68,7 @@ Sum sum_at(int degree, bool even, const std::vector<double>& c, const Vec3& u) {
   return {out[0], out[1], out[2]};
 }
 
-// In the order of atlas.h.
+// Lists coefficients in the order of atlas.h.
 std::vector<double> listed(const Coefficients& f, bool even) {
   std::vector<double> c;
   for (int l = 0; l <= f.degree(); ++l) {
@@ -81,7 +81,7 @@ std::vector<double> listed(const Coefficients& f, bool even) {
   return c;
 }
 
-// Directions away from the south pole, which has no place in the plane.
+// Returns directions away from the south pole, which has no place in the plane.
 std::vector<Vec3> directions() {
   std::vector<Vec3> all = {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}, {1e-9, 0, 1}};
   for (std::uint64_t i = 0; all.size() < 60; ++i) {
@@ -99,7 +99,7 @@ Coefficients random_even(int degree, bool even) {
   return f;
 }
 
-// e_i - s_i (u + e_3), the unit tangents of the stereographic plane's axes.
+// Returns e_i - s_i (u + e_3), the unit tangents along the axes of the stereographic plane.
 Vec3 tangent(const Vec3& u, int axis) {
   const double s = (axis == 0 ? u.x : u.y) / (1 + u.z);
   const Vec3 e = axis == 0 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
@@ -140,7 +140,8 @@ TEST(LowHarmonics, sums_and_slopes_are_those_of_scattered_directions) {
         const std::vector<Vec3> at = directions();
         const ValuesAndGradients expected =
             evaluate_with_gradient(f, at, {.engine = Engine::kDirect});
-        // (L+1)^2 coefficients of at most 1; a recurrence of l steps loses l^2 roundings at most.
+        // There are (L+1)^2 coefficients of at most 1. A recurrence of l steps loses at most l^2
+        // roundings.
         const double size = (degree + 1.0) * (degree + 1.0), eps = 1e-15 * size * (degree + 1);
         for (std::size_t i = 0; i < at.size(); ++i) {
           const Sum sum = sum_at(degree, even, c, at[i]);
@@ -160,7 +161,7 @@ TEST(LowHarmonics, powers_sum_to_the_same) {
       const std::vector<double> c = listed(test::random_coefficients(degree, 9), false);
       std::vector<double> powers(c.size(), NAN);
       to_powers(degree, c.data(), powers.data());
-      // Sums of (L+1)^2 numbers that have grown.
+      // The sum has (L+1)^2 terms, which grow by the factor (1 + sqrt(2))^L.
       const double eps = 1e-15 * (degree + 1) * (degree + 1) * std::pow(1 + std::sqrt(2), degree);
       for (const Vec3& u : directions()) {
         const double direction[3] = {u.x, u.y, u.z};
@@ -185,7 +186,8 @@ TEST(LowHarmonics, slopes_are_differences_of_values) {
       const Vec3 t = tangent(u, axis);
       const double ahead = sum_at(degree, false, c, normalized(u + h * t)).value;
       const double behind = sum_at(degree, false, c, normalized(u - h * t)).value;
-      // h^2 / 6 of third derivatives, L^3 of the sum at most, and rounding over h.
+      // Differences lose h^2 / 6 of third derivatives, at most L^3 times the sum, and rounding over
+      // h.
       EXPECT_NEAR((ahead - behind) / (2 * h), axis == 0 ? sum.d1 : sum.d2, 1e-7);
     }
   }

@@ -39,7 +39,7 @@ void expect_refused(Call call) {
   }
 }
 
-// A lumpy body: mean 1, numbers of degree l fall like l^-2.
+// Returns a bumpy body of mean radius 1, whose coefficients of degree l fall like l^-2.
 Coefficients body(int degree, std::uint64_t seed) {
   Coefficients f = random_coefficients(degree, seed);
   for (int l = 1; l <= degree; ++l) {
@@ -52,7 +52,7 @@ Coefficients body(int degree, std::uint64_t seed) {
   return f;
 }
 
-// As seen by white noise of this rms on as many independent places as there are numbers.
+// Adds white noise of this rms: independent noise of equal variance in every coefficient.
 Coefficients with_noise(const Coefficients& f, double rms, std::uint64_t seed) {
   Coefficients noise = random_coefficients(f.degree(), seed);
   double square = 0;
@@ -64,7 +64,7 @@ Coefficients with_noise(const Coefficients& f, double rms, std::uint64_t seed) {
   return noise;
 }
 
-// sum of u^T A u on the sphere as coefficients: by quadrature, exact.
+// Expands the sum of u^T A u on the sphere exactly, by quadrature.
 Coefficients quadratic_form(const std::array<double, 3>& squares, double mean) {
   const GaussRule rule = gauss_legendre(6);
   std::vector<Vec3> directions;
@@ -96,7 +96,7 @@ TEST(align, derivatives_are_those_of_small_rotations) {
     for (std::size_t i = 0; i < slope.values().size(); ++i) {
       slope.values()[i] = (ahead.values()[i] - behind.values()[i]) / (2 * h);
     }
-    // Central differences: (L h)^2 / 6.
+    // Central differences have the error (L h)^2 / 6.
     EXPECT_LT(relative_difference(slope, derivatives[k]), 81 * h * h / 3 + 1e-10) << k;
   }
 }
@@ -139,7 +139,8 @@ TEST(align, a_turned_copy_is_turned_back_exactly) {
     const Rotation truth = random_rotation(seed + 70);
     for (const AlignStart start : {AlignStart::kCorrelation, AlignStart::kPrincipalAxes}) {
       const Alignment found = align(a, rotate(a, truth), {.start = start});
-      // The correlation is flat at its maximum: its square root of rounding, better by Newton.
+      // The correlation is flat at its maximum: angles have the square root of rounding; Newton
+      // improves.
       EXPECT_LT(angle_between(found.best.rotation, truth), 1e-7) << seed;
       EXPECT_LT(found.best.distance, 1e-7);
       EXPECT_NEAR(found.best.correlation, 1, 1e-12);
@@ -149,8 +150,8 @@ TEST(align, a_turned_copy_is_turned_back_exactly) {
   }
 }
 
-// White noise of variance s^2 per number leaves the angles the covariance s^2 times the inverse of
-// the curvature (Cramer and Rao): four standard deviations of all three together.
+// White noise of variance s^2 per coefficient gives the angles the covariance s^2 times the inverse
+// curvature (Cramer and Rao). The bound is four standard deviations of all three angles together.
 TEST(align, a_noisy_copy_is_found_as_well_as_the_noise_allows) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const Coefficients a = body(32, seed);
@@ -199,7 +200,7 @@ TEST(align, an_ellipsoid_has_four_ways_to_lie) {
     EXPECT_LT(r.distance, 1e-7);
     all.push_back(r.rotation);
   }
-  // They are the truth after half turns about the body's axes: x, y, z here.
+  // The results are the true rotation after half turns about the body's axes, here x, y and z.
   for (const Rotation& half :
        {Rotation{}, Rotation{0, 1, 0, 0}, Rotation{0, 0, 1, 0}, Rotation{0, 0, 0, 1}}) {
     EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Rotation& r) {
@@ -208,7 +209,7 @@ TEST(align, an_ellipsoid_has_four_ways_to_lie) {
   }
 }
 
-// The invariant of a cube's group: 24 rotations are equally good, and 24 mirror images.
+// The invariant of the group of a cube: 24 rotations and 24 reflections are equally good.
 TEST(align, of_equally_good_rotations_the_smallest_is_best) {
   Coefficients cubic(4);
   cubic.c(0, 0) = 1;
@@ -260,7 +261,7 @@ TEST(align, a_mirror_image_is_another_body) {
     EXPECT_LT(both.best.distance, 1e-7);
     const Coefficients laid = rotate(mirror(a, Axis::kX), both.best.rotation);
     EXPECT_LT(relative_difference(laid, image), 1e-7);
-    // Where a rotation does it no image is reported.
+    // No reflection is reported where a rotation suffices.
     const Alignment plain = align(a, rotate(a, random_rotation(seed)), {.mirror = true});
     EXPECT_FALSE(plain.best.mirrored);
     EXPECT_TRUE(plain.ambiguities.empty());
@@ -299,7 +300,7 @@ TEST(align, principal_axes_of_a_turned_ellipsoid_are_its_axes) {
   const Rotation truth = random_rotation(6);
   const Coefficients f = rotate(quadratic_form({0.5, 1, 0.2}, 1), truth);
   const PrincipalAxes found = principal_axes(f);
-  const Vec3 expected[3] = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}};  // longest first
+  const Vec3 expected[3] = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}};  // longest axis first
   const double mean = 1.7 / 3;
   const double values[3] = {1 - mean, 0.5 - mean, 0.2 - mean};
   for (int i = 0; i < 3; ++i) {
@@ -325,7 +326,7 @@ TEST(align, principal_axes_follow_the_body_with_their_signs) {
   }
 }
 
-// An icosphere: degrees 1 ... 5 vanish, with what rounding leaves.
+// Degrees 1 ... 5 of an icosphere vanish except for rounding.
 TEST(align, principal_axes_of_a_sphere_turn_nothing_and_are_free) {
   Coefficients sphere = random_coefficients(8, 3);
   for (double& value : sphere.values()) value *= 1e-14;
@@ -338,7 +339,7 @@ TEST(align, principal_axes_of_a_sphere_turn_nothing_and_are_free) {
 
 TEST(align, principal_axes_of_a_body_of_revolution_take_the_smallest_turn) {
   const Vec3 axis = normalized({0.3, -0.2, 0.9});
-  for (const double along : {0.5, 2.0}) {  // oblate: to z, prolate: to x
+  for (const double along : {0.5, 2.0}) {  // oblate: axis to z; prolate: axis to x
     const Rotation turn = rotation_about(cross({0, 0, 1}, axis), std::acos(axis.z));
     const PrincipalAxes found = principal_axes(rotate(quadratic_form({1, 1, along}, 1), turn));
     ASSERT_EQ(found.free_axes.size(), 1u) << along;
@@ -349,7 +350,7 @@ TEST(align, principal_axes_of_a_body_of_revolution_take_the_smallest_turn) {
   }
 }
 
-// Oblate, and of degree 3 what makes -z the end that counts: half a turn lays it on z.
+// The body is oblate, and its degree 3 makes -z the positive end: half a turn moves it to z.
 TEST(align, principal_axes_of_a_body_upside_down_turn_it_half_way) {
   Coefficients body = quadratic_form({1, 1, 0.5}, 1).resized(3);
   body.c(3, 0) = -0.1;
@@ -361,7 +362,7 @@ TEST(align, principal_axes_of_a_body_upside_down_turn_it_half_way) {
 }
 
 TEST(align, what_is_laid_on_itself_stays_whatever_its_symmetries) {
-  // 48 rotations and reflections: degree 4 of a cube.
+  // Degree 4 of a cube has 48 rotations and reflections.
   Coefficients cube(4);
   cube.c(0, 0) = 4;
   cube.c(4, 0) = 0.1 * std::sqrt(7.0);
@@ -403,22 +404,22 @@ TEST(align, laid_on_the_other_by_their_own_centres) {
   expect_refused([&] { align(a, gauge, AlignCenters::kOwn); });
 }
 
-// The same solid, seen from two points of it.
+// Both expansions describe the same solid about different centres.
 TEST(align, by_centroids_the_centres_of_the_expansions_do_not_matter) {
   const Rotation truth = random_rotation(3);
   Expansion a = expansion_of(body(12, 1).resized(40), {5, 0, 0});
   const Expansion b = recentered(rotate(a, truth, {1, 1, 1}),
                                  rotate(Vec3{5, 0, 0} - Vec3{1, 1, 1}, truth) + Vec3{1.1, 0.9, 1});
   const Placement found = align(a, b, AlignCenters::kVolume);
-  // What degrees above 40 had is lost in b, some 1e-6.
+  // The degrees above 40 are lost in b; they have some 1e-6.
   EXPECT_LT(angle_between(found.alignment.best.rotation, truth), 1e-4);
   EXPECT_LT(found.alignment.best.distance, 1e-5);
   const Expansion laid = placed(a, found);
   EXPECT_LT(norm(laid.center - (rotate(Vec3{4, -1, -1}, truth) + Vec3{1, 1, 1})), 1e-5);
 }
 
-// A small ball with a long horn, in which the centroid is: the sides of the ball are not seen from
-// there.
+// A small ball with a long horn that contains the centroid. The sides of the ball cannot be seen
+// from the centroid.
 Coefficients horned() {
   const Grid grid = smallest_grid(GridKind::kGaussLegendre, 40);
   std::vector<double> values;
@@ -446,7 +447,7 @@ TEST(align, takes_own_centres_where_a_centroid_does_not_see_the_surface_and_says
   EXPECT_LT(angle_between(found.alignment.best.rotation, truth), 1e-4);
 }
 
-// From a point off its centre by d a unit sphere is at rho = -d.u + sqrt(1 - |d|^2 + (d.u)^2).
+// From a point at the offset d a unit sphere is at rho = -d.u + sqrt(1 - |d|^2 + (d.u)^2).
 TEST(recenter, a_sphere_from_another_point_has_its_closed_form) {
   Expansion sphere = expansion_of(Coefficients(40), {1, 2, 3});
   for (const RadialFunction function : {RadialFunction::kRadius, RadialFunction::kGauge}) {
@@ -482,11 +483,11 @@ TEST(recenter, centres_from_which_the_surface_is_not_seen_are_refused) {
     }
     return ErrorCode::kIo;
   };
-  Expansion e = expansion_of(Coefficients(30), {});  // the grid is as fine as the degree is high
+  Expansion e = expansion_of(Coefficients(30), {});  // the grid follows the degree
   e.coefficients.c(0, 0) = std::sqrt(4 * kPi);
   EXPECT_EQ(code(e, {0, 1.5, 0}), ErrorCode::kNotStarShaped);
-  // A peanut along z, r = 1 + 0.9 P_2, seen from one of its ends: the other lobe, 0.85 wide at
-  // z = -0.71, is partly behind the waist, 0.55 wide at z = 0.
+  // A peanut along z, r = 1 + 0.9 P_2, seen from one end. The other lobe, 0.85 wide at z = -0.71,
+  // is partly hidden by the waist, 0.55 wide at z = 0.
   e.coefficients.c(2, 0) = 0.9 * std::sqrt(4 * kPi / 5);
   EXPECT_EQ(code(e, {0, 0, 1.8}), ErrorCode::kNotStarShaped);
   e.coefficients.c(2, 0) *= 10;  // r < 0 on the equator
@@ -500,8 +501,8 @@ TEST(recenter, centres_from_which_the_surface_is_not_seen_are_refused) {
   EXPECT_THROW(seen_center(sum, {0.01, 0, 0}), Error);
 }
 
-// A ball with a wide bulge upwards, which the centroid follows, and a narrow one to the side, whose
-// series ripples.
+// A ball with a wide upward bulge, which moves the centroid, and a narrow bulge to the side, whose
+// series oscillates.
 Expansion bulged(int degree, double height, double width) {
   const Grid grid = smallest_grid(GridKind::kGaussLegendre, 96);
   std::vector<double> values;
@@ -515,7 +516,7 @@ Expansion bulged(int degree, double height, double width) {
   return expansion_of(analyze_grid(values, grid, degree), {1, 2, 3});
 }
 
-// Of the surface of `moved`, seen from the centre of `e`: the rms difference to that of `e`.
+// Returns the rms difference between the surfaces of `moved` and `e`, seen from the centre of `e`.
 double rms_apart(const Expansion& moved, const Expansion& e) {
   const auto directions = test::random_directions(400, 3);
   const auto rho = evaluate(moved.coefficients, directions);

@@ -49,7 +49,7 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance) {
   EXPECT_NEAR(norm(a - b), 0, tolerance) << a.x << " " << a.y << " " << a.z;
 }
 
-// |f(R^-1 u) - g(u)| over random directions and the poles, relative to the rms of f.
+// Returns |f(R^-1 u) - g(u)| over random directions and the poles, relative to the rms of f.
 double pointwise_difference(const Coefficients& f, const Coefficients& g, const Rotation& r,
                             std::size_t n) {
   const std::vector<Vec3> to = random_directions(n, 7);
@@ -67,7 +67,7 @@ TEST(rotation, about_an_axis_follows_the_right_hand) {
   expect_near(rotate({1, 0, 0}, rotation_about({0, 0, 3}, kPi / 2)), {0, 1, 0}, 1e-15);
   expect_near(rotate({0, 1, 0}, rotation_about({1, 0, 0}, kPi / 2)), {0, 0, 1}, 1e-15);
   expect_near(rotate({0, 0, 1}, rotation_about({0, 1e-200, 0}, kPi / 2)), {1, 0, 0}, 1e-15);
-  // Rodrigues' formula for x across the axis: cos a x + sin a axis x x.
+  // Rodrigues' formula for x perpendicular to the axis: cos a x + sin a axis x x.
   const Vec3 axis = normalized({1, 2, -2}), x = normalized(cross(axis, {0, 0, 1}));
   expect_near(rotate(x, rotation_about(axis, 0.7)),
               std::cos(0.7) * x + std::sin(0.7) * cross(axis, x), 1e-15);
@@ -96,7 +96,7 @@ TEST(rotation, euler_angles_are_turns_about_z_y_z) {
 }
 
 TEST(rotation, euler_angles_of_almost_none_keep_their_sum) {
-  // Next to beta = 0 both angles are undetermined, their sum is not.
+  // Near beta = 0 the two other angles are undetermined, but their sum is determined.
   for (const double tilt : {0.0, 1e-17, 1e-9, 1e-5}) {
     const Rotation r = compose(rotation_about({1, 2, 0}, tilt), rotation_about({0, 0, 1}, 0.25));
     EXPECT_LT(angle_between(rotation_of(euler_angles_of(r)), r), 1e-15) << tilt;
@@ -128,8 +128,8 @@ TEST(rotation, degree_one_turns_like_a_vector) {
 }
 
 TEST(rotation, degree_two_turns_like_a_matrix) {
-  // u^T diag(2, -1, -1) u / 2 = (3 x^2 - 1) / 2 is P_2 about x: P_2 about z, turned from z to x.
-  // In this basis x^2 - 1/3 = [ -C_20 part / 2 + sqrt(3)/2 C_22 part ] of z^2 - 1/3.
+  // u^T diag(2, -1, -1) u / 2 = (3 x^2 - 1) / 2 is P_2 about x: P_2 about z, turned from z to x. In
+  // this basis x^2 - 1/3 = [ -C_20 part / 2 + sqrt(3)/2 C_22 part ] of z^2 - 1/3.
   Coefficients f(2);
   f.c(2, 0) = 1;
   const Coefficients g = rotate(f, rotation_about({0, 1, 0}, kPi / 2));
@@ -144,7 +144,7 @@ TEST(rotation, values_are_those_at_the_directions_turned_back) {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
       const Coefficients f = random_coefficients(degree, seed);
       const Rotation r = random_rotation(seed + 50);
-      // Measured below 3e-14; the phase of direct sums at the turned directions has L eps.
+      // The error is measured below 3e-14; phases of direct sums at turned directions lose L eps.
       EXPECT_LT(pointwise_difference(f, rotate(f, r), r, 40), 2e-15 * (degree + 8) * 4)
           << degree << " " << seed;
     }
@@ -163,8 +163,8 @@ TEST(rotation, there_and_back_at_degree_512_is_right_to_twelve_digits) {
   EXPECT_LT(relative_difference(rotate(rotate(f, r), inverse(r)), f), 1e-12);
 }
 
-// From degree 1000 on the first values of the recurrence are below the smallest numbers. J is the
-// quarter turn about y.
+// From degree 1000 on, the first values of the recurrence underflow. J is the quarter turn about
+// y.
 TEST(rotation, one_degree_far_up_keeps_its_energy_and_its_values) {
   const int l = 2600;
   Coefficients f(l);
@@ -182,7 +182,8 @@ TEST(rotation, one_degree_far_up_keeps_its_energy_and_its_values) {
   EXPECT_LT(relative_difference(g, f), 1e-12);
 }
 
-// Sum over m of Delta_{m1 m} Delta_{m2 m}: rows of an orthogonal matrix, all signs of m1, m2, m.
+// Sums over m of Delta_{m1 m} Delta_{m2 m}: rows of an orthogonal matrix, for all signs of the
+// orders.
 TEST(rotation, quarter_turns_are_orthogonal_for_all_orders) {
   QuarterTurn turn;
   for (const int l : {0, 1, 2, 5, 30}) {
@@ -200,7 +201,7 @@ TEST(rotation, quarter_turns_are_orthogonal_for_all_orders) {
 // d^1(pi/2) and d^2(pi/2) as in Varshalovich, Moskalev, Khersonskii, tables 4.3 and 4.4.
 TEST(rotation, quarter_turns_of_degrees_one_and_two_are_those_of_tables) {
   const double h = 0.5, r = std::sqrt(0.5), q = 0.25, s = std::sqrt(6.0) / 4;
-  const double one[3][3] = {{h, -r, h}, {r, 0, -r}, {h, r, h}};  // m1 = 1, 0, -1; m2 the same
+  const double one[3][3] = {{h, -r, h}, {r, 0, -r}, {h, r, h}};  // m1 and m2 are 1, 0, -1
   const double two[5][5] = {
       {q, -h, s, -h, q}, {h, -h, 0, h, -h}, {s, 0, -h, 0, s}, {h, h, 0, -h, -h}, {q, h, s, h, q}};
   QuarterTurn turn;
@@ -251,7 +252,7 @@ TEST(rotation, of_an_expansion_moves_its_centre) {
   expect_near(turned.center, {0, 2, 1}, 1e-15);
   EXPECT_EQ(rotate(turned, r).method, "edge, rotated");
   EXPECT_EQ(turned.errors->rms, 0.5);
-  EXPECT_EQ(turned.errors->diagonal, 0);  // of another box
+  EXPECT_EQ(turned.errors->diagonal, 0);  // the diagonal belongs to another box
   expect_near(rotate(e, r, e.center).center, e.center, 0);
 }
 

@@ -37,8 +37,8 @@ using test::random_values;
 constexpr double kPi = std::numbers::pi;
 const Context kOneThread = {.threads = 1, .progress = {}};
 
-// Random directions with the poles, the axes, and what is a rounding or less away from them: the
-// ends of longitudes and of colatitudes.
+// Returns random directions with the poles, the axes, and directions one rounding or less away from
+// them: the ends of longitudes and of colatitudes.
 std::vector<Vec3> hard_directions(std::size_t n) {
   std::vector<Vec3> directions = test::random_directions(n, 1);
   const std::vector<Vec3> special = {
@@ -75,8 +75,8 @@ double distance(const Coefficients& a, const Coefficients& b) {
   return std::sqrt(square);
 }
 
-// Sources, and what direct sums make of their weights, gradients and Hessians alone, and of random
-// coefficients.
+// Sources with the direct sums of their weights, gradients and Hessians separately, and direct sums
+// of random coefficients.
 struct Problem {
   Problem(int L, std::size_t n)
       : degree(L),
@@ -92,7 +92,7 @@ struct Problem {
     }
   }
 
-  // Of one kind only.
+  // Returns sources of one kind only.
   ScatteredSources sources(int derivatives) const {
     ScatteredSources s{.directions = directions};
     if (derivatives == 0) s.weights = weights;
@@ -101,7 +101,7 @@ struct Problem {
     return s;
   }
 
-  // Error of the adjoint as SumOptions::precision counts it.
+  // Returns the error of the adjoint in the norm of SumOptions::precision.
   double adjoint_error(const NonuniformPlan& plan, int derivatives) const {
     Coefficients sum(degree);
     nonuniform_add_adjoint(plan, sources(derivatives), derivatives, sum, kOneThread);
@@ -119,7 +119,7 @@ struct Problem {
     return distance(sum, sums[derivatives]) / (generic * std::pow(degree, derivatives));
   }
 
-  // Of values, or of gradients.
+  // Returns the error of values, or of gradients.
   double forward_error(const NonuniformPlan& plan, bool of_gradient) const {
     const ValuesAndGradients found =
         evaluate_by(plan, function, directions, of_gradient, kOneThread);
@@ -143,7 +143,7 @@ struct Problem {
   std::vector<Coefficients> sums;
 };
 
-// A plan with a given window, whatever its error.
+// Makes a plan with a given window, whatever its error.
 NonuniformPlan plan_of(int degree, int width, double sigma, int derivatives, bool single = false) {
   const double wanted = std::max(32.0, std::ceil(2 * sigma * degree));
   const std::size_t points = smooth_length(static_cast<std::size_t>(wanted), 4);
@@ -154,8 +154,8 @@ NonuniformPlan plan_of(int degree, int width, double sigma, int derivatives, boo
   return plan;
 }
 
-// The promise: the error is below the wish for every window the library chooses, and not wastefully
-// so. 30 000 sources, so that grids pay.
+// For every window that the library chooses, the error is below the requested precision, but not by
+// a large factor. There are 30 000 sources, so that grids are chosen.
 TEST(nonuniform, true_error_follows_the_wish) {
   constexpr int kKinds = 5;
   std::array<double, kKinds> log_slack{};
@@ -181,7 +181,7 @@ TEST(nonuniform, true_error_follows_the_wish) {
   for (const double slack : log_slack) EXPECT_LT(std::exp(slack / count), 30);
 }
 
-// What the discrete operators do is transposed to rounding, however coarse the window.
+// The discrete operators are transposes to rounding, however coarse the window is.
 TEST(nonuniform, forward_and_adjoint_are_transposes_for_every_width) {
   for (const int L : {1, 20, 65}) {
     const Problem problem(L, 300);
@@ -210,7 +210,7 @@ TEST(nonuniform, forward_and_adjoint_are_transposes_for_every_width) {
   }
 }
 
-// Weights, gradients and Hessians together are the sum of each alone.
+// Weights, gradients and Hessians together give the sum of their separate results.
 TEST(nonuniform, sources_of_all_kinds_add_up) {
   constexpr int L = 24;
   const Problem problem(L, 200);
@@ -225,8 +225,8 @@ TEST(nonuniform, sources_of_all_kinds_add_up) {
   EXPECT_LT(distance(together, apart), 1e-9 * norm_of(apart.values()));
 }
 
-// Single precision adds what it is said to add, for every padded width; next to the poles it takes
-// differences over wider steps, which narrow windows answer with a few per cent more error.
+// The rounding error of single precision is as stated, for every padded width. Next to the poles
+// differences have wider steps, which add a few per cent of error with narrow windows.
 TEST(nonuniform, single_precision_keeps_its_rounding_error) {
   for (const int L : {16, 64, 180}) {
     const Problem problem(L, 400);
@@ -241,7 +241,7 @@ TEST(nonuniform, single_precision_keeps_its_rounding_error) {
   }
 }
 
-// Coefficients have the unit of the shape: 1e60 of it is beyond single precision.
+// Coefficients have the unit of the shape: 1e60 units exceed single precision.
 TEST(nonuniform, single_precision_has_the_same_bits_for_every_size) {
   constexpr int L = 16;
   const Problem problem(L, 400);
@@ -272,7 +272,8 @@ TEST(nonuniform, single_precision_has_the_same_bits_for_every_size) {
   }
 }
 
-// Single coefficients of high degree by Legendre rows: (l, m) near 0, near the diagonal, between.
+// Checks single coefficients of high degree by Legendre rows: small orders, high orders, and
+// between.
 void check_high_degrees(int L) {
   constexpr std::size_t kSources = 40;
   const auto directions = hard_directions(kSources);
@@ -282,7 +283,7 @@ void check_high_degrees(int L) {
   Coefficients sum(L);
   nonuniform_add_adjoint(plan, {.directions = directions, .weights = weights}, 0, sum, {});
   const std::vector<double> mu = legendre_mu(L);
-  // Root mean square of one coefficient's error.
+  // Root mean square of the error of one coefficient.
   const double error = kWish * norm_of(weights) / std::sqrt(4 * kPi);
   for (const int m : {0, 1, L / 6, L / 2, L - L / 42, L}) {
     const LegendreOrder order = legendre_order(m, L, mu[m]);
@@ -296,7 +297,7 @@ void check_high_degrees(int L) {
         s[l - m] += weights[j] * row[l - m] * std::sin(m * phi);
       }
     }
-    // Five deviations for each of some thousand numbers.
+    // The bound is five standard deviations for each of some thousand values.
     for (int l = m; l <= L; l += 1 + (L - m) / 50) {
       EXPECT_NEAR(sum.c(l, m), c[l - m], 5 * error) << l << " " << m;
       EXPECT_NEAR(sum.s(l, m), s[l - m], 5 * error) << l << " " << m;
@@ -308,8 +309,8 @@ TEST(nonuniform, high_degrees_agree_with_legendre_rows) { check_high_degrees(204
 
 TEST(nonuniform, high_degrees_agree_with_legendre_rows_nightly) { check_high_degrees(4096); }
 
-// f = x^T B x / |x|^2 with B = z z^T / 1, (x y^T + y x^T) / 2, (x z^T + z x^T) / 2 in turn has few
-// coefficients; its Hessian at |x| = 1 is
+// f = x^T B x / |x|^2 has few coefficients, with B = z z^T, (x y^T + y x^T) / 2 and (x z^T + z x^T)
+// / 2 in turn. Its Hessian at |x| = 1 is
 //   2 B - 4 (B x x^T + x x^T B) - 2 q 1 + 8 q x x^T,  q = x^T B x.
 TEST(direct_sums, hessians_of_quadratic_forms_have_their_closed_form) {
   const auto directions = hard_directions(40);
@@ -345,8 +346,8 @@ TEST(direct_sums, hessians_of_quadratic_forms_have_their_closed_form) {
   }
 }
 
-// Second differences with step h along random lines: error h^2 L^4 / 12 of the amplitude and
-// rounding 4 eps / h^2.
+// Second differences with step h along random lines have the error h^2 L^4 / 12 of the amplitude,
+// and rounding 4 eps / h^2.
 TEST(direct_sums, hessians_agree_with_second_differences) {
   constexpr int L = 12;
   constexpr double kStep = 2e-4;
@@ -364,7 +365,7 @@ TEST(direct_sums, hessians_agree_with_second_differences) {
   }
 }
 
-// The public functions choose a grid here, and keep the wish.
+// The public functions choose a grid here and keep the requested precision.
 TEST(fast_engine, keeps_the_wish) {
   constexpr int L = 48;
   constexpr std::size_t kSources = 20000;
@@ -449,7 +450,7 @@ TEST(nonuniform, tiny_problems_give_numbers) {
         const NonuniformPlan plan = plan_of(L, 5, 2, 1, single);
         Coefficients sum(L);
         nonuniform_add_adjoint(plan, {directions, weights, gradients, {}}, 1, sum, kOneThread);
-        // Differences next to a pole divide the window's 1e-7 and rounding by their step.
+        // Differences next to a pole divide the window's 1e-7, and rounding, by their step.
         EXPECT_NEAR(sum.c(0, 0), n == 0 ? 0 : 2 / std::sqrt(4 * kPi), 2e-5);
         for (const double v : sum.values()) EXPECT_TRUE(std::isfinite(v));
         const auto found = evaluate_by(plan, sum, directions, true, kOneThread);
@@ -462,7 +463,7 @@ TEST(nonuniform, tiny_problems_give_numbers) {
   EXPECT_TRUE(evaluate(Coefficients(5), std::vector<Vec3>{}).empty());
 }
 
-// They spoil the result and nothing else.
+// Invalid directions affect the result only, not other memory.
 TEST(nonuniform, directions_that_are_no_numbers_stay_within_the_grid) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -482,7 +483,7 @@ TEST(nonuniform, directions_that_are_no_numbers_stay_within_the_grid) {
   }
 }
 
-// Direct sums are taken instead, as they cost less.
+// Direct sums are used instead, because they cost less.
 TEST(nonuniform, what_no_window_keeps_has_no_price) {
   const NonuniformPlan plan = plan_nonuniform(
       {.degree = 20, .allowed = 1e-14, .sources = 10, .derivatives = 2, .hessian_size = 1e6});
@@ -496,8 +497,8 @@ TEST(nonuniform, refuses_single_precision_where_it_is_forbidden) {
           .single);
 }
 
-// Gradients that were counted before the grid was known: at 1.86-fold oversampling rightly, beyond
-// too little.
+// Gradients are counted before the grid is known: exactly for 1.86-fold oversampling, too little
+// for finer grids.
 TEST(counted_gradient_factor, makes_up_for_what_finer_grids_do_to_gradients) {
   EXPECT_EQ(counted_gradient_factor(1.5), 1);
   for (const double sigma : {2.0, 3.0, 4.0}) {

@@ -24,16 +24,18 @@ using test::relative_difference;
 
 constexpr double kPi = std::numbers::pi;
 
-// Y^c_lm and Y^s_lm by the standard library's associated Legendre function: slow, independent.
+// Returns Y^c_lm or Y^s_lm, by the standard library's associated Legendre function: slow,
+// independent.
 double slow_harmonic(int l, int m, bool sine, const Vec3& u) {
   const double theta = std::atan2(std::hypot(u.x, u.y), u.z), phi = std::atan2(u.y, u.x);
-  const double p = std::sph_legendre(l, m, theta) * (m % 2 ? -1 : 1);  // its phase taken off
+  const double p = std::sph_legendre(l, m, theta) * (m % 2 ? -1 : 1);  // without its phase
   if (m == 0) return p;
   return std::sqrt(2.0) * p * (sine ? std::sin(m * phi) : std::cos(m * phi));
 }
 
 TEST(evaluate, each_harmonic_agrees_with_the_standard_library) {
-  // Away from the poles, where the standard library's sqrt(1 - cos^2) loses digits.
+  // Directions near the poles are left out: the standard library's sqrt(1 - cos^2) loses digits
+  // there.
   auto directions = random_directions(40, 1);
   std::erase_if(directions, [](const Vec3& u) { return std::hypot(u.x, u.y) < 0.05; });
   ASSERT_GT(directions.size(), 30u);
@@ -110,7 +112,7 @@ Grid gauss_grid(int L) {
   return grid;
 }
 
-// On a Gauss grid that is exact to degree 2L, weights times values give the coefficients back.
+// On a Gauss grid exact to degree 2L, weights times values give the coefficients again.
 TEST(add_adjoint, recovers_the_coefficients_from_a_gauss_grid) {
   for (const int L : {0, 3, 30, 150}) {
     const Coefficients f = random_coefficients(L, 8);
@@ -135,8 +137,8 @@ TEST(evaluate_with_gradient, of_z_is_its_tangential_part_poles_included) {
   }
 }
 
-// Central differences along two tangents with step h: error h^2 L^3 / 6 of the amplitude and
-// rounding eps L / h.
+// Central differences along two tangents with step h have the error h^2 L^3 / 6 of the amplitude,
+// and rounding eps L / h.
 TEST(evaluate_with_gradient, agrees_with_central_differences) {
   constexpr int L = 20;
   constexpr double h = 1e-5;
@@ -155,8 +157,8 @@ TEST(evaluate_with_gradient, agrees_with_central_differences) {
   }
 }
 
-// Also where sums of this precision are taken in floats, which end at 3e38: many directions, so
-// that the fast engine is cheaper.
+// This also holds where sums of this precision use floats, which end at 3e38. There are many
+// directions, so that the fast engine is cheaper.
 TEST(evaluate, of_a_function_times_a_power_of_two_is_that_times_its_values) {
   const Coefficients f = random_coefficients(40, 5);
   const auto directions = random_directions(100000, 6);
@@ -215,7 +217,8 @@ TEST(transforms, give_the_same_bits_for_any_number_of_threads) {
   }
 }
 
-// A rotation mixes the orders of a degree by an orthogonal matrix: energy per degree stays.
+// A rotation mixes the orders of a degree by an orthogonal matrix: the energy per degree is
+// constant.
 TEST(power_spectrum, does_not_change_under_rotation) {
   constexpr int L = 24;
   const Coefficients f = random_coefficients(L, 16);

@@ -56,7 +56,7 @@ TEST(grid, rings_stand_where_the_header_says) {
     const auto gauss = grid_colatitudes({GridKind::kGaussLegendre, n, 1});
     const GaussRule rule = gauss_legendre(n);
     ASSERT_EQ(gauss.size(), static_cast<std::size_t>(n));
-    // cos loses what theta has more near the poles.
+    // cos loses the digits that theta has in addition near the poles.
     for (int i = 0; i < n; ++i) EXPECT_NEAR(std::cos(gauss[i]), rule.nodes[i], 5e-16);
   }
 }
@@ -72,7 +72,7 @@ TEST(ring_rules, integrate_cosines_as_far_as_promised) {
         for (std::size_t i = 0; i < n; ++i) {
           sum += rule.weights[i] * std::cos(kk * rule.colatitudes[i]);
         }
-        // Rounding of k theta, of either sign.
+        // The bound is the rounding of k theta, of either sign.
         EXPECT_NEAR(sum, k % 2 == 0 ? 2 / (1 - kk * kk) : 0, 8e-15 + 2e-17 * kk) << n << " " << k;
       }
     }
@@ -93,7 +93,7 @@ TEST(grid, synthesis_is_evaluation_at_the_directions) {
   }
 }
 
-// On the smallest grid, and on others, with even and odd numbers.
+// Uses the smallest grid and larger grids, with even and odd numbers of rings and columns.
 TEST(grid, analysis_undoes_synthesis) {
   for (const GridKind kind : kKinds) {
     for (const int degree : {0, 1, 2, 3, 10, 31, 32, 100, 255}) {
@@ -105,7 +105,7 @@ TEST(grid, analysis_undoes_synthesis) {
       const Grid twice = {kind, 2 * smallest.n_theta + 1, smallest.n_phi};
       for (const Grid& grid : {smallest, exact, finer, twice}) {
         const Coefficients back = analyze_grid(synthesize_grid(f, grid), grid, degree);
-        // Measured at most 2e-14.
+        // The error is measured at most 2e-14.
         EXPECT_LT(relative_difference(back, f), 1e-13) << degree << " " << grid.n_theta;
       }
     }
@@ -123,7 +123,7 @@ TEST(grid, analysis_to_a_lower_degree_is_exact_too) {
   }
 }
 
-// f = 1 has sqrt(4 pi), z has sqrt(4 pi / 3) at (1, 0), x and y at (1, 1).
+// f = 1 has sqrt(4 pi); z has sqrt(4 pi / 3) at (1, 0), as x and y at (1, 1).
 TEST(grid, analysis_of_coordinates_has_their_textbook_coefficients) {
   for (const GridKind kind : kKinds) {
     const Grid grid = {kind, 6, 7};

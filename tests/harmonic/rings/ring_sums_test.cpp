@@ -20,7 +20,7 @@ using test::random_values;
 
 constexpr double kPi = std::numbers::pi;
 
-// Rings as a grid has them, with a pole, an equator ring, and rings very near to both.
+// Returns rings of a grid, with a pole, a ring on the equator, and rings very near to both.
 std::vector<double> some_colatitudes(int degree) {
   std::vector<double> theta = {0, 1e-300, 1e-9, 1e-3 / (degree + 1)};
   const GaussRule rule = gauss_legendre(degree + 1);
@@ -67,8 +67,8 @@ Rows forward(const RingOrder& order, const HalfRings& rings, const Pair& coeffic
   return rows;
 }
 
-// The values on single rings, [ring][l - m], from the adjoint of unit vectors, eight of whose parts
-// do not mix: even and odd degrees, real and imaginary part.
+// Returns values on single rings, [ring][l - m], from the adjoint of unit vectors. Parts do not
+// mix: even and odd degrees, real and imaginary parts.
 std::vector<std::vector<double>> values_on_rings(const RingOrder& order, const HalfRings& rings) {
   std::vector<std::vector<double>> values;
   for (std::size_t i = 0; i < rings.size; ++i) {
@@ -79,8 +79,8 @@ std::vector<std::vector<double>> values_on_rings(const RingOrder& order, const H
   return values;
 }
 
-// Largest error of both ways against legendre_row(), relative to the largest value. The sine sums
-// of the forward way are given twice the cosine ones.
+// Returns the largest error of both directions against legendre_row(), relative to the largest
+// value. In the forward direction the sine sums are twice the cosine sums.
 double worst_error(int m, int degree, const std::vector<double>& colatitudes) {
   const HalfRings rings(colatitudes);
   const RingOrder order = order_of(m, degree);
@@ -116,7 +116,7 @@ TEST(ring_sums, agree_with_legendre_row_at_every_colatitude) {
   for (const int degree : {0, 1, 2, 3, 8, 63, 64, 130, 256, 601}) {
     for (const int m : {0, 1, 2, 3, 17, 40, 63, 64, 129, 255, 500, 600, 601}) {
       if (m > degree) continue;
-      // Measured at most 9e-14, with L = 256.
+      // The error is measured at most 9e-14, with L = 256.
       EXPECT_LT(worst_error(m, degree, some_colatitudes(degree)), 2e-13) << degree << " " << m;
     }
   }
@@ -128,12 +128,12 @@ TEST(ring_sums, agree_with_legendre_row_at_degree_4096) {
                                      0.5,   1.0,    1.3,   1.55, kPi / 2 - 3e-4, kPi / 2,
                                      1.567, 1.5692, 1.5};
   for (const int m : {0, 1, 2, 10, 100, 399, 1000, 2048, 3500, 4000, 4095, 4096}) {
-    // Twice what was measured.
+    // The bound is twice the measured error.
     EXPECT_LT(worst_error(m, L, theta), 3e-13) << m;
   }
 }
 
-// The same recurrence in long double: exponents reach 2^-16382, far below what counts.
+// In long double the same recurrence has exponents to 2^-16382, far below any value that matters.
 TEST(ring_sums, agree_with_extended_precision_at_degree_16384) {
   constexpr int L = 16384;
   for (const double theta : {0.9, 1.2, 1.5}) {
@@ -196,7 +196,7 @@ TEST(ring_sums, forward_and_adjoint_are_transposes) {
         size += inner(values.values[part], values.values[part]);
       }
       const double back = inner(sums.c, coefficients.c) + inner(sums.s, coefficients.s);
-      // Rounding of n terms of random sign.
+      // The bound is the rounding of n terms of random sign.
       EXPECT_NEAR(there, back, 1e-14 * std::sqrt(size * static_cast<double>(n))) << m;
     }
   }
@@ -219,7 +219,7 @@ TEST(ring_sums, rings_may_come_in_any_order) {
   }
 }
 
-// As many rings as there are degrees, which are 1 ... 33, against the values one by one.
+// Compares with sums over single values, for 1 ... 33 rings and as many degrees.
 TEST(ring_sums, are_the_sums_over_any_number_of_rings_and_degrees) {
   test::for_each_target([](const char* target) {
     for (int n = 1; n <= 33; ++n) {

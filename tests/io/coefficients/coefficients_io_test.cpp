@@ -41,8 +41,8 @@ void expect_same_or_neighbours(const Coefficients& a, const Coefficients& b) {
   }
 }
 
-// Digits are the shortest that read back the same, so that a file loses nothing; a scale factor
-// costs at most one unit in the last place (shown in the tests of conventions).
+// Numbers have the fewest digits that read back the same bits, so that a file loses nothing. A
+// scale factor costs at most one unit in the last place (shown in the tests of conventions).
 TEST(coefficients_io, round_trip_through_every_format_and_convention_keeps_everything) {
   for (const int degree : {0, 1, 2, 17}) {
     const Expansion expansion = random_expansion(degree);
@@ -94,7 +94,7 @@ TEST(coefficients_io, every_cut_is_noticed) {
   for (const CoefficientsFormat format : kAllFormats) {
     SCOPED_TRACE(to_string(format));
     const std::string bytes = written(random_expansion(3), format);
-    // Cut before its last line end, JSON is still whole.
+    // JSON is still complete without its last line end.
     const bool json = format == CoefficientsFormat::kJson;
     expect_every_cut_is_refused(bytes.substr(0, bytes.size() - (json ? 1 : 0)));
   }
@@ -203,7 +203,7 @@ TEST(coefficients_io, every_plane_of_unicode_is_a_unit) {
   }
 }
 
-// Schmidt's numbers exceed the orthonormal ones from degree 6 on, (2l + 1) > 4 pi.
+// Schmidt's coefficients exceed the orthonormal ones from degree 6 on: (2l + 1) > 4 pi.
 TEST(coefficients_io, overflow_in_another_convention_is_refused_not_written_as_infinity) {
   Expansion expansion;
   expansion.coefficients = Coefficients(8);

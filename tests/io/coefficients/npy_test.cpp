@@ -15,7 +15,7 @@ using testing::TemporaryFolder;
 
 const CoefficientsReadOptions kOrthonormal = {.convention = {Normalization::kOrthonormal, 1}};
 
-// A file by the format's definition (numpy.lib.format), independent of the writer.
+// Makes a file from the definition of the format (numpy.lib.format), independently of the writer.
 std::string npy(const std::string& header, const std::string& data, int version = 1) {
   std::string bytes = "\x93NUMPY";
   bytes += {static_cast<char>(version), '\0'};
@@ -79,7 +79,7 @@ TEST(npy, written_file_is_what_numpy_writes) {
   write_coefficients(expansion, folder / "a.npy",
                      {.format = {}, .convention = {Normalization::kOrthonormal, 1}});
   const std::string bytes = read_all(folder / "a.npy");
-  // numpy.save of the same array, version 1.24: 128 bytes, then the numbers.
+  // numpy.save (version 1.24) writes this array as 128 bytes and then the numbers.
   std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2, 2), }";
   header += std::string(128 - 10 - 1 - header.size(), ' ') + '\n';
   EXPECT_EQ(bytes, npy(header, numbers<double, std::uint64_t>(kPlain, false)));
@@ -147,7 +147,7 @@ TEST(npy, malformed_headers_are_refused) {
   std::string many = "(";
   for (int i = 0; i < 100; ++i) many += "1,";
   expect_refused(npy(header_of("<f8", "False", many + ")"), data), "header");
-  // A length of the header that the file does not have.
+  // The header claims a length that the file does not have.
   expect_refused(std::string("\x93NUMPY\x02\0\xff\xff\xff\xff{", 13), "ends within");
 }
 

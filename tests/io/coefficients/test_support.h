@@ -1,4 +1,4 @@
-// What the tests of the formats of coefficients share.
+// Helpers for the tests of the formats of coefficients.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace rholm::coefficients_testing {
 
-// Every field differs from its default; coefficients over many magnitudes, no two alike.
+// Every field differs from its default. Coefficients have many magnitudes and are all different.
 inline Expansion random_expansion(int degree) {
   Expansion expansion;
   expansion.coefficients = Coefficients(degree);
@@ -30,7 +30,7 @@ inline Expansion random_expansion(int degree) {
   }
   expansion.function = RadialFunction::kGauge;
   expansion.center = {1 / 3.0, -2e-300, 3e300};
-  expansion.unit = "k\xc3\xa4se: \"kilo\" \\ # , x";  // what could confuse a parser
+  expansion.unit = "k\xc3\xa4se: \"kilo\" \\ # , x";  // characters that could confuse a parser
   expansion.method = "edge";
   expansion.norm_squared = 1 / 7.0;
   expansion.tail_strength = 5e-324;
@@ -61,7 +61,7 @@ inline void expect_same_description(const Expansion& a, const Expansion& b) {
   EXPECT_EQ(a.precision, b.precision);
 }
 
-// The code of the error that `call` throws; its message must contain `words`.
+// Returns the code of the error that `call` throws; its message must contain `words`.
 inline ErrorCode error_code(const std::function<void()>& call, const std::string& words = "") {
   try {
     call();
@@ -79,7 +79,7 @@ inline CoefficientsFile parse(const std::string& bytes,
   return parse_coefficients(bytes, "test", options);
 }
 
-// The file is refused as InvalidInput with `words` in the message.
+// Checks that the file is refused as InvalidInput with `words` in the message.
 inline void expect_refused(const std::string& bytes, const std::string& words) {
   EXPECT_EQ(error_code([&] { parse(bytes); }, words), ErrorCode::kInvalidInput) << bytes;
 }
@@ -87,7 +87,7 @@ inline void expect_unsupported(const std::string& bytes, const std::string& word
   EXPECT_EQ(error_code([&] { parse(bytes); }, words), ErrorCode::kUnsupported) << bytes;
 }
 
-// Cut after any byte, the file is refused; so is the empty one.
+// Checks that the file is refused when cut after any byte, or empty.
 inline void expect_every_cut_is_refused(const std::string& bytes) {
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     EXPECT_THROW(parse(bytes.substr(0, size)), Error) << "cut after " << size << " bytes";

@@ -1,4 +1,4 @@
-// SHTOOLS and ICGEM text.
+// Text formats of SHTOOLS and ICGEM.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,8 +34,8 @@ std::string written(const Expansion& expansion, CoefficientsFormat format,
 //   C_20 = a / sqrt(5)    = 0.111803398874989484820458683437
 //   S_21 = d / sqrt(15)   = 0.0774596669241483377035853079957
 //   C_22 = 2 b / sqrt(15) = 0.0774596669241483377035853079957
-// The inner, orthonormal ones are sqrt(4 pi) times these. Both are rounded: these values were
-// chosen such that they round to the doubles nearest to the numbers above.
+// The internal, orthonormal coefficients are sqrt(4 pi) times these values. Both are rounded: the
+// parameters were chosen so that they round to the doubles nearest to the numbers above.
 Expansion hand_computed_shape() {
   Expansion expansion;
   expansion.coefficients = Coefficients(2);
@@ -98,7 +98,7 @@ TEST(icgem, text_of_a_hand_computed_shape_is_right_digit_by_digit) {
             "gfc 2 2 0.07745966692414834 0\n");
 }
 
-// All forms that pyshtools reads or writes, and what Fortran programs print.
+// All forms that pyshtools reads or writes, and the output of Fortran programs.
 TEST(shtools, separators_order_missing_pairs_and_further_columns_are_free) {
   Coefficients expected(2);
   expected.c(0, 0) = 1;
@@ -147,7 +147,7 @@ TEST(shtools, malformed_lines_are_refused_with_their_number) {
   expect_refused(std::string(100000, 'x'), "...");
 }
 
-// One line of 14 bytes must not cost gigabytes; dense files of any degree may leave out zeros.
+// One line of 14 bytes must not cost gigabytes. Dense files of any degree may omit zeros.
 TEST(shtools, high_degrees_need_lines_that_support_them) {
   expect_refused("16384 0 1 0\n", "at least one in 16");
   expect_refused("1024 0 1 0\n", "at least one in 16");
@@ -225,8 +225,8 @@ TEST(icgem, gravity_field_is_no_radius) {
   EXPECT_EQ(file.expansion.function, RadialFunction::kOther);
   EXPECT_EQ(file.product, "gravity_field");
   EXPECT_THROW(require_surface(file.expansion), Error);
-  // A gravity constant says it where the type of product does not; a file of ours has the last
-  // word.
+  // A gravity constant marks the file where the type of product does not. A field of our own takes
+  // precedence.
   const std::string type = "product_type              gravity_field\n";
   EXPECT_EQ(parse(replaced(kPublishedStyle, type, "")).expansion.function, RadialFunction::kOther);
   const std::string shape = replaced(kPublishedStyle, type, "product_type shape\n");
@@ -329,8 +329,8 @@ TEST(icgem, malformed_files_are_refused) {
   expect_unsupported("rholm_format 2\n" + head + "gfc 0 0 1 0\n", "rholm_format");
 }
 
-// Files written by version 0.1.0: later versions must read them the same. The values are
-// C_lm = 1/(1 + l + m), S_lm = m/(l + 1) in the file's convention.
+// Files written by version 0.1.0: later versions must read the same values from them. The values
+// are C_lm = 1/(1 + l + m), S_lm = m/(l + 1) in the file's convention.
 TEST(golden_files, texts_json_and_npy_of_version_0_1_are_read) {
   for (const char* name : {"degree4.sh", "degree4.gfc", "degree4.json", "degree4.npy"}) {
     SCOPED_TRACE(name);

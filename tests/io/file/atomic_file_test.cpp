@@ -33,7 +33,7 @@ TEST(atomic_file, file_appears_whole_on_commit) {
   file.write(std::string_view("two"));
   EXPECT_FALSE(std::filesystem::exists(folder / "a"));
   EXPECT_EQ(read_all(file.temporary_path()), "one two");
-  EXPECT_EQ(folder.n_files(), 0u);  // without a name until then
+  EXPECT_EQ(folder.n_files(), 0u);  // the file has no name until then
   file.commit();
   EXPECT_EQ(read_all(folder / "a"), "one two");
   EXPECT_EQ(folder.n_files(), 1u);
@@ -51,7 +51,7 @@ TEST(atomic_file, without_commit_the_old_file_stays) {
 }
 
 TEST(atomic_file, full_disk_leaves_the_old_file_and_says_why) {
-  // A limit on the size of files stands for a full disk. In a child: the limit is the process's.
+  // A limit on the size of files simulates a full disk. A child process has the limit.
   const TemporaryFolder folder;
   write_all(folder / "a", "old");
   const pid_t child = fork();
@@ -145,7 +145,6 @@ TEST(atomic_file, symbolic_links_stay_links) {
   EXPECT_EQ(read_all(folder / "sub/fresh"), "first");
 }
 
-// In a child: the names given up to the handler are not freed, as the process is about to end.
 TEST(atomic_file, names_that_cannot_be_are_refused_before_anything_is_written) {
   const TemporaryFolder folder;
   std::filesystem::create_symlink(folder / "b", folder / "a");
@@ -163,10 +162,11 @@ TEST(atomic_file, signal_handler_may_discard_unfinished_files) {
   if (child == 0) {
     signal(SIGTERM, [](int) {
       discard_unfinished_files();
-      discard_unfinished_files();  // there is nothing left to do
+      discard_unfinished_files();  // nothing is left to do
       _exit(0);
     });
-    // Those that have names.
+    // Both unfinished files have names. The names that the handler takes over are not freed,
+    // because the child is about to end.
     AtomicFile one(folder / "a", {}, AtomicFile::Writers::kSeveral);
     AtomicFile two(folder / "b", {}, AtomicFile::Writers::kSeveral);
     two.write(std::string_view("half"));

@@ -22,7 +22,7 @@ using testing::write_all;
 
 std::string text_of(const Bytes& bytes) { return {bytes.view().data(), bytes.view().size()}; }
 
-// Standard input from a pipe for as long as it lives.
+// Makes standard input a pipe until the object is destroyed.
 class PipedInput {
  public:
   PipedInput() : saved_(dup(STDIN_FILENO)) {
@@ -50,7 +50,7 @@ class PipedInput {
 
 TEST(read_bytes, gives_every_byte_of_a_file) {
   const TemporaryFolder folder;
-  // Around the sizes at which the buffer grows.
+  // Sizes are around the sizes at which the buffer grows.
   for (const std::size_t n : {0u, 1u, 65535u, 65536u, 65537u, 3000000u}) {
     std::string content(n, '\0');
     for (std::size_t i = 0; i < n; ++i) content[i] = static_cast<char>(i * 7 + i / 256);

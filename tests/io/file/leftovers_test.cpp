@@ -26,7 +26,7 @@ namespace {
 using testing::TemporaryFolder;
 using testing::write_all;
 
-// A process that does that and is killed when this object ends.
+// A process that runs `body` and is killed when this object is destroyed.
 class Child {
  public:
   explicit Child(const std::function<void()>& body) {
@@ -54,10 +54,10 @@ class Child {
   pid_t pid_ = 0;
 };
 
-// In a process of its own: a process looks into a folder once.
+// Runs `body` in another process, because a process examines a folder only once.
 void elsewhere(const std::function<void()>& body) { const Child child(body); }
 
-// Objects that the child leaves when it is killed.
+// Opens a file whose object the child leaves behind when it is killed.
 void open_file(const std::filesystem::path& path, AtomicFile::Writers writers) {
   (new AtomicFile(path, {}, writers))->write(std::string_view("half"));
 }
@@ -81,7 +81,7 @@ TEST(leftovers, named_files_of_killed_writers_go_with_the_next) {
   EXPECT_TRUE(std::filesystem::exists(folder / "b"));
 }
 
-// The system calls of this process fail from now on.
+// Makes a system call of this process fail from now on.
 void forbid(int call) {
   sock_filter filter[] = {
       {.code = BPF_LD | BPF_W | BPF_ABS, .jt = 0, .jf = 0, .k = offsetof(seccomp_data, nr)},
@@ -104,7 +104,7 @@ TEST(leftovers, where_files_may_get_no_name_later_they_have_one_from_the_start) 
     file.write(std::string_view("whole"));
     file.commit();
   });
-  EXPECT_EQ(folder.n_files(), 2u);  // "b", and that of "a"
+  EXPECT_EQ(folder.n_files(), 2u);  // "b", and the unfinished file of "a"
   EXPECT_TRUE(std::filesystem::exists(folder / "b"));
 }
 
@@ -141,7 +141,7 @@ TEST(leftovers, folders_of_killed_processes_go_with_the_next) {
   };
   elsewhere(fill);
   ASSERT_EQ(folder.n_files(), 1u);
-  const Child another(fill);  // which is at work
+  const Child another(fill);  // another process is filling the folder
   EXPECT_EQ(folder.n_files(), 1u);
   elsewhere([&] { remove_left_folders(folder.path(), "kind-"); });
   EXPECT_EQ(folder.n_files(), 1u);

@@ -13,7 +13,7 @@
 namespace rholm {
 namespace {
 
-// The number a text begins with, and what is left behind it.
+// Returns the number at the beginning of the text; `rest` is the expected text after it.
 std::optional<double> number_of(std::string_view text, std::string_view rest = "") {
   TextCursor cursor({text.data(), text.size()});
   double value = 0;
@@ -64,7 +64,7 @@ TEST(take_number, too_small_is_zero_and_too_large_is_no_number) {
   EXPECT_EQ(number_of(whole + "e-400"), 1.0);
 }
 
-// The oracle is the C library, which rounds correctly.
+// The oracle is the C library, whose rounding is correct.
 TEST(take_number, agrees_with_strtod_on_random_digits) {
   for (std::uint64_t i = 0; i < 20000; ++i) {
     const int digits = 1 + static_cast<int>(random_bits(1, i) % 20);

@@ -21,7 +21,7 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-// The image of a PNG file of ours, by zlib and the definition of PNG's filters. Checks checksums.
+// Decodes a PNG file of ours with zlib and the definition of PNG's filters; verifies checksums.
 Image decoded(const std::string& png) {
   Image image;
   std::string stream;
@@ -47,7 +47,7 @@ Image decoded(const std::string& png) {
   EXPECT_EQ(size, bytes.size());
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const std::size_t x = i % (row + 1), y = i / (row + 1);
-    if (x == 0) continue;  // the number of the filter
+    if (x == 0) continue;  // index of the filter
     const std::size_t at = image.rgb.size();
     const int left = x > 3 ? image.rgb[at - 3] : 0, up = y > 0 ? image.rgb[at - row] : 0;
     const int corner = x > 3 && y > 0 ? image.rgb[at - row - 3] : 0;
@@ -63,7 +63,7 @@ Image decoded(const std::string& png) {
   return image;
 }
 
-// Noise, flat colour, slopes in both directions, rows that are those of 100 rows before.
+// Noise, one colour, slopes in both directions, and rows that repeat after 100 rows.
 std::uint8_t sample(int kind, int x, int y) {
   if (kind == 0)
     return static_cast<std::uint8_t>(random_bits(3, std::uint64_t(y) << 32 | unsigned(x)));
@@ -93,8 +93,8 @@ TEST(encode_png, flat_pictures_take_a_fiftieth_of_their_bytes) {
   EXPECT_LT(encode_png(image).size(), image.rgb.size() / 50);
 }
 
-// The signature and the first chunk by the PNG specification: width, height, depth 8, colour type
-// 2 (RGB) at bytes 16 ... 25.
+// The signature and the first chunk of the PNG specification: width, height, depth 8, colour type 2
+// (RGB) at bytes 16 ... 25.
 TEST(write_png, file_has_the_signature_and_size) {
   const TemporaryFolder folder;
   write_png(folder / "a.png", {.width = 3, .height = 2, .rgb = std::vector<std::uint8_t>(18, 77)});

@@ -1,4 +1,4 @@
-// What is written, by the library or without it, is what our reader finds.
+// Our reader finds the values that were written, with the HDF5 library or without it.
 #include "io/hdf5/hdf5_writer.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ namespace {
 
 using rholm::testing::TemporaryFolder;
 
-// Reads a file that was written; keeps its bytes.
+// Reads a written file and keeps its bytes.
 struct Written {
   explicit Written(const std::filesystem::path& path)
       : bytes(rholm::testing::read_all(path)), file(open(bytes, "test")) {}
@@ -167,8 +167,8 @@ void expect_refused(ErrorCode code, const std::function<void()>& write) {
   }
 }
 
-// HDF5 1.10 loses 152 bytes where it cannot close a file (a full disk). LeakSanitizer leaves out
-// what is allocated while this lives.
+// HDF5 1.10 leaks 152 bytes if it cannot close a file (a full disk). LeakSanitizer ignores memory
+// that is allocated during the life of this object.
 struct LeaksLeftOut {
   LeaksLeftOut() {
     if (__lsan_disable != nullptr) __lsan_disable();

@@ -45,7 +45,7 @@ TEST(large_mesh, an_open_mesh_is_not_closed) {
   EXPECT_FALSE(survey_mesh(*map_mesh(folder / "m.ply")).closed);
 }
 
-// The mesh of that file, read and where it lies, in all formats.
+// Writes the mesh of that file in all formats, once read into memory and once mapped.
 void expect_same_files(const TemporaryFolder& folder, const std::filesystem::path& path) {
   const std::optional<MappedMesh> map = map_mesh(path);
   ASSERT_TRUE(map);
@@ -74,7 +74,7 @@ void expect_same_files(const TemporaryFolder& folder, const std::filesystem::pat
 
 TEST(large_mesh, is_written_as_a_mesh_in_memory_is) {
   const TemporaryFolder folder;
-  Mesh mesh = latitude_longitude_sphere(260, 260);  // pieces of vertices
+  Mesh mesh = latitude_longitude_sphere(260, 260);  // several blocks of vertices
   Attribute height{.name = "height", .type = ScalarType::kFloat64, .values = {}};
   for (const Vec3& v : mesh.vertices) height.values.push_back(v.z);
   mesh.attributes.push_back(std::move(height));
@@ -82,8 +82,8 @@ TEST(large_mesh, is_written_as_a_mesh_in_memory_is) {
   expect_same_files(folder, folder / "m.ply");
 }
 
-// Normals, colours with and without opacity, texture coordinates, all types, values that are not
-// numbers.
+// Normals, colours with and without opacity, texture coordinates, all types, and NaN as
+// values.
 TEST(large_mesh, is_written_with_its_attributes) {
   const TemporaryFolder folder;
   Mesh mesh = latitude_longitude_sphere(30, 30);
@@ -117,7 +117,7 @@ TEST(large_mesh, is_written_with_its_attributes) {
   expect_same_files(folder, folder / "all.ply");
 }
 
-// Attributes of other programs stand before the coordinates, too.
+// Attributes of other programs also come before the coordinates.
 TEST(large_mesh, is_written_with_attributes_on_both_sides_of_its_coordinates) {
   const TemporaryFolder folder;
   std::string bytes =
@@ -142,8 +142,8 @@ TEST(large_mesh, is_written_with_attributes_on_both_sides_of_its_coordinates) {
   expect_same_files(folder, folder / "m.ply");
 }
 
-// A binary PLY with faces of any number of corners on the points of a lattice, a few of them in no
-// order, and an attribute.
+// A binary PLY file with an attribute and faces of any number of corners on the points of a
+// lattice. Some faces have their corners in no order.
 std::string polygons(std::size_t n_faces, const std::string& more = {}) {
   constexpr int kSide = 20;
   std::string bytes =
@@ -175,7 +175,7 @@ TEST(convert_mesh, writes_what_is_written_of_a_mesh_in_memory) {
   const TemporaryFolder folder;
   write_shape(icosphere(3), folder / "triangles.ply");
   testing::write_all(folder / "few.ply", polygons(5));
-  testing::write_all(folder / "many.ply", polygons(35000));  // some blocks
+  testing::write_all(folder / "many.ply", polygons(35000));  // several blocks
   for (const char* from : {"triangles.ply", "few.ply", "many.ply"}) {
     const ShapeFile file = read_shape(folder / from);
     for (const char* to : {".ply", ".obj", ".off", ".stl"}) {

@@ -24,17 +24,17 @@ constexpr bool kBigEndianHost = std::endian::native == std::endian::big;
 const std::string kNative = kBigEndianHost ? "binary_big_endian" : "binary_little_endian";
 const std::string kForeign = kBigEndianHost ? "binary_little_endian" : "binary_big_endian";
 
-// A PLY file in parts, so that a test changes one of them.
+// Parts of a PLY file, so that a test can change one part.
 struct Parts {
   std::string format = kNative;
   std::string comments = "";
-  std::string before = "";  // properties of vertices before x, of one byte each
+  std::string before = "";  // one-byte properties of vertices before x
   std::string coordinate = "float";
-  std::string after = "";  // and behind z
+  std::string after = "";  // properties after z
   std::string list = "list uchar int vertex_indices";
-  std::string more = "";  // header lines behind the faces
+  std::string more = "";  // header lines after the faces
   std::string line_end = "\n";
-  std::string tail = "";  // bytes behind the faces
+  std::string tail = "";  // bytes after the faces
 };
 
 std::size_t lines_of(const std::string& text) {
@@ -72,10 +72,10 @@ std::string ply(const Mesh& mesh, const Parts& parts) {
 std::optional<MappedMesh> mapped(const std::string& bytes) {
   const TemporaryFolder folder;
   write_all(folder / "m.ply", bytes);
-  return map_mesh(folder / "m.ply");  // the map outlives the name
+  return map_mesh(folder / "m.ply");  // the map stays valid without the name
 }
 
-// Bit by bit what read_shape() makes of the same file.
+// Checks for the same bits as read_shape() returns for the same file.
 void expect_same_as_read(const std::string& bytes) {
   const std::optional<MappedMesh> map = mapped(bytes);
   ASSERT_TRUE(map);
@@ -129,7 +129,7 @@ TEST(map_mesh, leaves_what_is_no_regular_file_to_the_reader) {
   EXPECT_FALSE(map_mesh(folder / "pipe.ply"));
 }
 
-// Faces with fewer than three corners make a file shorter too: only the reader can tell.
+// Faces with fewer than three corners also make a file shorter: only the reader can distinguish.
 TEST(map_mesh, leaves_truncated_files_and_wild_counts_to_the_reader) {
   const std::string whole = ply(bumpy_sphere(1, 0.3), {});
   for (const std::size_t missing : {1, 13, 14, 700, 1500}) {

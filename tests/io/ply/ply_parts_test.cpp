@@ -42,7 +42,7 @@ class PlyPartsTest : public ::testing::Test {
   PlyLayout layout() const {
     return {mesh_.vertices.size(), mesh_.triangles.size(), mesh_.attributes};
   }
-  // Of both lists.
+  // Returns a part of both lists.
   PlyPart part(std::size_t first_vertex, std::size_t end_vertex, std::size_t first_triangle,
                std::size_t end_triangle) const {
     PlyPart part{.first_vertex = first_vertex, .first_triangle = first_triangle};

@@ -30,7 +30,7 @@ std::string with_line_ends(const std::string& text, const std::string& line_end)
   return result;
 }
 
-// The header of a binary file in either order.
+// Returns the header of a binary file in either byte order.
 std::string binary_head(bool big) {
   return std::string("ply\nformat binary_") + (big ? "big" : "little") + "_endian 1.0\n";
 }
@@ -139,7 +139,7 @@ TEST(ply, every_column_keeps_its_type_sign_and_exact_value) {
 }
 
 TEST(ply, blocks_of_rows_join_without_a_seam) {
-  // More rows than one block; the x of row i is i, so that any shift shows.
+  // There are more rows than one block holds. The x of row i is i, so that any shift is seen.
   const std::size_t n = 5000;
   BytesBuilder out;
   out.text(binary_head(false) + "element vertex 5000\n" + kXyz +
@@ -226,7 +226,7 @@ TEST(ply, polygons_become_triangles_of_the_same_solid) {
                                kFaces + "end_header\n" + cube_rows + quads);
   EXPECT_EQ(cube.triangles.size(), 12u);
   EXPECT_DOUBLE_EQ(volume_of(cube), 1);
-  // The order of the faces is kept: the two triangles stand where they stood.
+  // The order of the faces is kept: two triangles take the place of the quad.
   EXPECT_EQ(cube.triangles[6], (Triangle{1, 2, 6}));
   EXPECT_EQ(cube.triangles[7], (Triangle{1, 6, 5}));
 
@@ -256,7 +256,7 @@ TEST(ply, faces_with_fewer_than_three_corners_are_skipped_and_counted) {
 }
 
 TEST(ply, triangle_strips_alternate_and_restart) {
-  // 0 1 2 3: the triangles 0 1 2 and 2 1 3; a repeated corner only joins.
+  // 0 1 2 3 stands for the triangles 0 1 2 and 2 1 3. A repeated corner only joins strips.
   const std::string head = kAsciiHead + "element vertex 5\n" + kXyz +
                            "element tristrips 2\nproperty list int int vertex_indices\n"
                            "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n";
@@ -312,13 +312,13 @@ TEST(ply, text_values_beyond_their_type_are_kept_as_double) {
   ASSERT_EQ(a.size(), 4u);
   EXPECT_EQ(a[0].type, ScalarType::kFloat64);
   EXPECT_EQ(a[0].values, (std::vector<double>{256, 3}));
-  EXPECT_EQ(a[1].type, ScalarType::kFloat32);  // the float the text stands for
+  EXPECT_EQ(a[1].type, ScalarType::kFloat32);  // the float nearest to the text
   EXPECT_EQ(a[1].values, (std::vector<double>{0.1f, 0.2f}));
   EXPECT_EQ(a[2].type, ScalarType::kFloat64);
   EXPECT_EQ(a[2].values, (std::vector<double>{1e300, 0}));
   EXPECT_EQ(a[3].type, ScalarType::kInt32);
   EXPECT_EQ(file.warnings.size(), 2u);
-  // Positions keep the digits of the text.
+  // Positions keep all digits of the text.
   EXPECT_EQ(std::get<PointCloud>(file.shape).points[0].x, 0.1);
 }
 
@@ -391,7 +391,7 @@ TEST(ply, counts_beyond_the_file_are_refused_before_memory_is_taken) {
     put_tetrahedron_faces<std::uint8_t, std::int32_t>(out);
     expect_refused(out.bytes(), {"truncated"});
   }
-  // A list that claims more than the file holds.
+  // The list claims more values than the file holds.
   BytesBuilder list;
   list.text(binary_head(false) + "element vertex 1\n" + kXyz +
             "element face 1\nproperty list uint int vertex_indices\nend_header\n");

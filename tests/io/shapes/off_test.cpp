@@ -67,7 +67,7 @@ TEST(off, colours_as_fractions_are_kept_as_they_are) {
       parse_mesh("COFF\n3 1 0\n0 0 0 1.0 0 0\n1 0 0 0 0.5 0\n0 1 0 0 0 1e-1\n3 0 1 2\n");
   EXPECT_EQ(mesh.attributes.size(), 3u);
   expect_attribute(mesh.attributes, "green", ScalarType::kFloat64, {0, 0.5, 0});
-  // 0 and 1 alone are fractions too: no one means a 255th.
+  // Colours of 0 and 1 alone are fractions too: nobody writes 1 for 1/255.
   const Mesh primary = parse_mesh("COFF\n3 1 0\n0 0 0 1 0 0\n1 0 0 0 1 0\n0 1 0 0 0 1\n3 0 1 2\n");
   expect_attribute(primary.attributes, "red", ScalarType::kFloat64, {1, 0, 0});
 }

@@ -15,7 +15,7 @@ using testing::expect_refused;
 using testing::parse;
 using testing::TemporaryFolder;
 
-// Coordinates that test every digit: no decimal fractions, extremes of the format.
+// Coordinates use every digit: no short decimal fractions, and extremes of the format.
 Mesh tetrahedron_with_attributes() {
   Mesh mesh;
   mesh.vertices = {{1.0 / 3, -std::sqrt(2.0), 1e-300},
@@ -43,7 +43,7 @@ PointCloud cloud_with_attributes() {
   return cloud;
 }
 
-// One attribute of every type, at the ends of its range.
+// One attribute of every type, with values at the ends of its range.
 std::vector<Attribute> attributes_of_every_type() {
   const double max_float = std::numeric_limits<float>::max();
   return {{"a", ScalarType::kInt8, {-128, 127, 0, 1}},
@@ -109,7 +109,7 @@ TEST(shape_io, negative_zero_survives) {
 
 TEST(shape_io, obj_keeps_normals_texture_coordinates_and_colours) {
   Mesh mesh = tetrahedron_with_attributes();
-  // Colours come back as fractions, in front; alpha has no room.
+  // Colours come back as fractions, before other attributes. Alpha cannot be stored.
   Mesh expected = mesh;
   expected.attributes.erase(expected.attributes.begin() + 3);
   for (int k = 0; k < 3; ++k) {
@@ -117,9 +117,9 @@ TEST(shape_io, obj_keeps_normals_texture_coordinates_and_colours) {
     for (double& value : expected.attributes[k].values) value /= 255;
   }
   expect_same_mesh(round_trip(mesh, "a.obj"), expected);
-  // Fractions come back as they are.
+  // Fractions come back unchanged.
   expect_same_mesh(round_trip(expected, "a.obj"), expected);
-  // Each kind alone.
+  // Writes each kind of attribute alone.
   for (const std::size_t first : {0u, 3u, 6u}) {
     Mesh some = expected;
     some.attributes.assign(expected.attributes.begin() + first,
@@ -192,7 +192,7 @@ TEST(shape_io, stl_keeps_the_corners_as_floats) {
       EXPECT_EQ(read.vertices[0], mesh.vertices[mesh.triangles[0][0]]);
       EXPECT_EQ(read.vertices[1], mesh.vertices[mesh.triangles[0][1]]);
     }
-    // What STL can hold, it keeps.
+    // A shape that STL can hold is kept exactly.
     expect_same_mesh(round_trip(read, "a.stl", {.ascii = ascii}), read);
   }
 }
@@ -259,7 +259,7 @@ TEST(shape_io, values_their_type_cannot_hold_are_written_as_double) {
   }
 }
 
-// Told before and found missing after.
+// The warning names the attributes before writing, and reading shows that they are missing.
 TEST(shape_io, attributes_that_are_left_out_are_told) {
   Mesh mesh = tetrahedron_with_attributes();
   mesh.attributes.push_back({"quality", ScalarType::kFloat64, {1, 2, 3, 4}});
@@ -325,8 +325,8 @@ TEST(shape_io, names_of_formats_are_read_back) {
   expect_error([] { parse_shape_format("doc"); }, ErrorCode::kUnsupported, {"'doc'", "ply"});
 }
 
-// A box of 16 units whose corners have odd quarters far from the origin: between 2^22 and 2^23 a
-// float has steps of 1/2, so that faces of a quarter's width collapse.
+// A box of 16 units with corners at odd quarters, far from the origin. Between 2^22 and 2^23 floats
+// have steps of 1/2, so that faces a quarter wide collapse.
 TEST(shape_io, binary_stl_says_what_single_precision_does) {
   const TemporaryFolder folder;
   Mesh mesh{.vertices = testing::kTetrahedronVertices,
@@ -341,7 +341,7 @@ TEST(shape_io, binary_stl_says_what_single_precision_does) {
   ASSERT_EQ(far.size(), 1u);
   EXPECT_NE(far[0].find("steps of 0.5"), std::string::npos) << far[0];
   EXPECT_EQ(far[0].find("faces lose"), std::string::npos) << far[0];
-  // A triangle 0.2 high loses its area.
+  // A triangle of height 0.2 loses its area.
   const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(),
                        {{0, 5155487, 0}, {1, 5155487, 0}, {0.5, 5155487.2, 0}});
@@ -369,7 +369,7 @@ TEST(shape_io, what_a_format_cannot_hold_is_refused) {
   refuse(mesh, "a.doc", ErrorCode::kUnsupported, "extension");
   refuse(mesh, "a", ErrorCode::kUnsupported, "extension");
   refuse(mesh, "a.stl", ErrorCode::kInvalidInput, "does not fit the floats");
-  Mesh tiny = mesh;  // all would be 0
+  Mesh tiny = mesh;  // all coordinates would be 0
   for (Vec3& v : tiny.vertices) v = {1e-60, 2e-60, -3e-60};
   refuse(tiny, "a.stl", ErrorCode::kInvalidInput, "does not fit the floats");
   expect_error([&] { write_shape(mesh, "-"); }, ErrorCode::kInvalidInput, {"format"});
@@ -430,9 +430,9 @@ TEST(shape_io, progress_of_reading_rises_to_one) {
   }
 }
 
-// Every file the writers make, cut at every byte: an error, or a valid shape (text that ends
-// early may still be whole), never a crash or memory beyond the file's. Binary files and those that
-// say their counts must be refused.
+// Every file of the writers is cut at every byte. The reader throws an error or returns a valid
+// shape, because cut text may be complete. It never crashes or uses memory beyond the size of the
+// file. Binary files and files that state their counts must be refused.
 TEST(shape_io, files_cut_at_any_byte_do_no_harm) {
   const TemporaryFolder folder;
   Mesh mesh = tetrahedron_with_attributes();
@@ -468,7 +468,7 @@ TEST(shape_io, files_cut_at_any_byte_do_no_harm) {
   }
 }
 
-// The same for the seeds of the fuzzers, which are files of every variant.
+// Does the same with the seeds of the fuzzers, which are files of every variant.
 TEST(shape_io, seeds_cut_at_any_byte_do_no_harm) {
   const std::filesystem::path seeds =
       std::filesystem::path(RHOLM_TEST_DATA) / "../../../fuzz/seeds";

@@ -117,7 +117,7 @@ TEST(stl, bytes_behind_the_facets_are_passed_over_with_a_note) {
       EXPECT_NE(file.warnings[0].find("10 bytes behind the last of 4 facets"), std::string::npos);
     }
   }
-  // Whole facets behind those that are counted are named.
+  // The warning names whole facets that follow the counted facets.
   const std::string bytes = binary_tetrahedron("x");
   const ShapeFile six = parse(bytes + bytes.substr(84, 100), "a.stl");
   EXPECT_EQ(std::get<Mesh>(six.shape).triangles.size(), 4u);

@@ -1,5 +1,5 @@
-// Tables of points as programs write them, each against what every column must be taken for. The
-// points are those of an ellipsoid, by formula, and every variant must give them back.
+// Tables of points as programs write them, with the expected meaning of every column. The points
+// lie on an ellipsoid given by a formula, and every variant must return them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using testing::parse;
 
 constexpr int kRows = 40;
 
-// Coordinates, normal, colour and two scalars of a point, by its number.
+// Coordinates, normal, colour and two scalars of a point, from its index.
 struct Point {
   Vec3 p, n;
   int r = 0, g = 0, b = 0;
@@ -32,7 +32,7 @@ struct Point {
 double to_digits(double value) { return std::round(value * 1e4) / 1e4; }
 
 Point point(int i) {
-  // Directions on a spiral: no two rows have the same coordinate.
+  // Directions lie on a spiral: no two rows have a coordinate in common.
   const double z = 1 - (2 * i + 1.0) / kRows, phi = 2.4 * i, s = std::sqrt(1 - z * z);
   const Vec3 u = {s * std::cos(phi), s * std::sin(phi), z}, axes = {1.2, 0.9, 0.7};
   const Vec3 n = normalized(Vec3{u.x / axes.x, u.y / axes.y, u.z / axes.z});
@@ -44,9 +44,9 @@ Point point(int i) {
           .f = to_digits(10 + 3 * u.x)};
 }
 
-// A row from a pattern: letters stand for values, all else is as it is.
-// x y z, u v w (normal), r g b (0 ... 255), R G B (0 ... 1), f (scalar), i (row from 0), j (row
-// from 1), A O D (latitude, longitude, radius), U V W (normal of length 0.9 ... 1).
+// Makes a row from a pattern. Letters stand for values; all other characters are copied: x y z, u v
+// w (normal), r g b (0 ... 255), R G B (0 ... 1), f (scalar), i (row from 0), j (row from 1), A O D
+// (latitude, longitude, radius), U V W (normal of length 0.9 ... 1).
 std::string row_of(const std::string& pattern, int i, bool comma) {
   const Point a = point(i);
   const double radius = norm(a.p), degree = 180 / std::numbers::pi;
@@ -137,9 +137,9 @@ std::string table(const std::string& header, const std::string& pattern, bool co
 struct Variant {
   const char* name;
   std::string text;
-  std::string taken;  // for what the columns must be taken, with commas between them
+  std::string taken;  // expected meaning of the columns, with commas
   const char* file = "table.txt";
-  std::vector<const char*> said = {};  // in the note
+  std::vector<const char*> said = {};  // expected words of the note
   bool unsure = false;
 };
 
@@ -253,7 +253,7 @@ std::vector<Variant> variants() {
        "x,y,z"},
       {"a column of text", table("name,x,y,z\n", "point_j,x,y,z"), "-,x,y,z", "t.csv", {"text"}},
       {"a column of text without a name", table("", "P-j x y z"), "-,x,y,z", "t.txt", {"text"}},
-      // Missing values. (Rows without a place are dropped: another test.)
+      // Missing values. (Another test checks that rows without a position are dropped.)
       {"empty cells", table("x,y,z,f,g\n", "x,y,z,,f"), "x,y,z,f,g", "t.csv"},
       {"dashes", table("x y z f\n", "x y z --"), "x,y,z,f"},
       // Columns without names.
@@ -296,7 +296,7 @@ std::string taken_for(const TableColumns& table) {
   return taken;
 }
 
-// Every point within `slack` of where it must be.
+// Checks that every point is within `slack` of its exact position.
 void expect_points(const PointCloud& cloud, std::size_t before, double slack) {
   ASSERT_EQ(cloud.points.size(), before + kRows);
   for (int i = 0; i < kRows; ++i) {
@@ -355,7 +355,7 @@ TEST(table, columns_are_taken_for_what_they_are) {
 TEST(table, a_stream_takes_columns_for_the_same) {
   const testing::TemporaryFolder folder;
   for (const Variant& v : variants()) {
-    if (v.text.starts_with("40\n")) continue;  // plates may come behind, which a stream refuses
+    if (v.text.starts_with("40\n")) continue;  // after plates, which streams refuse
     SCOPED_TRACE(v.name);
     const auto path = folder / v.file;
     testing::write_all(path, v.text);
@@ -379,7 +379,7 @@ TEST(table, columns_may_be_said) {
   expect_points(cloud, 0, 0);
   EXPECT_EQ(cloud.normals.size(), cloud.points.size());
   EXPECT_EQ(values_of(cloud, "weight")[3], point(3).f);
-  // What a header says is overruled; columns with a - may hold anything.
+  // The option takes precedence over the header; columns marked - may hold anything.
   const auto other = std::get<PointCloud>(
       parse(table("x,y,z,name\n", "z,y,x,some text"), "t.csv", {.columns = "z,y,x,-"}).shape);
   expect_points(other, 0, 0);
@@ -419,19 +419,19 @@ TEST(table, points_without_a_place_are_dropped_and_counted) {
   EXPECT_EQ(csv.dropped, 2u);
   EXPECT_EQ(values_of(std::get<PointCloud>(csv.shape), "f").size(), 40u);
   expect_refused("nan nan nan\nnan 1 2\n", {"no point"}, "t.xyz");
-  // Rows of separators alone, as spreadsheets write them, are no points.
+  // Rows of separators only, as spreadsheets write them, are not points.
   EXPECT_EQ(parse(table("x;y;z\n", "x;y;z") + ";;\n;;\n", "t.csv").dropped, 0u);
 }
 
 TEST(table, colors_of_one_channel_are_no_normals) {
-  // Unit vectors, none of them across the surface.
+  // Unit vectors, none of which is perpendicular to the surface.
   std::string text;
   for (int i = 0; i < kRows; ++i) {
     const char* const channels[] = {" 1 0 0\n", " 0 1 0\n", " 0 0 1\n"};
     text += row_of("x y z", i, false) + channels[i % 3];
   }
   EXPECT_EQ(taken_for(parse(text, "t.xyz").table), "x,y,z,r,g,b");
-  // The upper side of a plate has the same kind of normals.
+  // The upper side of a plate has such constant normals.
   text.clear();
   for (int i = 0; i < kRows; ++i) {
     const int row = i / 8;
@@ -461,7 +461,7 @@ TEST(table, grids_of_angles_without_names_are_refused_until_it_is_said_what_they
                         {-87.5, 5, -180, 10, 36, 36, false, true},
                         {-90, 15, 0, 15, 13, 24, true, false},
                         {-85, 10, -172.5, 15, 18, 24, false, false},
-                        {89.5, -1, 0.5, 1, 180, 360, true, true},         // more than is looked at
+                        {89.5, -1, 0.5, 1, 180, 360, true, true},  // more rows than are examined
                         {-90, 180. / 7, 0, 360. / 7, 8, 7, true, true}};  // rounded steps
   const auto text_of = [](const Grid& g, const char* behind) {
     std::string text;
@@ -493,7 +493,7 @@ TEST(table, grids_of_angles_without_names_are_refused_until_it_is_said_what_they
                 "x,y,z" + other);
     }
   }
-  // Heights over a plane, half of the globe, and heights that are no radii.
+  // Heights over a plane, half of the globe, and heights that are not radii.
   const Grid plane = {-40, 5, 0, 5, 17, 72, true, true}, half = {-90, 5, 0, 5, 37, 36, true, true};
   for (const Grid& g : {plane, half}) {
     EXPECT_EQ(taken_for(parse(text_of(g, ""), "grid.tab").table), "x,y,z");
@@ -502,7 +502,7 @@ TEST(table, grids_of_angles_without_names_are_refused_until_it_is_said_what_they
 
 TEST(table, points_with_normals_are_read_as_they_are_written) {
   const testing::TemporaryFolder folder;
-  // One octant of a sphere, first coordinates that count, normals of one direction.
+  // One octant of a sphere, first coordinates that count, and normals of one direction.
   PointCloud octant, counted, flat;
   for (int i = 0; i < kRows; ++i) {
     const Vec3 n = point(i).n;
@@ -530,7 +530,7 @@ TEST(table, angles_have_units_and_directions) {
   EXPECT_LT(norm(read("colatitude,lon,radius\n90,0,2\n") - Vec3{2, 0, 0}), 1e-15);
   EXPECT_LT(norm(read("lat (rad),lon (rad),radius\n1.5707963267948966,0,2\n") - Vec3{0, 0, 2}),
             1e-15);
-  // Poles are one point, whatever the longitude.
+  // A pole is one point for any longitude.
   EXPECT_EQ(read("lat,lon,radius\n90,77,2\n"), (Vec3{0, 0, 2}));
 }
 

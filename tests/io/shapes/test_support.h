@@ -33,7 +33,7 @@ inline PointCloud parse_points(std::string_view text, const std::string& name = 
   return std::get<PointCloud>(parse(text, name).shape);
 }
 
-// That `action` throws rholm::Error with the code and all words in its message.
+// Checks that `action` throws rholm::Error with the code and all words in its message.
 template <class Action>
 void expect_error(Action&& action, ErrorCode code, std::initializer_list<const char*> words = {}) {
   try {
@@ -53,7 +53,7 @@ inline void expect_refused(std::string_view text, std::initializer_list<const ch
   expect_error([&] { parse(text, name); }, ErrorCode::kInvalidInput, words);
 }
 
-// The tetrahedron of the origin and the unit points: volume 1/6, faces seen from outside.
+// The tetrahedron of the origin and the unit points: volume 1/6, faces oriented outwards.
 inline const std::vector<Vec3> kTetrahedronVertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 inline const std::vector<Triangle> kTetrahedronTriangles = {
     {0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
@@ -63,8 +63,8 @@ inline void expect_tetrahedron(const Mesh& mesh) {
   EXPECT_EQ(mesh.triangles, kTetrahedronTriangles);
 }
 
-// By the divergence theorem: a sixth of the sum of triple products. Every missing, doubled or
-// turned triangle of a cube changes it.
+// By the divergence theorem, the volume is a sixth of the sum of triple products. Every missing,
+// doubled or flipped triangle of a cube changes it.
 inline double volume_of(const Mesh& mesh) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -73,7 +73,7 @@ inline double volume_of(const Mesh& mesh) {
   return sum;
 }
 
-// Bytes in a chosen order.
+// Collects bytes in a chosen byte order.
 class BytesBuilder {
  public:
   explicit BytesBuilder(bool big_endian = false) : big_endian_(big_endian) {}
@@ -109,7 +109,7 @@ inline void write_all(const std::filesystem::path& path, std::string_view bytes)
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-// A folder of its own for a test, removed afterwards.
+// A folder for one test, which is removed afterwards.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

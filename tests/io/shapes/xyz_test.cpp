@@ -40,7 +40,7 @@ TEST(xyz, unit_vectors_behind_the_position_are_normals) {
   EXPECT_EQ(cloud.points, kPoints);
   EXPECT_EQ(cloud.normals, kNormals);
   EXPECT_TRUE(cloud.attributes.empty());
-  // Rounded to two digits, and a point without a normal.
+  // Normals rounded to two digits, and a point without a normal.
   const PointCloud rounded = parse_points("1 2 3 .58 .58 .58\n4 5 6 0 0 0\n");
   EXPECT_EQ(rounded.normals, (std::vector<Vec3>{{.58, .58, .58}, {0, 0, 0}}));
   const PointCloud more = parse_points("1 2 3 0 0 1 7\n4 5 6 0 1 0 8\n");

@@ -1,4 +1,4 @@
-// What goes in comes out, whole or not at all, whatever happens to the folder meanwhile.
+// Data in a store is returned complete or not at all, whatever happens to the folder meanwhile.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -51,7 +51,7 @@ Bytes joined(const Sections& sections) {
 
 const Sections kThree = {some_bytes(1000, 1), {}, some_bytes(37, 2)};
 
-// In memory, and in a folder.
+// Tests run with a store in memory and with a store in a folder.
 class PieceStores : public ::testing::TestWithParam<bool> {
  protected:
   std::unique_ptr<PieceStore> make() {
@@ -142,7 +142,7 @@ TEST_P(PieceStores, grow_many_pieces_at_once_by_any_buffer) {
     std::vector<Bytes> wanted(kPieces);
     PieceAppender appender(*store, "grown", kPieces, most);
     for (std::size_t i = 0; i < 4000; ++i) {
-      // The first pieces get more; one gets nothing.
+      // The first pieces receive more data; one piece receives nothing.
       const std::size_t piece = random_bits(1, i) % (1 + random_bits(2, i) % (kPieces - 1));
       const Bytes bytes = some_bytes(i == 77 ? 20000 : random_bits(3, i) % 100, i);
       appender.append(piece, bytes);
@@ -235,7 +235,7 @@ TEST(PieceStore, is_taken_up_again) {
     store.keep(true);
     store.write("caps/1", kThree);
   }
-  // What a run that was killed leaves.
+  // Files that a killed run leaves behind.
   write_all(folder / "made/pieces/caps/2.7.part", "half");
   std::filesystem::create_directories(folder / "made/pieces/raw.0.part");
   write_all(folder / "made/pieces/raw.0.part/0", "half");
@@ -284,7 +284,7 @@ TEST(PieceStore, refuses_a_folder_with_other_files) {
 TEST(PieceStore, is_one_program_s) {
   const TemporaryFolder folder;
   const FolderStore store(folder / "made", "same");
-  // A lock is one of an open file: this process has no right to a second one either.
+  // A lock belongs to an open file: this process cannot take a second lock either.
   expect_error([&] { FolderStore second(folder / "made", "same"); }, ErrorCode::kIo, {"in use"});
   EXPECT_TRUE(std::filesystem::exists(folder / "made/manifest"));
 }
@@ -314,7 +314,7 @@ TEST(PieceStore, damaged_pieces_are_refused) {
   expect_error([&] { all_of(open); }, ErrorCode::kInvalidInput, {"damaged"});
 }
 
-// A limit on the size of files stands for a full disk. In a child: the limit is the process's.
+// A limit on the size of files simulates a full disk. A child process has the limit.
 template <class Action>
 int exit_code_with_small_files(Action&& action) {
   const pid_t child = fork();

@@ -1,4 +1,4 @@
-// Against write_shape() of read_shape(): the same bytes, the same warnings, the same refusals.
+// Compares with write_shape() of read_shape(): the same bytes, warnings and refusals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ using testing::read_all;
 using testing::TemporaryFolder;
 using testing::write_all;
 
-constexpr std::size_t kPoints = 70000;  // more than a piece
+constexpr std::size_t kPoints = 70000;  // more than one block
 
 PointCloud cloud_of(std::size_t n, bool with_normals) {
   PointCloud cloud;
@@ -72,7 +72,7 @@ TEST(convert_points, writes_what_is_written_of_all_of_them) {
       PointCloud cloud = cloud_of(n, with_normals);
       write_shape(cloud, folder / "plain.xyz");
       expect_same_files(folder, folder / "plain.xyz");
-      if (n > 1 && !with_normals) continue;  // some seconds
+      if (n > 1 && !with_normals) continue;  // takes some seconds
       add("red", ScalarType::kUint8, 1, cloud);
       add("green", ScalarType::kUint8, 1, cloud);
       add("blue", ScalarType::kUint8, 0, cloud);
@@ -89,7 +89,7 @@ TEST(convert_points, writes_what_is_written_of_all_of_them) {
   }
 }
 
-// Lengths of normals are known behind all points only, and how many there are behind all lines.
+// Lengths of normals are known after all points only, and the number of points after all lines.
 TEST(convert_points, looks_ahead_where_the_first_line_depends_on_the_last) {
   const TemporaryFolder folder;
   PointCloud cloud = cloud_of(kPoints, true);
@@ -122,7 +122,7 @@ TEST(convert_points, reads_lines_of_any_columns) {
   }
 }
 
-// What else is in a file is not looked at, and said.
+// Other elements of the file are skipped with a warning.
 TEST(convert_points, passes_over_other_elements) {
   const TemporaryFolder folder;
   write_shape(cloud_of(10, true), folder / "points.ply");
@@ -171,7 +171,7 @@ TEST(convert_points, leaves_the_old_file_where_it_fails) {
   expect_error([&] { convert_points(folder / "good.ply", folder / "out.ply", {}, stop); },
                ErrorCode::kCancelled);
   EXPECT_EQ(read_all(folder / "out.ply"), "old");
-  convert_points(folder / "good.ply", folder / "good.ply");  // in its own place
+  convert_points(folder / "good.ply", folder / "good.ply");  // replaces its own input
   EXPECT_TRUE(read_all(folder / "good.ply") == good);
 }
 

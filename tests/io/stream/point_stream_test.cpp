@@ -1,4 +1,5 @@
-// Against read_shape() of the whole file: the same values in pieces of any size, the same refusals.
+// Compares with read_shape() of the whole file: the same values in blocks of any size, same
+// refusals.
 #include "rholm/point_stream.h"
 
 #include <gtest/gtest.h>
@@ -133,7 +134,7 @@ TEST(PointStream, knows_either_order_of_bytes) {
   }
 }
 
-// Comments, blank lines, either end of a line, columns with names and without.
+// Comments, blank lines, both kinds of line ends, columns with and without names.
 TEST(PointStream, takes_lines_as_they_come) {
   const TemporaryFolder folder;
   const std::vector<std::pair<const char*, std::string>> files = {
@@ -168,7 +169,7 @@ std::string refusal_of(const std::filesystem::path& path, bool whole) {
   }
 }
 
-// What is wrong stands in the same line, or at the same point, of the file.
+// Errors name the same line, or the same point, of the file.
 TEST(PointStream, tells_where_something_is_wrong) {
   const TemporaryFolder folder;
   const std::string lines = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n5 5 5\n";
@@ -213,7 +214,7 @@ TEST(PointStream, drops_points_that_are_not_finite) {
   EXPECT_EQ(stream.warnings().size(), 1u);
 }
 
-// A file cut anywhere is refused as a whole and in pieces, or has the same points both ways.
+// A file cut anywhere is refused in both ways of reading, or gives the same points in both.
 TEST(PointStream, takes_a_shortened_file_as_it_is_taken_whole) {
   const TemporaryFolder folder;
   const PointCloud cloud = some_points(6);
@@ -261,11 +262,11 @@ TEST(PointStream, refuses_what_has_no_order_of_points) {
   }
 }
 
-// Later values that these cannot hold are refused, not rounded.
+// Later values that do not fit the types are refused, not rounded.
 TEST(PointStream, keeps_to_the_types_of_the_first_piece) {
   const TemporaryFolder folder;
   std::string text = "x y z red green blue\n";
-  while (text.size() <= std::size_t{1} << 20) text += "0 0 0 1 2 3\n";  // that tell the types
+  while (text.size() <= std::size_t{1} << 20) text += "0 0 0 1 2 3\n";  // determines the types
   write_all(folder / "late.xyz", text + "0 0 0 1 2 3.5\n");
   PointStream stream(folder / "late.xyz");
   PointCloud piece;

@@ -1,4 +1,4 @@
-// The search for an aim, on outcomes that are known.
+// The search for an aim, on made-up outcomes.
 #include "model/atlas/atlas_fit.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ TEST(aims, a_factor_is_found_at_once) {
   EXPECT_TRUE(aims.is_close(rms));
 }
 
-// rms = 0.3 aim^1.5 meets 2 at aim = (2 / 0.3)^(2/3); numbers fall as 1 / aim.
+// rms = 0.3 aim^1.5 reaches 2 at aim = (2 / 0.3)^(2/3); numbers fall as 1 / aim.
 TEST(aims, a_power_is_halved_until_the_aims_are_the_same) {
   Aims aims(kTolerance, kTolerance);
   const double right = std::pow(kTolerance / 0.3, 2.0 / 3);
@@ -41,8 +41,8 @@ TEST(aims, a_power_is_halved_until_the_aims_are_the_same) {
 
 TEST(aims, an_aim_that_spares_no_numbers_is_the_last) {
   Aims aims(kTolerance, kTolerance);
-  ASSERT_TRUE(aims.advance(outcome(aims.aim(), 1.5, 100)));  // kept
-  EXPECT_FALSE(aims.advance(outcome(aims.aim(), 2.5, 99)));  // missed
+  ASSERT_TRUE(aims.advance(outcome(aims.aim(), 1.5, 100)));  // within the tolerance
+  EXPECT_FALSE(aims.advance(outcome(aims.aim(), 2.5, 99)));  // outside the tolerance
 }
 
 TEST(aims, an_aim_that_spares_numbers_is_followed) {
@@ -63,7 +63,7 @@ TEST(aims, aims_that_change_nothing_are_given_up) {
   EXPECT_FALSE(same.advance(outcome(same.aim(), 1, 100)));
 }
 
-// The samples of a slab came nearer than was aimed at: only what lies below that says more.
+// The samples of a slab came nearer than the aim: only smaller aims give new information.
 TEST(aims, what_was_reached_counts_where_it_is_nearer_than_the_aim) {
   Aims aims(kTolerance, kTolerance);
   ASSERT_TRUE(
@@ -84,7 +84,7 @@ TEST(aims, wrong_handles_are_tried_nearer_twice) {
   EXPECT_FALSE(aims.advance(outcome(aims.aim(), 1.9, 100, false)));
 }
 
-// Right below 1.6, wrong above: aims go on between what is right and what is not, and never back.
+// Handles are right below 1.6 and wrong above. Aims move between right and wrong ones, never back.
 TEST(aims, handles_that_are_right_nearer_are_looked_for_between) {
   Aims aims(kTolerance, kTolerance);
   double right = 0;

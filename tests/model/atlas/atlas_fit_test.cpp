@@ -1,5 +1,5 @@
-// The search for caps, and for a band, whose surface hangs together as the shape does: on surfaces
-// that are made up.
+// The search for caps and for a band that give the surface the topology of the shape, on made-up
+// surfaces.
 #include "model/atlas/atlas_fit.h"
 
 #include <gtest/gtest.h>
@@ -15,15 +15,15 @@ namespace {
 
 constexpr double kTolerance = 0.1, kBand = 0.3, kStep = 0.1;
 
-// What a surface is said to be.
+// Properties that a made-up surface reports.
 struct Seen {
   double rms = kTolerance / 2;
   bool handle = false;
-  bool fits = true;  // into memory
+  bool fits = true;  // the surface fits into memory
 };
 
-// A sphere covered with caps whose surfaces are as `see` says; `handles` more are wanted than a
-// sphere has.
+// A sphere covered with caps whose surfaces have the properties `see` returns. The shape has
+// `handles` more handles than a sphere.
 class Fit {
  public:
   using See = std::function<Seen(const AtlasModel&)>;
@@ -74,7 +74,7 @@ class Fit {
 
 constexpr Overlap kNarrow{1, 3, true}, kWide{1.15, 1, false};
 
-// Bands go to the file in single precision.
+// Files store bands in single precision.
 bool is_first(const AtlasModel& model) { return model.atlas.band < 1.01 * kBand; }
 
 TEST(fit_atlas, parts_and_handles_that_differ_are_counted) {
@@ -102,7 +102,7 @@ TEST(fit_atlas, many_handles_are_looked_for_with_one_other_band) {
   EXPECT_EQ(fit.surfaces, 2);
 }
 
-// With both bands at each of three aims; surfaces that are no better are not measured.
+// Each of three aims is tried with both bands; surfaces that are no better are not measured.
 TEST(fit_atlas, one_handle_is_looked_for_with_both_bands_at_nearer_aims) {
   Fit fit(1, [](const AtlasModel&) { return Seen{}; });
   fit.run(kNarrow);
@@ -113,7 +113,7 @@ TEST(fit_atlas, one_handle_is_looked_for_with_both_bands_at_nearer_aims) {
 }
 
 TEST(fit_atlas, the_band_that_sees_the_handle_comes_first_from_then_on) {
-  // Too far at first, so that another aim comes.
+  // The surface is too far at first, so that another aim follows.
   int calls = 0;
   Fit fit(1, [&](const AtlasModel& model) {
     return Seen{.rms = (++calls > 2 ? 0.99 : 1.2) * kTolerance, .handle = !is_first(model)};
@@ -125,7 +125,7 @@ TEST(fit_atlas, the_band_that_sees_the_handle_comes_first_from_then_on) {
   EXPECT_EQ(fit.bands.size(), 2u);
 }
 
-// A surface that keeps the tolerance is not given up for the handles.
+// A surface within the tolerance is not given up for the handles.
 TEST(fit_atlas, a_band_with_the_handle_that_is_too_far_is_no_better) {
   Fit fit(1, [](const AtlasModel& model) {
     return Seen{.rms = is_first(model) ? kTolerance : 1.2 * kTolerance, .handle = !is_first(model)};
@@ -145,7 +145,7 @@ TEST(fit_atlas, a_band_that_memory_does_not_allow_is_no_choice) {
   EXPECT_THROW(none.run(kNarrow), Error);
 }
 
-// At the second aim no surface is left: that of the first stands.
+// At the second aim no surface fits, so that the surface of the first aim is kept.
 TEST(fit_atlas, what_there_is_stands_where_another_aim_has_no_surface) {
   int calls = 0;
   Fit fit(0,
@@ -164,11 +164,11 @@ TEST(fit_atlas, a_wider_overlap_is_given_up_after_one_aim_and_leaves_it_to_the_n
   Fit far(40, [](const AtlasModel&) { return Seen{.rms = 1.6 * kTolerance}; });
   far.accepted = 2 * kTolerance;
   far.run(kWide);
-  EXPECT_EQ(far.surfaces, 1);  // no band mends what another aim must
+  EXPECT_EQ(far.surfaces, 1);  // another band cannot help
   EXPECT_NEAR(far.aim, kTolerance / 1.6, 0.01 * kTolerance);
 }
 
-// A fit begins at the aim that was left: fewer coefficients are dropped for a nearer one.
+// A fit begins at the last aim of the previous fit: a smaller aim drops fewer coefficients.
 TEST(fit_atlas, an_aim_that_was_left_is_the_first) {
   const auto numbers_from = [](double aim) {
     Fit fit(0, [](const AtlasModel&) { return Seen{.rms = 0.99 * kTolerance}; });

@@ -1,4 +1,4 @@
-// Expected values: closed forms of spheres, boxes and tori; the promise that a tolerance is.
+// Expected values are closed forms of spheres, boxes and tori, and the requested tolerance.
 #include "rholm/compress.h"
 #include "rholm/compare.h"
 
@@ -21,7 +21,7 @@ namespace {
 
 using testing::TemporaryFolder;
 
-// More than any model takes: boxes have fewer coordinates than a cap.
+// More numbers than any model needs: boxes have fewer coordinates than a cap.
 constexpr std::size_t kAnyNumbers = 1000000;
 
 ErrorCode code_of(const Mesh& mesh, double part_of_diagonal, std::size_t max_numbers = 0) {
@@ -82,10 +82,10 @@ TEST(compress, options_out_of_range_are_refused) {
   EXPECT_THROW(compress(mesh, {.tolerance = 1, .samples = 999}), Error);
   EXPECT_THROW(compress(PointCloud{}, {.tolerance = 1}), Error);
   const PointCloud few{.points = mesh.vertices, .normals = mesh.vertices, .attributes = {}};
-  EXPECT_THROW(compress(few, {.tolerance = 1}), Error);  // 642
+  EXPECT_THROW(compress(few, {.tolerance = 1}), Error);  // the mesh has 642
 }
 
-// Ten times as wide as thick: caps of both sides are near each other, and end at edges.
+// The slab is ten times as wide as thick: caps of both sides are near each other and end at edges.
 TEST(compress, a_slab_keeps_its_tolerance_and_stays_a_ball_nightly) {
   const Mesh slab = box({1, 1, 0.1}, 3);
   const double tolerance = 1e-2 * bounds(slab.vertices).diagonal();
@@ -97,7 +97,7 @@ TEST(compress, a_slab_keeps_its_tolerance_and_stays_a_ball_nightly) {
   EXPECT_NEAR(found.report.gap, 0.1, 1e-6);
 }
 
-// A tolerance of the same size as the shape is thick would let its sides cross.
+// A tolerance as large as the thickness of the shape would let its two sides intersect.
 TEST(compress, a_thin_shape_is_fitted_as_closely_as_it_needs) {
   const Mesh plate = box({1, 1, 0.05}, 4);
   const double tolerance = 3e-2 * bounds(plate.vertices).diagonal();
@@ -124,28 +124,28 @@ TEST(compress, triangles_must_be_oriented_alike) {
     std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
   }
   EXPECT_EQ(code_of(mesh, 1e-2), ErrorCode::kInvalidInput);
-  // Each part by itself is, but one is inside out.
+  // Each part is correct by itself, but one part is inside out.
   Mesh apart = icosphere(3);
   for (Vec3& v : apart.vertices) v.x += 3;
   flip(apart);
   EXPECT_EQ(code_of(with(icosphere(3), apart), 1e-2), ErrorCode::kInvalidInput);
 }
 
-// A sphere within a sphere, both facing outwards: the solid is the outer one. A fifth of the area
-// is the inner one's.
+// A sphere within a sphere, both facing outwards: the solid is the outer sphere. The inner sphere
+// has a fifth of the area.
 TEST(compress, what_lies_inside_is_left_out) {
   const Mesh outer = icosphere(4);
   Mesh inner = icosphere(3);
   for (Vec3& v : inner.vertices) v = 0.5 * v;
   const Compressed found = compress(with(outer, inner), {.tolerance = 0.05});
-  EXPECT_NEAR(found.report.hidden, 0.2, 0.02);  // of 5000 probes: a deviation of 0.006
+  EXPECT_NEAR(found.report.hidden, 0.2, 0.02);  // 5000 probes have a deviation of 0.006
   EXPECT_TRUE(found.report.met);
   const Inspection seen = inspect(synthesize(found.model));
   EXPECT_EQ(seen.components, 1U);
   EXPECT_NEAR(seen.volume, 4 * std::numbers::pi / 3, 0.5);
 }
 
-// A sphere of its own at a tolerance of a tenth of the diagonal: no coefficient is needed.
+// At a tolerance of a tenth of the diagonal a bare sphere suffices: no coefficient is needed.
 TEST(compress, a_model_of_bare_spheres_is_read_back_and_synthesized) {
   const Mesh mesh = icosphere(4);
   const double tolerance = 0.1 * bounds(mesh.vertices).diagonal();
@@ -163,9 +163,10 @@ TEST(compress, an_atlas_without_caps_has_no_surface) {
   EXPECT_THROW(synthesize(model), Error);
 }
 
-// Cutting degrees off loses, rms, what their coefficients say: orthogonal on the hemisphere (see
-// at_degree). Degrees that are fitted to the same surface make up for a part of it,
-// measured: 0.59 and 0.52 of that are left, 0.70 where they are not fitted and caps are averaged.
+// Without a new fit, the rms loss of a lower degree is the norm of its coefficients: they are
+// orthogonal on the hemisphere (see at_degree). Fitting lower degrees to the same surface recovers
+// a part: measured, 0.59 and 0.52 of the loss remain, and 0.70 without a fit where caps are
+// averaged.
 TEST(compress, levels_lose_less_than_the_degrees_they_lack_nightly) {
   const Mesh mesh = bumpy_sphere(4, 0.3, 3);
   const AtlasModel model = compress(mesh, {.tolerance = 0.03}).model;
@@ -174,7 +175,7 @@ TEST(compress, levels_lose_less_than_the_degrees_they_lack_nightly) {
     const Mesh level = synthesize(model, {.degree = degree});
     const Comparison found = compare(whole, level, {.samples = 20000});
     EXPECT_LT(found.a_to_b.rms, 0.65 * lost_at_degree(model.atlas, degree)) << degree;
-    // They hang together as the whole does.
+    // They have the same topology as the whole model.
     const Inspection seen = inspect(level);
     EXPECT_TRUE(seen.closed && seen.manifold);
     EXPECT_EQ(seen.components, 1U);
@@ -182,7 +183,7 @@ TEST(compress, levels_lose_less_than_the_degrees_they_lack_nightly) {
   }
 }
 
-// What faces leave is a tenth of what the degrees left out make.
+// Faces add a tenth of the error of the omitted degrees.
 TEST(compress, levels_have_as_many_faces_as_they_need_nightly) {
   const Mesh mesh = bumpy_sphere(4, 0.3, 3);
   const AtlasModel model = compress(mesh, {.tolerance = 0.03}).model;
@@ -197,7 +198,7 @@ TEST(compress, levels_have_as_many_faces_as_they_need_nightly) {
   }
 }
 
-// A box has 24 coordinates, and a cap nine numbers of a frame alone.
+// A box has 24 coordinates; the frame of a single cap has nine numbers.
 TEST(compress, a_model_of_more_numbers_than_a_box_has_is_refused) {
   EXPECT_EQ(code_of(box({1, 1, 0.5}, 1), 2e-2), ErrorCode::kUnsupported);
 }
@@ -213,7 +214,7 @@ TEST(compress, a_model_of_more_numbers_than_allowed_is_refused_nightly) {
   const Compressed found = compress(slab, {.tolerance = tolerance, .max_numbers = kAnyNumbers});
   const std::size_t numbers = size_of(found.model.atlas).numbers();
   EXPECT_GT(numbers, 3 * slab.vertices.size());
-  // Exactly as many as allowed are enough, one less is not.
+  // Exactly the allowed number suffices; one number fewer does not.
   EXPECT_EQ(size_of(compress(slab, {.tolerance = tolerance, .max_numbers = numbers}).model.atlas)
                 .numbers(),
             numbers);

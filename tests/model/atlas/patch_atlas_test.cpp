@@ -1,4 +1,4 @@
-// The paper's atlas. Oracles: the sphere that its points lie on.
+// The paper's atlas. The oracle is the sphere on which the points lie.
 #include "rholm/patch_atlas.h"
 
 #include <gtest/gtest.h>
@@ -22,8 +22,8 @@ double largest_error(const Mesh& surface) {
   return largest;
 }
 
-// Every patch of a sphere lies on that sphere: nothing is left to expand, but for the triangles'
-// sagitta, 2 pi / 3000 sqrt(3) / 2 of the radius and less, which also has a jump at the border.
+// Every patch of a sphere lies on that sphere. Only the sagitta of triangles is left to expand, at
+// most 2 pi / 3000 sqrt(3) / 2 of the radius, which also has a jump at the border.
 TEST(patch_atlas, a_sphere_extended_by_itself_is_the_sphere) {
   const PointCloud cloud = test::sphere_points(3000);
   const PatchAtlas made =
@@ -33,8 +33,8 @@ TEST(patch_atlas, a_sphere_extended_by_itself_is_the_sphere) {
   EXPECT_EQ(inspect(made.surface).boundary_edges, 0U);
 }
 
-// At the border of its points a series of the zero extension is half the radius: that is why
-// integrals are no way to a surface.
+// At the border of the points the series of the zero extension is half the radius. For this reason
+// integrals do not give a surface.
 TEST(patch_atlas, zero_beyond_the_points_costs_a_large_part_of_the_radius) {
   const PointCloud cloud = test::sphere_points(3000);
   const PatchAtlas made = patch_atlas(cloud, {.degree = 24, .min_cosine = 0.6});
@@ -44,8 +44,8 @@ TEST(patch_atlas, zero_beyond_the_points_costs_a_large_part_of_the_radius) {
   EXPECT_EQ(made.model.atlas.caps.front().degree, 24);
 }
 
-// The patches of a sphere are seen from its middle: their triangles cover it but for the gaps
-// between patches, and lie on it whether points are projected or not.
+// The patches of a sphere are seen from its middle. Their triangles cover the sphere except for
+// gaps between patches, and lie on it with and without projection.
 TEST(patch_atlas, pictures_of_the_steps_lie_on_the_sphere) {
   PointCloud cloud = test::sphere_points(3000);
   for (Vec3& p : cloud.points) p = 8.0 * p + Vec3{100, 0, 0};
@@ -61,7 +61,7 @@ TEST(patch_atlas, pictures_of_the_steps_lie_on_the_sphere) {
       area += norm(twice) / 2;
     }
     const bool apart = view == PatchView::kTriangles;
-    // Triangles that stand apart are 0.85 of their size, and inside the sphere by a part of their
+    // Separated triangles have 0.85 of their size and lie inside the sphere by a part of their
     // sagitta.
     const double whole = 4 * 3.1415926536 * 64 * (apart ? 0.85 * 0.85 : 1);
     EXPECT_LT(area, whole);
@@ -76,8 +76,8 @@ TEST(patch_atlas, pictures_of_the_steps_lie_on_the_sphere) {
   }
 }
 
-// Where points are not on the sphere of their patch, its picture has them there: a distance r from
-// the centre in common to all of a patch.
+// Where points do not lie on the sphere of their patch, the picture moves them there: all points of
+// a patch get the same distance r from its centre.
 TEST(patch_atlas, spheres_are_those_that_fit_best) {
   const Mesh mesh = ellipsoid({3, 2, 1}, 4);
   const PatchPicture points = patch_picture(mesh, PatchView::kPatches);
@@ -98,7 +98,7 @@ TEST(set_degree_colors, higher_degrees_are_lighter) {
   }
   std::vector<Attribute> colors = {{"red", ScalarType::kFloat32, {1}}};
   set_degree_colors(colors, atlas, {1, 3, 0, 2, kNoCap});
-  ASSERT_EQ(colors.size(), 3U);  // what was there is replaced
+  ASSERT_EQ(colors.size(), 3U);  // previous attributes are replaced
   double last = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const double light = 0.3 * colors[0].values[i] + 0.59 * colors[1].values[i];
@@ -152,8 +152,8 @@ std::string refusal(const Make& make) {
   return "accepted";
 }
 
-// A grid with steps of its points' spacing would need more memory than there is: the shape is no
-// good, not the machine.
+// A grid with the spacing of the points would need more memory than exists. The error blames the
+// shape, not the machine.
 TEST(patch_atlas, needles_are_refused_as_such) {
   try {
     patch_atlas(box({1, 1e-7, 1e-7}, 2), {.degree = 6});

@@ -94,7 +94,7 @@ TEST(Csv, texts_like_formulas_have_an_apostrophe) {
     EXPECT_EQ(field.find_first_not_of('"'), field.find('\'')) << field;
     EXPECT_EQ(manifest_of("note,path\n" + field + ",a\n").items[0].values[0], text) << field;
   }
-  // Numbers and all else are as they are, with an apostrophe of their own, too.
+  // Numbers and other texts stay unchanged, also texts that begin with an apostrophe.
   for (const char* text : {"-1", "+2.5e-3", "1=1", "a@b", "'tis", "'", ""}) {
     EXPECT_EQ(csv_field(text), text);
     EXPECT_EQ(manifest_of(std::string("note,path\n") + text + ",a\n").items[0].values[0], text);
@@ -102,7 +102,7 @@ TEST(Csv, texts_like_formulas_have_an_apostrophe) {
   EXPECT_EQ(csv_field("=1+1", true), "=1+1");
 }
 
-// Cut and flipped anywhere, a manifest is read or refused.
+// A manifest that is cut or has a flipped bit anywhere is read or refused.
 TEST(Manifest, damaged_text_is_read_or_refused) {
   const std::string whole = "id,path,note\n1,a.ply,\"one, \"\"two\"\"\"\r\n2,\"b.ply\",\xc3\xa9\n";
   std::size_t read = 0, refused = 0;
@@ -200,7 +200,7 @@ std::string journal_of(std::size_t rows) {
   return bytes;
 }
 
-// Cut anywhere, a journal has exactly the rows that are whole, and goes on from there.
+// A journal that is cut anywhere keeps exactly its complete rows and is continued from there.
 TEST(BatchJournal, a_torn_record_is_dropped_and_those_before_it_are_kept) {
   const std::string whole = journal_of(4);
   std::vector<std::size_t> ends = {kJournalHead};
@@ -225,8 +225,8 @@ TEST(BatchJournal, a_torn_record_is_dropped_and_those_before_it_are_kept) {
   EXPECT_EQ(read_all(folder / "j"), whole);
 }
 
-// A flipped bit makes a record one that is not there, never one with other values: CRC-32 finds
-// every single one.
+// A flipped bit invalidates a record and never changes its values: CRC-32 detects every single
+// flipped bit.
 TEST(BatchJournal, no_flipped_bit_is_believed) {
   const std::string whole = journal_of(3);
   for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
@@ -341,7 +341,7 @@ TEST(BatchTable, names_that_hdf5_cannot_have_are_refused) {
   }
 }
 
-// More columns than HDF5 keeps in a group's header unless it is told to.
+// The table has more columns than HDF5 keeps in a group's header by default.
 TEST(BatchTable, a_file_may_have_thousands_of_columns) {
   const TemporaryFolder folder;
   BatchRow row;
@@ -350,7 +350,7 @@ TEST(BatchTable, a_file_may_have_thousands_of_columns) {
   expect_same(read_batch(folder / "a.h5").row(1), row);
 }
 
-// However the rows were shared out, the table of all is the same.
+// The table of all rows is the same, however the rows were shared out.
 TEST(BatchTable, parts_make_the_table_of_the_whole) {
   const TemporaryFolder folder;
   const std::vector<std::string> leading = {"id"};
@@ -381,7 +381,7 @@ TEST(BatchTable, parts_make_the_table_of_the_whole) {
   }
 }
 
-// Flipped bits and cut ends: refused, or read as a table that holds together.
+// Files with flipped bits or cut ends are refused, or read as a consistent table.
 TEST(BatchTable, damaged_files_are_read_or_refused) {
   const TemporaryFolder folder;
   write_batch(table_of({0, 1, 2, 3}), folder / "a.h5");

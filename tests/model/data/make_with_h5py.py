@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Makes the model files of this folder that rholm does not write itself, with h5py 3.
 
-Files in accepted/ mean C_00 = 1, C_10 = 2, C_11 = 3, S_11 = 4; each file in refused/ is wrong in the
-one way that its name says. degree4-*.h5 have C_lm = 1/(1 + l + m), S_lm = m/(l + 1).
+Files in accepted/ mean C_00 = 1, C_10 = 2, C_11 = 3, S_11 = 4. Each file in refused/ has the one fault that
+its name states. degree4-*.h5 have C_lm = 1/(1 + l + m), S_lm = m/(l + 1).
 """
 
 import os
@@ -36,7 +36,7 @@ def write_golden(name, **options):
 
 
 def write(name, data=SMALL, change=lambda file, group: None, file_options={}, **dataset_options):
-    """A model of degree 1, changed in one way."""
+    """Makes a model of degree 1 with one change."""
     with h5py.File(f"{FOLDER}/{name}.h5", "w", **file_options) as file:
         file.attrs.update(format="rholm-model", version_major=1)
         group = file.create_group("expansion")

@@ -1,5 +1,5 @@
-// Bodies of CAD programs with faces thinner than single precision: seen as the bodies they stand
-// for.
+// Bodies of CAD programs with faces thinner than single precision resolves: centres are found as
+// for the exact bodies.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,11 +20,11 @@ using test::CadRarity;
 
 constexpr int kBodies = 300;
 
-// Closed bodies.
+// Checks bodies that are closed.
 void expect_is_seen_from_the_centre_of_the_exact_body(int i) {
   const CadBody body = cad_body(i);
   if (body.junctions) return;
-  // Of the radius of a ball of the same volume.
+  // The bound is 1 % of the radius of a ball of the same volume.
   const double allowed = 0.01 * std::cbrt(0.239 * enclosed_volume(body.exact));
   for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kKernel, CenterKind::kVolume}) {
     SCOPED_TRACE(body.name + " " + std::to_string(i) + ", centre " +
@@ -47,8 +47,8 @@ TEST(CadBodies, are_seen_as_star_shaped_from_the_centre_of_the_exact_body) {
   EXPECT_GT(thin, 0u);
 }
 
-// Rounding turns faces of one side against each other so that the program of the kernel's middle
-// does not end by the rules of exact planes.
+// Rounding turns coplanar faces against each other, so that the linear program for the centre of
+// the kernel does not end by the rules of exact planes.
 TEST(CadBodies, are_seen_where_faces_of_one_side_are_turned_against_each_other) {
   for (const int i : {78, 148, 187, 229, 254, 257}) {
     expect_is_seen_from_the_centre_of_the_exact_body(i);
@@ -103,7 +103,8 @@ TEST(CadBodies, are_analysed_with_the_errors_of_the_exact_body) {
     ASSERT_TRUE(one.errors && other.errors);
     ASSERT_TRUE(one.errors->rms && other.errors->rms);
     EXPECT_NEAR(*other.errors->rms / *one.errors->rms, 1, 0.01);
-    // Vertices on edges are more places to measure at: no less is found, and not much more.
+    // Vertices on edges are additional places of measurement: the largest error is not smaller, and
+    // not much larger.
     ASSERT_TRUE(one.errors->measured_max && other.errors->measured_max);
     const double largest = *other.errors->measured_max / *one.errors->measured_max;
     EXPECT_GT(largest, 0.99);

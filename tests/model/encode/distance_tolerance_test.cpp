@@ -1,4 +1,4 @@
-// A tolerance of the distance, kept on steep and coarse polyhedra, judged by closest points.
+// A tolerance of the distance holds on steep and coarse polyhedra, as measured by closest points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ struct Draw {
   Tolerance tolerance;
 };
 
-// 4 to 100 faces; half of the centres go 80 to 95 % of the way to where a face would be seen edge
-// on.
+// Bodies have 4 to 100 faces. Half of the centres are at 80 to 95 % of the way to where a face
+// would be seen edge-on.
 Draw draw(std::uint64_t seed) {
   const auto random = [&](std::uint64_t i) { return random_uniform(9000 + seed, i); };
   const double faces = std::exp(std::log(4.0) + random(0) * std::log(25.0));
@@ -69,13 +69,13 @@ TEST(distance_tolerance, is_kept_by_closest_points_on_random_polyhedra) {
     };
     const double trusted = d.tolerance.norm == ErrorNorm::kMax ? found.allowed : INFINITY;
     test::TrueDistance truth = test::true_distance(d.mesh, c, 6000, trusted);
-    // Few points say too little of it.
+    // Near the bound, the error of few points is too uncertain.
     if (error(truth) > 0.99 * found.allowed) {
       truth = test::true_distance(d.mesh, c, 60'000, trusted);
     }
     if (d.tolerance.norm == ErrorNorm::kRms) {
       const double there = truth.there_rms / found.allowed, back = truth.back_rms / found.allowed;
-      // Of the sampling of both: 4 standard errors in 500 runs.
+      // The bound allows for both samplings: 4 standard errors in 500 runs.
       EXPECT_LE(there, 1.003 + 4 * truth.there_error) << seed;
       EXPECT_LE(back, 1.003 + 4 * truth.back_error) << seed;
       worst_rms = std::max({worst_rms, there, back});

@@ -1,4 +1,5 @@
-// Files that are worked through where they lie, against the same shapes read into memory.
+// Compares files that are processed without reading them into memory with the same shapes in
+// memory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ using testing::TemporaryFolder;
 
 constexpr EncodeOptions kOptions{.analyze = {.degree = 12, .precision = 1e-9}};
 
-// As a binary PLY file of doubles, and what `use` makes of it.
+// Writes a binary PLY file of doubles and calls `use` with its path.
 void with_file(const Mesh& mesh, const std::function<void(const std::filesystem::path&)>& use) {
   const TemporaryFolder folder;
   write_shape(mesh, folder / "m.ply");
@@ -60,7 +61,7 @@ void expect_equal(const Encoded& a, const Encoded& b) {
 
 TEST(encode_mapped, gives_what_the_same_file_gives_when_it_is_read) {
   const Mesh bumpy = test::rotated(bumpy_sphere(4)), cube = box({1, 2, 3}, 5);
-  // With seams: each triangle with corners of its own.
+  // Meshes have seams: each triangle has its own corners.
   for (const Mesh& mesh : {bumpy, cube, test::exploded(bumpy), test::random_octahedron(2)}) {
     with_file(mesh, [&](const auto& path) {
       const std::optional<Encoded> encoded = mapped(path);
@@ -74,7 +75,7 @@ TEST(encode_mapped, gives_what_the_same_file_gives_when_it_is_read) {
   }
 }
 
-// The coefficients of a mesh with seams are those of the welded mesh.
+// A mesh with seams has the coefficients of the welded mesh.
 TEST(encode_mapped, does_not_mind_seams) {
   const Mesh mesh = test::rotated(bumpy_sphere(3));
   std::optional<Encoded> whole, soup;
@@ -138,8 +139,8 @@ TEST(encode_mapped, takes_no_mesh_that_is_not_closed_or_not_star_shaped) {
   expect_refused(test::joined(icosphere(3), bumpy_sphere(4)), ErrorCode::kNotStarShaped);
 }
 
-// Every face turns outwards, and all directions are covered twice, mostly by few triangles that no
-// sample of the mesh needs to meet.
+// Every face is oriented outwards, and all directions are covered twice. The second cover has so
+// few triangles that a sample of the mesh may contain none of them.
 TEST(encode_mapped, finds_a_second_sheet_of_few_triangles) {
   Mesh around = icosphere(0);
   for (Vec3& v : around.vertices) v *= 3;
@@ -148,8 +149,8 @@ TEST(encode_mapped, finds_a_second_sheet_of_few_triangles) {
   expect_refused(test::joined(around, fine), ErrorCode::kNotStarShaped);
 }
 
-// A file of as many bytes as its triangles need, but with a quad and a pair instead of two of them:
-// only the counts tell.
+// The file has the size that its triangles need, but a quad and a pair replace two of them: only
+// the counts show it.
 TEST(encode_mapped, leaves_other_polygons_to_the_reader) {
   with_file(bumpy_sphere(3), [&](const auto& path) {
     std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
@@ -168,11 +169,11 @@ TEST(encode_mapped, leaves_other_polygons_to_the_reader) {
     file.write(faces.data(), faces.size());
     file.close();
     EXPECT_FALSE(mapped(path).has_value());
-    EXPECT_EQ(code_of(path), ErrorCode::kInvalidInput);  // of a pair no triangle can be made
+    EXPECT_EQ(code_of(path), ErrorCode::kInvalidInput);  // a pair does not give a triangle
   });
 }
 
-// Quads throughout: a box whose sides are drawn as such.
+// All faces are quads: a box with one quad per side.
 TEST(encode_file, cuts_quads_into_triangles) {
   const Mesh cube = box({2, 2, 2});
   const TemporaryFolder folder;

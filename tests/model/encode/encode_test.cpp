@@ -27,7 +27,7 @@ ErrorCode code_of(const Mesh& mesh, const EncodeOptions& options = {}) {
   return ErrorCode::kIo;
 }
 
-// As an STL file has it: three vertices of its own per triangle.
+// Returns triangles with their own vertices, as in an STL file.
 Mesh soup_of(const Mesh& mesh) {
   Mesh soup;
   for (const Triangle& t : mesh.triangles) {
@@ -40,7 +40,7 @@ Mesh soup_of(const Mesh& mesh) {
 
 TEST(encode, a_soup_of_triangles_gives_the_coefficients_of_the_welded_mesh) {
   const Mesh mesh = bumpy_sphere(2);
-  // The fast engine takes identical vertices for one as they are, the direct one joins them.
+  // The fast engine treats identical vertices as one in place; the direct engine joins them.
   for (const Engine engine : {Engine::kFast, Engine::kDirect}) {
     const EncodeOptions options{.analyze = {.degree = 12, .engine = engine, .precision = 1e-13}};
     const Encoded whole = encode(mesh, options), soup = encode(soup_of(mesh), options);
@@ -57,7 +57,7 @@ TEST(encode, a_soup_of_triangles_gives_the_coefficients_of_the_welded_mesh) {
   }
 }
 
-// Arrays of floats with something between the rows, as another program may have them.
+// Arrays of floats with other data between the rows, as other programs have them.
 struct Records {
   struct Vertex {
     float x, y, z, quality;
@@ -87,7 +87,7 @@ struct Records {
 
 TEST(encode, arrays_of_another_program_give_the_bits_of_the_mesh_they_hold) {
   Mesh upside_down = bumpy_sphere(2);
-  flip(upside_down);  // must be copied and turned
+  flip(upside_down);  // must be copied and flipped
   for (const Mesh& mesh : {bumpy_sphere(2), upside_down}) {
     const Records records(mesh);
     const Mesh same = mesh_of(records.view());
@@ -108,7 +108,7 @@ TEST(encode, refuses_a_view_with_an_index_out_of_range) {
   EXPECT_THROW(encode(records.view()), Error);
 }
 
-// The fast engine works on the mesh as it lies, the direct one on a chart.
+// The fast engine uses the mesh in place; the direct engine uses a chart.
 TEST(encode, finds_the_same_degree_for_a_tolerance_on_both_ways) {
   const Mesh mesh = bumpy_sphere(3, 0.3);
   for (const ErrorNorm norm : {ErrorNorm::kRms, ErrorNorm::kMax}) {
@@ -129,7 +129,7 @@ TEST(encode, finds_the_same_degree_for_a_tolerance_on_both_ways) {
   }
 }
 
-// What a search for a degree ends with is the model that this degree gives.
+// A search for a degree returns the same model as this degree given directly.
 TEST(encode, a_tolerance_gives_the_bits_of_the_degree_it_finds) {
   const Mesh mesh = test::rotated(bumpy_sphere(3, 0.3));
   for (const Tolerance& tolerance :
@@ -152,7 +152,7 @@ TEST(encode, a_tolerance_gives_the_bits_of_the_degree_it_finds) {
   }
 }
 
-// The search is done with the fast sums.
+// The search itself uses the fast sums.
 TEST(encode, a_tolerance_ends_with_the_method_that_was_asked_for) {
   const Mesh mesh = test::rotated(bumpy_sphere(2, 0.3));
   EncodeOptions options{.analyze = {.method = Method::kArea, .precision = 1e-6}};
@@ -176,7 +176,7 @@ TEST(encode, without_errors_a_tolerance_leaves_none) {
   EXPECT_FALSE(encoded.analysis.expansion.errors);
 }
 
-// Distances to first order against exact closest points.
+// Compares first-order distances with exact closest points.
 TEST(encode, distances_in_a_model_are_those_of_an_independent_comparison) {
   const Mesh mesh = test::rotated(bumpy_sphere(3, 0.3));
   const Encoded encoded = encode(mesh, {.analyze = {.degree = 12}});
@@ -185,7 +185,7 @@ TEST(encode, distances_in_a_model_are_those_of_an_independent_comparison) {
   const TruncationErrors& errors = *encoded.analysis.expansion.errors;
   const double rms = std::max(comparison.a_to_b.rms, comparison.b_to_a.rms);
   EXPECT_NEAR(*errors.distance_rms, rms, 0.03 * rms);
-  // The largest of random samples is a lower bound.
+  // The largest distance of random samples is a lower bound.
   EXPECT_LT(comparison.hausdorff, 1.02 * *errors.measured_max_distance);
   EXPECT_GT(comparison.hausdorff, 0.8 * *errors.measured_max_distance);
 }
@@ -200,7 +200,7 @@ TEST(encode, leaves_errors_out_when_told_and_where_they_mean_nothing) {
   EXPECT_FALSE(prism.analysis.expansion.errors.has_value());
 }
 
-// The direct engine goes the long way, by a chart.
+// The direct engine uses a chart.
 TEST(encode, surfaces_that_fold_are_the_same_as_by_a_chart) {
   EncodeOptions folded{.analyze = {.degree = 12, .precision = 1e-8}};
   folded.chart.allow_signed = true;
@@ -222,7 +222,7 @@ TEST(encode, surfaces_that_fold_are_the_same_as_by_a_chart) {
   EXPECT_EQ(fast.edges, slow.edges);
 }
 
-// From the better of two centres, neither of which sees all of it.
+// The better of two centres is used; neither sees the whole surface.
 TEST(encode, surfaces_without_a_kernel_are_the_same_as_by_a_chart) {
   EncodeOptions folded{.analyze = {.degree = 12, .precision = 1e-8}};
   folded.chart.allow_signed = true;

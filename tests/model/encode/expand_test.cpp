@@ -1,4 +1,4 @@
-// Why a mesh cannot be expanded in place, and what becomes of it then.
+// Reasons why a mesh cannot be expanded in place, and the ways that are then taken.
 #include "model/encode/expand.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ EncodeOptions about(const Vec3& center) {
   return options;
 }
 
-// How often stages were begun, which report 0.
+// Numbers of stages that were begun; a stage begins by reporting 0.
 struct Stages {
   int center = 0, topology = 0;
   Context context() {
@@ -84,7 +84,7 @@ TEST(expand_in_place, has_no_use_for_what_is_no_surface) {
     EXPECT_EQ(reason_of(mesh), NotInPlace::kUnusable);
     EXPECT_EQ(code_of(mesh), ErrorCode::kInvalidInput);
   }
-  // The passes alone, without the search for a centre.
+  // Only the passes run, without the search for a centre.
   for (const Mesh& mesh : {none, far, unnumbered}) {
     EXPECT_EQ(reason_of(mesh, about({})), NotInPlace::kUnusable);
   }
@@ -130,7 +130,7 @@ TEST(expand_in_place, takes_folds_where_they_are_allowed) {
   EXPECT_EQ(code_of(prism, options), ErrorCode::kNotStarShaped);
   options.chart.allow_signed = true;
   EXPECT_TRUE(std::holds_alternative<Encoded>(expand_in_place(view_of(prism), options, {}, {})));
-  // Of an alternating sum there is no error to be kept within a tolerance.
+  // An alternating sum has no error that could be kept within a tolerance.
   options.tolerance = Tolerance{.error = 0.1};
   EXPECT_EQ(reason_of(prism, options), NotInPlace::kFolded);
   EXPECT_EQ(code_of(prism, options), ErrorCode::kInvalidInput);
@@ -165,7 +165,7 @@ void expect_same_bits(const Encoded& a, const Encoded& b) {
   EXPECT_EQ(a.star.multiple_share, b.star.multiple_share);
 }
 
-// With its centre sought, given, and a degree that is sought.
+// The centre is searched for or given, and in one case the degree is searched for.
 std::vector<EncodeOptions> several_ways() {
   EncodeOptions volume = kOptions, tolerance = kOptions;
   volume.chart.center.kind = CenterKind::kVolume;
@@ -207,11 +207,11 @@ TEST(expand, a_welded_mesh_gives_the_bits_of_one_without_seams) {
   }
 }
 
-// Against direct sums on a chart.
+// Compares with direct sums on a chart.
 TEST(expand, a_turned_surface_that_folds_has_the_wanted_precision) {
   const std::pair<Mesh, EncodeOptions> cases[] = {
       {test::l_prism(1), about({2, 0.5, 0.1})},
-      {test::rotated(torus(2, 0.5, 40, 20)), kOptions}};  // without a kernel
+      {test::rotated(torus(2, 0.5, 40, 20)), kOptions}};  // has an empty kernel
   for (auto [mesh, options] : cases) {
     Mesh inward = mesh;
     flip(inward);
@@ -232,7 +232,7 @@ constexpr ErrorCode kNotOfTheMesh[] = {ErrorCode::kIo, ErrorCode::kOutOfMemory,
                                        ErrorCode::kUnsupported, ErrorCode::kNotConverged,
                                        ErrorCode::kCancelled};
 
-// A file that can no longer be read, memory that is refused: nothing is tried again.
+// After a file that can no longer be read, or refused memory, nothing is tried again.
 TEST(expand_in_place, passes_on_at_once_what_is_no_fault_of_the_mesh) {
   const Mesh mesh = bumpy_sphere(3);
   for (const ErrorCode code : kNotOfTheMesh) {
@@ -281,7 +281,7 @@ TEST(encode, refuses_options_out_of_range_before_all_work) {
   }
 }
 
-// What is wrong with the mesh in the file is wrong with it in memory: it is prepared at once.
+// A fault of the mesh in the file is also a fault in memory: the mesh is prepared at once.
 TEST(encode_file, does_not_try_a_second_time_what_the_mesh_cannot) {
   Mesh open = bumpy_sphere(3);
   open.triangles.pop_back();
@@ -289,7 +289,7 @@ TEST(encode_file, does_not_try_a_second_time_what_the_mesh_cannot) {
   write_shape(open, folder / "m.ply");
   Stages stages;
   EXPECT_THROW(encode_file(folder / "m.ply", kOptions, stages.context()), Error);
-  EXPECT_EQ(stages.center, 1);  // the chart has no use for one
+  EXPECT_EQ(stages.center, 1);  // the chart starts no second search
   EXPECT_EQ(stages.topology, 1);
 }
 

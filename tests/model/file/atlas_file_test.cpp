@@ -1,4 +1,4 @@
-// Expected values: the atlas that was written; rounding bounds of float and of 16-bit steps.
+// Expected values are the atlas that was written, with rounding bounds of float and 16-bit steps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 using testing::read_all;
 using testing::TemporaryFolder;
 
-// Frames in all directions, also turned by half a turn, a third of the coefficients zero.
+// Frames have all orientations, also half turns; a third of the coefficients are zero.
 AtlasModel random_model(std::size_t n_caps, CapBasis basis) {
   AtlasModel model;
   std::uint64_t drawn = 0;
@@ -66,7 +66,7 @@ ErrorCode code_of(const std::string& bytes, std::string* words = nullptr) {
     if (words != nullptr) *words = error.what();
     return error.code();
   }
-  return ErrorCode::kCancelled;  // stands for none
+  return ErrorCode::kCancelled;  // means that nothing was thrown
 }
 
 TEST(atlas_file, round_trip_is_within_rounding_and_then_exact) {
@@ -76,7 +76,7 @@ TEST(atlas_file, round_trip_is_within_rounding_and_then_exact) {
     ASSERT_EQ(back.atlas.caps.size(), model.atlas.caps.size());
     for (std::size_t c = 0; c < model.atlas.caps.size(); ++c) {
       const Cap &a = model.atlas.caps[c], &b = back.atlas.caps[c];
-      // Seeds lie within 3 of their middle, radii are below 2.2: 24 bits of those.
+      // Seeds lie within 3 of their middle and radii are below 2.2; both are stored with 24 bits.
       EXPECT_LT(norm(a.frame.seed() - b.frame.seed()), 1e-6);
       EXPECT_LT(norm(a.frame.x - b.frame.x) + norm(a.frame.z - b.frame.z), 1e-6);
       EXPECT_NEAR(a.frame.support, b.frame.support, 1e-6);
@@ -101,7 +101,7 @@ TEST(atlas_file, round_trip_is_within_rounding_and_then_exact) {
 TEST(atlas_file, overhead_is_small) {
   const AtlasModel model = random_model(100, CapBasis::kEven);
   const AtlasSize size = size_of(model.atlas);
-  // 44 bytes and a degree per cap, 2 per kept coefficient, a bit for each; the rest is HDF5's.
+  // A cap takes 44 bytes and a degree, a kept coefficient 2 bytes, each coefficient a bit.
   const std::size_t content =
       45 * size.caps + 2 * size.coefficients + model.atlas.coefficients.size() / 8;
   EXPECT_LT(bytes_of(model).size(), content + 4096);
@@ -125,7 +125,7 @@ TEST(atlas_file, the_blend_is_kept) {
   EXPECT_EQ(parse_atlas(bytes_of(model), "test").atlas.blend, CapBlend::kSpline);
 }
 
-// Caps that are spheres: nothing is stored of their coefficients, and that is read back.
+// Caps that are spheres store no coefficients, and their file is read back.
 TEST(atlas_file, caps_whose_coefficients_are_all_zero_are_read_back) {
   AtlasModel model = random_model(4, CapBasis::kEven);
   std::fill(model.atlas.coefficients.begin(), model.atlas.coefficients.end(), 0.0);

@@ -1,5 +1,5 @@
-// From the model of a reconstruction its surface again. Oracle: the surface that reconstruct()
-// made, to the bit; clouds are parts of bodies in closed form.
+// The surface is made again from the model of a reconstruction. The oracle is the surface that
+// reconstruct() made, to the bit; clouds are parts of bodies in closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,7 +50,7 @@ PointCloud tube_without_lids() {
   return cloud;
 }
 
-// Two open spheres that nearly touch.
+// Returns two open spheres that nearly touch.
 PointCloud two_pieces() {
   PointCloud cloud = part_of_sphere(3000, [](const Vec3& p) { return p.z < 0.5; });
   const PointCloud other = part_of_sphere(1500, [](const Vec3& p) { return p.z > -0.7; });
@@ -136,7 +136,7 @@ TEST(ModelAgain, keeps_what_the_options_made_of_the_surface) {
     const Reconstruction made = reconstruct(cloud, all[i]);
     expect_same(synthesize(through_file(made.model)), made.mesh, std::to_string(i));
   }
-  // What is asked for goes before what the model says.
+  // Options take precedence over the model.
   const Reconstruction few = reconstruct(cloud, {.simplify = SimplifyOptions{.share = 0.1}});
   const Mesh whole = synthesize(few.model, {.simplify = SimplifyOptions{.share = 1}});
   expect_same(whole, reconstruct(cloud).mesh, "not simplified");
@@ -158,7 +158,7 @@ TEST(ModelAgain, keeps_what_has_been_seen_to_be_empty) {
   ASSERT_TRUE(kept.rules->seen);
   EXPECT_EQ(kept.rules->seen->bits, made.model.rules->seen->bits);
   expect_same(synthesize(kept), made.mesh, "bored box");
-  // Without, the bore is closed: the test would see it.
+  // Without the cubes seen by scanners the bore is closed, so that the test would notice.
   AtlasModel blind = kept;
   blind.rules->seen.reset();
   EXPECT_NE(inspect(synthesize(blind)).euler_characteristic,
@@ -180,7 +180,7 @@ TEST(ModelAgain, makes_a_surface_of_the_same_form_at_another_step) {
   for (const double factor : {0.7, 1.5}) {
     const Mesh other = synthesize(through_file(made.model), {.step = factor * made.report.step});
     EXPECT_EQ(inspect(other).euler_characteristic, 1) << factor;  // a disc
-    // A tenth of the spacing (chosen): beyond the last points caps go on by themselves.
+    // The bound is a tenth of the spacing (chosen): beyond the last points caps extrapolate.
     for (const Vec3& v : other.vertices) ASSERT_NEAR(norm(v), 1, 0.1 * made.report.spacing);
   }
 }
@@ -209,7 +209,7 @@ TEST(ModelAgain, rules_that_do_not_fit_are_refused) {
   EXPECT_NO_THROW(synthesize(bad));
 }
 
-// A small model with all that a file may hold.
+// Returns a small model with everything that a file can hold.
 AtlasModel full_model() {
   AtlasModel model =
       reconstruct(part_of_sphere(300, [](const Vec3& p) { return p.z < 0.8; })).model;
@@ -258,7 +258,7 @@ TEST(ModelAgain, a_flipped_bit_is_refused_or_means_nothing) {
   EXPECT_GT(refused, bytes.size() / 7 / 2);
 }
 
-// Tiles sum winding numbers in another order: close, not to the bit.
+// Tiles sum winding numbers in another order: results are close, but not identical.
 class ModelOfTiles : public testing::TileFiles {};
 
 TEST_F(ModelOfTiles, gives_their_surface_in_another_order) {

@@ -63,10 +63,10 @@ TEST(model_file, round_trip_keeps_every_bit) {
   expect_same_description(back, plain);
 }
 
-// HDF5 may be built for one thread only.
+// The HDF5 library may be built without support for threads.
 TEST(model_file, several_threads_write_at_once) {
   const Expansion expansion = random_expansion(9);
-  const std::string expected = model_bytes(expansion);  // by a folder of this test's, too
+  const std::string expected = model_bytes(expansion);  // also uses a folder of this test
   const TemporaryFolder folder;
   std::vector<std::jthread> threads;
   threads.reserve(4);
@@ -84,7 +84,7 @@ TEST(model_file, several_threads_write_at_once) {
 TEST(model_file, same_expansion_gives_the_same_bytes) {
   const std::string bytes = model_bytes(random_expansion(7));
   EXPECT_EQ(bytes, model_bytes(random_expansion(7)));
-  // Bit 5 of the flags of an object header: it has times.
+  // Bit 5 of the flags of an object header says that the object has times.
   std::size_t n_headers = 0;
   for (std::size_t at = 0; (at = bytes.find("OHDR\2", at)) != std::string::npos;
        ++at, ++n_headers) {
@@ -126,7 +126,7 @@ TEST(model_file, errors_return_and_those_that_are_unknown_stay_unknown) {
   EXPECT_FALSE(read_model(folder / "c.h5").errors.has_value());
 }
 
-// Values by formula: C_lm = 1/(1 + l + m), S_lm = m/(l + 1).
+// Checks the values of the formulas C_lm = 1/(1 + l + m), S_lm = m/(l + 1).
 void expect_golden(const Expansion& expansion) {
   ASSERT_EQ(expansion.coefficients.degree(), 4);
   for (int l = 0; l <= 4; ++l) {
@@ -143,8 +143,8 @@ void expect_golden(const Expansion& expansion) {
   EXPECT_EQ(expansion.tail_strength, 0.125);
 }
 
-// Every later version must read these. The first is of version 0.1.0; the others are what h5py 3.7
-// writes with its default, the oldest and the newest format of HDF5.
+// Every later version must read these files. The first is of version 0.1.0; h5py 3.7 wrote the
+// others with its default, the oldest and the newest format of HDF5.
 TEST(model_file, golden_files_of_version_0_1_are_read) {
   const std::filesystem::path folder = RHOLM_TEST_DATA;
   for (const char* name : {"degree4.h5", "degree4-h5py-default.h5", "degree4-h5py-latest.h5"}) {
@@ -157,8 +157,8 @@ TEST(model_file, golden_files_of_version_0_1_are_read) {
   }
 }
 
-// HDF5's own checksums guard its metadata, crc32 what they leave out: a flipped bit is noticed, or
-// it hits a byte that means nothing.
+// HDF5's own checksums protect its metadata, and crc32 protects the other bytes. A flipped bit is
+// detected, or it is in a byte without meaning.
 TEST(model_file, every_flipped_bit_is_refused_or_changes_nothing) {
   const Expansion expansion = random_expansion(2);
   const std::string whole = model_bytes(expansion);
@@ -191,7 +191,7 @@ TEST(model_file, every_cut_is_refused) {
   }
 }
 
-// Files that h5py can write and that are not models, or not of this version.
+// Files that h5py can write, and that are not models or not models of this version.
 TEST(model_file, other_hdf5_files_are_refused_with_their_reason) {
   const std::filesystem::path folder = std::filesystem::path(RHOLM_TEST_DATA) / "refused";
   const struct {
@@ -242,7 +242,7 @@ TEST(model_file, other_hdf5_files_are_refused_with_their_reason) {
   }
 }
 
-// And that are models: other types for the same values, more members, any old or new storage.
+// Files that are models: other types for the same values, more members, old and new storage.
 TEST(model_file, variants_that_mean_the_same_are_read) {
   const std::filesystem::path folder = std::filesystem::path(RHOLM_TEST_DATA) / "accepted";
   std::size_t n_files = 0;
@@ -259,9 +259,9 @@ TEST(model_file, variants_that_mean_the_same_are_read) {
   EXPECT_EQ(n_files, 7u);
 }
 
-// In the oldest format nothing has a checksum. Every place that can hold an address, size or count
-// is given values that lead out of the file, to itself, or overflow a sum or product: the
-// answer is an Error or a sound expansion, and comes at once (the sanitizers watch the rest).
+// The oldest format has no checksums. Every place that can hold an address, size or count gets
+// values that point outside the file, to the place itself, or overflow a sum or product. The answer
+// must be an Error or a valid expansion, without delay; sanitizers find other faults.
 TEST(model_file, hostile_addresses_and_sizes_are_answered_safely) {
   const std::filesystem::path folder = RHOLM_TEST_DATA;
   const std::string whole = read_all(folder / "degree4-h5py-default.h5");
@@ -306,7 +306,7 @@ TEST(model_file, sizes_that_do_not_fit_are_named) {
   put(bytes, extents_at + 16, std::uint64_t{1} << 32);
   expect_model_refused(bytes, ErrorCode::kInvalidInput, "larger than the file");
 
-  // The unit has 3 bytes in the heap of strings and says 300.
+  // The unit has 3 bytes in the heap of strings and claims 300.
   std::string reference(12, '\0');
   put(reference, 0, 3, 4), put(reference, 4, whole.find("GCOL"));
   const std::size_t reference_at = whole.find(reference);
@@ -316,14 +316,14 @@ TEST(model_file, sizes_that_do_not_fit_are_named) {
   expect_model_refused(bytes, ErrorCode::kInvalidInput, "not whole");
 }
 
-// A continuation of an object header that leads back to itself, and a tree whose child it is. The
-// zeros at the end make room for deep recursion, were there no limit on it.
+// A continuation of an object header that points to itself, and a tree that is its own child. The
+// zeros at the end allow deep recursion if nothing limits it.
 TEST(model_file, circles_end) {
   const std::filesystem::path folder = RHOLM_TEST_DATA;
   const std::string whole =
       read_all(folder / "degree4-h5py-default.h5") + std::string(std::size_t{1} << 26, '\0');
   std::size_t n_circles = 0;
-  // Type 16, 16 bytes, no flags: then the address and the size of the block.
+  // Type 16, 16 bytes, no flags; then follow the address and the size of the block.
   const std::string continuation("\x10\0\x10\0\0\0\0\0", 8);
   for (std::size_t at = 0; (at = whole.find(continuation, at)) != std::string::npos; ++at) {
     std::string bytes = whole;
@@ -343,7 +343,8 @@ TEST(model_file, circles_end) {
   }
   EXPECT_GE(n_circles, 1u + 2 * 4);
 
-  // The newer object header: signature, message of 16 bytes, filler message, checksum.
+  // The newer object header has a signature, a message of 16 bytes, a filler message and a
+  // checksum.
   std::string bytes = read_all(folder / "degree4.h5");
   const std::size_t at = bytes.find("OCHK");
   const std::size_t end = bytes.find("OHDR", at);

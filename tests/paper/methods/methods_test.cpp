@@ -23,7 +23,7 @@ RadialFunction function_of(Method method) {
   return method == Method::kGauge ? RadialFunction::kGauge : RadialFunction::kRadius;
 }
 
-// c_00 too: relative to itself.
+// Returns the error of c_00 relative to c_00 itself.
 double mean_error(const Coefficients& a, const Coefficients& b) {
   return std::abs(a.c(0, 0) / b.c(0, 0) - 1);
 }
@@ -53,7 +53,7 @@ TEST(analyze, all_methods_agree_with_cubature_on_an_octahedron_with_edges_throug
   }
 }
 
-// The pole inside a face, on an edge, and within 1e-6 of an edge.
+// The pole lies inside a face, on an edge, and within 1e-6 of an edge.
 TEST(analyze, poles_may_lie_anywhere_on_the_mesh) {
   Mesh mesh = box({2, 2, 2});
   expect_all_methods(chart_about(mesh, {0.1, 0.05, 0}), 12, 60);
@@ -62,7 +62,7 @@ TEST(analyze, poles_may_lie_anywhere_on_the_mesh) {
 }
 
 TEST(analyze, a_face_seen_at_a_grazing_angle_keeps_its_digits) {
-  // The centre moved towards a face: d_T / r of it falls to 0.07.
+  // The centre is moved towards a face: d_T / r of the face falls to 0.07.
   const Mesh mesh = box({2, 2, 2}, 2);
   const StarChart chart = chart_about(mesh, {0.9, 0.3, -0.2});
   const Coefficients expected = oracle_coefficients(chart.mesh, 12, RadialFunction::kRadius, 250);
@@ -73,8 +73,8 @@ TEST(analyze, a_face_seen_at_a_grazing_angle_keeps_its_digits) {
   }
 }
 
-// A surface that is not star-shaped: a box whose top has a step, with the wall of the step in a
-// plane through the centre (d_T = 0), and one triangle of the side y = 1 folded back over its
+// A surface that is not star-shaped: a box whose top has a step. The wall of the step lies in a
+// plane through the centre (d_T = 0), and one triangle of the side y = 1 is folded back over its
 // neighbours (d_T < 0). All methods give the alternating sum.
 TEST(analyze, faces_seen_edge_on_or_from_behind_enter_the_alternating_sum) {
   // The top is at z = 1 for x < 0 and at z = 0.5 for x > 0.
@@ -98,7 +98,7 @@ TEST(analyze, faces_seen_edge_on_or_from_behind_enter_the_alternating_sum) {
   EXPECT_THROW(analyze(chart, {.degree = 4, .method = Method::kGauge}), Error);
 }
 
-// Some orders of all 257: their share of the error against the norm of the whole.
+// Compares nine of the 257 orders: their share of the error against the norm of all coefficients.
 TEST_OF_TWO_SIZES(analyze, edge_and_gauge_agree_with_cubature_at_degree_256_on_a_coarse_mesh) {
   const StarChart chart = chart_about(test::random_octahedron(4), {0, 0, 0});
   std::vector orders = {1, 128, 256};
@@ -121,7 +121,7 @@ TEST_OF_TWO_SIZES(analyze, edge_and_gauge_agree_with_cubature_at_degree_256_on_a
   }
 }
 
-// The promise: the error is never above the wish, plus the rounding of c_00.
+// The error never exceeds the requested precision plus the rounding of c_00.
 TEST_OF_TWO_SIZES(analyze, wanted_precision_is_kept_from_1e_3_to_1e_12) {
   const Mesh bumpy = test::rotated(bumpy_sphere(1, 0.25));
   const struct {

@@ -1,4 +1,4 @@
-// The formula as the paper prints it, beside the right one. Between (P29) and (P31) the factor
+// The formula as printed in the paper, beside the correct one. Between (P29) and (P31) the factor
 // kappa = -r sin(theta) / (u . n) is taken out of an integral over phi on which it depends.
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ using Complex = std::complex<double>;
 using test::chart_about;
 
 // (P20) with (P31), (P34), (P35) for m >= 2, integrated over the edges by dtheta (the printed ds is
-// another error, left out here):
+// another error, which is not reproduced here):
 //   F = Pt sin(theta) / (i m) [ r e^{-i m phi} - kappa (n_x I_1 + n_y I_2) ].
 Coefficients printed_formula(const Mesh& mesh, int degree) {
   const GaussRule rule = gauss_legendre(12);
@@ -58,7 +58,7 @@ Coefficients printed_formula(const Mesh& mesh, int degree) {
   return sum;
 }
 
-// l2 error over the orders m >= 2 (at m = 0 and 1 the printed formula is singular).
+// Returns the l2 error over the orders m >= 2: the printed formula is singular for m = 0 and 1.
 double error_of_higher_orders(const Coefficients& a, const Coefficients& b) {
   double difference = 0, size = 0;
   for (int l = 2; l <= b.degree(); ++l) {
@@ -88,7 +88,8 @@ TEST(printed_formula, is_wrong_by_a_part_that_refinement_does_not_reduce) {
   }
 }
 
-// On r = 1 + 0.01 Re Y_42 it returns 1.40 times the coefficient, the corrected field 1.00 times.
+// On r = 1 + 0.01 Re Y_42 the formula returns 1.40 times the coefficient; the corrected field,
+// 1.00.
 TEST(printed_formula, returns_1_40_times_the_coefficient_of_a_single_harmonic) {
   Mesh mesh = icosphere(4);
   Coefficients single(4);
@@ -102,8 +103,8 @@ TEST(printed_formula, returns_1_40_times_the_coefficient_of_a_single_harmonic) {
   EXPECT_NEAR(right.c(4, 2) / 0.01, 1.0, 0.03);
 }
 
-// K_m against quadrature of its definition (M2), in every regime: |C| < rho, C = rho, C > rho, rho
-// near 0, psi beyond half a turn, orders to 512.
+// Compares K_m with quadrature of its definition (M2) in every regime: |C| < rho, C = rho, C > rho,
+// rho near 0, psi beyond half a turn, orders to 512.
 TEST(curl_integrals, agree_with_quadrature_in_every_regime) {
   const GaussRule rule = gauss_legendre(900);
   const struct {

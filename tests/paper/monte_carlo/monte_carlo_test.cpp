@@ -36,7 +36,7 @@ struct Trial {
   StarChart chart;
 };
 
-// Poles on corners, inside faces, on edges and next to them; a face seen edge on.
+// Poles lie on corners, inside faces, on edges and next to them; a face is seen edge-on.
 std::vector<Trial> trials() {
   return {
       {"octahedron", octahedron()},
@@ -51,7 +51,7 @@ Coefficients exact(const StarChart& chart, int degree) {
   return oracle_coefficients(chart.mesh, degree, RadialFunction::kRadius, 80);
 }
 
-// Calls visit(i) for every coefficient that is one: not m > l, not S_l0.
+// Calls visit(i) for every coefficient that exists: not for m > l, nor for S_l0.
 template <typename Visit>
 void for_each_coefficient(const Coefficients& f, const Visit& visit) {
   const std::size_t orders = f.degree() + std::size_t{1}, plane = orders * orders;
@@ -69,7 +69,7 @@ TEST(monte_carlo_edge, the_field_integrates_to_the_coefficients_wherever_it_star
     const StarGeometry geometry = star_geometry(trial.chart);
     const Coefficients expected = exact(trial.chart, degree);
     for (const FieldStart start : {FieldStart::kNormal, FieldStart::kFace}) {
-      // The middle of n equal pieces: where the field jumps, the error is of first order.
+      // Midpoints of n equal intervals: where the field jumps, the error is of first order.
       const int n = 4000;
       Sampler sampler = edge_sampler(geometry, 1, start);
       const FieldEdges field = field_edges(geometry);
@@ -89,8 +89,8 @@ TEST(monte_carlo_edge, the_field_integrates_to_the_coefficients_wherever_it_star
 }
 
 TEST(monte_carlo_triangle, points_are_uniform_on_large_and_on_tiny_triangles) {
-  // Mean of u over a spherical triangle: half the sum of angle times edge normal, over the solid
-  // angle.
+  // The mean of u over a spherical triangle is half the sum of angle times edge normal, divided by
+  // the solid angle.
   for (const double size : {1.0, 1e-3, 1e-6}) {
     const std::array<Vec3, 3> p = {Vec3{1, -0.7 * size, 0.3 * size}, Vec3{1, 1.1 * size, 0},
                                    Vec3{1, 0.2 * size, 0.9 * size}};
@@ -98,7 +98,7 @@ TEST(monte_carlo_triangle, points_are_uniform_on_large_and_on_tiny_triangles) {
     const SphericalTriangle triangle = spherical_triangle(p, omega);
     const Vec3 middle = normalized(p[0] + p[1] + p[2]);
     const int n = 300;
-    Vec3 sum;  // of u - middle: keeps the digits of tiny triangles
+    Vec3 sum;  // sum of u - middle, which keeps the digits of tiny triangles
     for (int i = 0; i < n; ++i) {
       for (int k = 0; k < n; ++k) {
         const Vec3 u = uniform_direction(triangle, (i + 0.5) / n, (k + 0.5) / n);
@@ -108,7 +108,8 @@ TEST(monte_carlo_triangle, points_are_uniform_on_large_and_on_tiny_triangles) {
         sum += u - middle;
       }
     }
-    // The expected mean by the flat triangle, dOmega = d dS / |x|^3, nodes of its own.
+    // The expected mean is integrated over the flat triangle, dOmega = d dS / |x|^3, with other
+    // nodes.
     const GaussRule rule = gauss_legendre(20);
     Vec3 expected;
     double total = 0;
@@ -121,7 +122,7 @@ TEST(monte_carlo_triangle, points_are_uniform_on_large_and_on_tiny_triangles) {
         total += weight;
       }
     }
-    // Midpoints: the error falls with n^-2, and 1 / n^2 = 1.1e-5.
+    // The error of midpoints falls with n^-2, and 1 / n^2 = 1.1e-5.
     EXPECT_LT(norm(sum / (n * n) - expected / total), 1e-4 * size) << size;
   }
 }
@@ -145,7 +146,8 @@ TEST(monte_carlo, the_mean_over_seeds_is_the_coefficient) {
           square[i] += error * error;
         }
       }
-      // 25 coefficients, six shapes, two kinds of places: 4.5 sigma in one of 500 such tests.
+      // 25 coefficients, six shapes and two kinds of places: by chance one of 500 tests exceeds 4.5
+      // sigma.
       for_each_coefficient(expected, [&](std::size_t i) {
         EXPECT_LT(std::abs(sum[i]), 4.5 * std::sqrt(square[i]) + 1e-12)
             << trial.name << ' ' << to_string(places) << ' ' << i;
@@ -154,7 +156,7 @@ TEST(monte_carlo, the_mean_over_seeds_is_the_coefficient) {
   }
 }
 
-// Over seeds, the root mean square of what error_of(run) gives.
+// Returns the root mean square of error_of(run) over seeds.
 template <typename Function>
 double over_seeds(const StarChart& chart, MonteCarloOptions options, int seeds,
                   const Function& error_of) {
@@ -172,7 +174,7 @@ TEST(monte_carlo, the_error_falls_with_the_root_of_the_samples_nightly) {
   const StarChart chart = octahedron();
   const Coefficients expected = exact(chart, degree);
   for (const SamplePlaces places : kPlaces) {
-    // Least squares through 2, 8, 32, 128, 512 samples.
+    // Fits a line by least squares through 2, 8, 32, 128 and 512 samples.
     double slope = 0, steps = 0;
     for (int step = -2; step <= 2; ++step) {
       const double error = over_seeds(
@@ -218,7 +220,7 @@ TEST(monte_carlo, three_deviations_hold_the_error_as_often_as_they_should) {
         const double share = all / (coefficients * seeds);
         EXPECT_GT(share, 0.99) << to_string(places) << ' ' << samples;
         EXPECT_LT(share, 0.999) << to_string(places) << ' ' << samples;
-        // Each by itself: 1000 trials of 0.9973 scatter by 1.6.
+        // Each coefficient by itself: of 1000 trials, 0.9973 hold, with a deviation of 1.6 trials.
         EXPECT_GE(least, 985) << to_string(places) << ' ' << samples;
       }
     }
@@ -236,12 +238,12 @@ TEST(monte_carlo, the_relative_deviation_is_the_size_of_the_error_nightly) {
     });
     const double said = over_seeds(chart, options, 100,
                                    [](const MonteCarlo& run) { return *run.relative_deviation; });
-    // 24 coefficients, correlated, of 100 seeds: rms of about 1000 numbers, 1 / sqrt(2000) = 2 %.
+    // 24 correlated coefficients of 100 seeds: rms of about 1000 values, 1 / sqrt(2000) = 2 %.
     EXPECT_NEAR(said / error, 1, 0.07) << to_string(places);
   }
 }
 
-// Of a degree, over its 2l + 1 coefficients.
+// Returns the error of a degree, over its 2l + 1 coefficients.
 double error_of_degree(const Coefficients& found, const Coefficients& expected, int l) {
   double sum = 0;
   for (int m = 0; m <= l; ++m) {
@@ -264,8 +266,8 @@ TEST(monte_carlo, the_deviation_of_a_degree_is_that_of_all_its_coefficients_nigh
       const double said = over_seeds(chart, options, 200, [&](const MonteCarlo& run) {
         return run.degree_deviation[static_cast<std::size_t>(l)];
       });
-      // 200 sums of at least 3 squares: 1 / sqrt(1200) = 3 %. One coefficient's would be
-      // 1 / sqrt(2l + 1) of it.
+      // 200 sums of at least 3 squares scatter by 1 / sqrt(1200) = 3 %. The error of one
+      // coefficient would be 1 / sqrt(2l + 1) of the error of the degree.
       EXPECT_NEAR(said / error, 1, 0.12) << to_string(places) << ' ' << l;
     }
   }
@@ -286,7 +288,7 @@ TEST(monte_carlo, a_relative_deviation_of_few_points_is_not_given) {
   }
 }
 
-// Beyond degree 1 a box has more than many samples scatter.
+// Above degree 1 a box has a larger rest than the scatter of many samples.
 TEST(monte_carlo, the_truncation_error_is_none_or_within_its_doubt) {
   const StarChart chart = chart_about(box({2, 1.6, 1.2}), {});
   const Analysis expected =
@@ -320,8 +322,8 @@ TEST(monte_carlo, samples_are_added_until_the_wanted_deviation_is_reached) {
       EXPECT_TRUE(run.reached);
       ASSERT_TRUE(run.relative_deviation);
       EXPECT_LE(*run.relative_deviation, wanted);
-      // Not far beyond: 0.6 of the deviation is three times the work. What is above 1/2 needs more
-      // points than that before it means something.
+      // The result is not far below the wanted deviation: 0.6 of it means three times the work.
+      // Deviations above 1/2 need more points before they are meaningful.
       EXPECT_GT(*run.relative_deviation, wanted < 0.5 ? 0.6 * wanted : 0);
       EXPECT_LE(run.rounds, 6);
     }
@@ -371,8 +373,8 @@ TEST(monte_carlo, lengths_scale_and_an_odd_number_of_samples_is_taken_as_the_nex
   }
 }
 
-// A wall in a plane through the centre (d_T = 0) and faces that turn their back: the alternating
-// sum, as the other methods have it.
+// A wall in a plane through the centre (d_T = 0) and faces seen from behind give the same
+// alternating sum as with the other methods.
 TEST(monte_carlo, faces_seen_edge_on_or_from_behind_enter_the_alternating_sum) {
   const Mesh mesh = test::l_prism(1.0);
   const StarChart chart = make_star_chart(
@@ -442,7 +444,7 @@ TEST(monte_carlo, refuses_options_out_of_range) {
   EXPECT_EQ(parse_name<SamplePlaces>("triangle"), SamplePlaces::kTriangles);
 }
 
-// Near the poles s^m is far below the smallest double: 0.4^1000 = 1e-398.
+// Near the poles s^m underflows: 0.4^1000 = 1e-398.
 TEST(legendre_pair_moments, are_those_of_the_rows_at_every_colatitude) {
   const std::size_t n = kLegendreLanes;
   for (const auto& [m, degree] : {std::pair{0, 9}, {1, 40}, {1000, 2600}}) {
@@ -483,7 +485,7 @@ TEST(legendre_pair_moments, are_those_of_the_rows_at_every_colatitude) {
                           {found[3].data(), found[4].data(), found[5].data()});
     for (std::size_t i = 0; i < 6; ++i) {
       for (std::size_t row = 0; row < rows; ++row) {
-        // Values up to a few, 32 of them, and rounding of the recurrence.
+        // The bound allows for 32 values of moderate size, and rounding of the recurrence.
         EXPECT_NEAR(found[i][row], expected[i][row], 1e-9 * (1 + std::abs(expected[i][row])));
       }
     }

@@ -1,4 +1,5 @@
-// Coefficients of patches by integrals, against closed forms and the transform of whole meshes.
+// Coefficients of patches by integrals, compared with closed forms and the transform of whole
+// meshes.
 #include "paper/patches/cap_integral.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ CapFrame unit_frame_at(const Vec3& center, double radius = 1) {
   return {.center = center, .x = {1, 0, 0}, .y = {0, 1, 0}, .z = {0, 0, 1}, .radius = radius};
 }
 
-// The part of the unit sphere within `half_angle` of the z axis: rings of triangles.
+// Returns the part of the unit sphere within `half_angle` of the z axis, as rings of triangles.
 Mesh cap_mesh(double half_angle, int rings, int n_phi) {
   Mesh mesh;
   mesh.vertices = {{0, 0, 1}};
@@ -50,7 +51,7 @@ Mesh cap_mesh(double half_angle, int rings, int n_phi) {
   return mesh;
 }
 
-// C_l0 of the function that is 1 within `half_angle` of the z axis: the integral of P_l is
+// Returns C_l0 of the function that is 1 within `half_angle` of the z axis: the integral of P_l is
 // (P_{l-1} - P_{l+1}) / (2l+1).
 double cap_indicator(int l, double half_angle) {
   const double x = std::cos(half_angle);
@@ -61,7 +62,7 @@ double cap_indicator(int l, double half_angle) {
   return 2 * kPi * std::sqrt((2 * l + 1) / (4 * kPi)) * integral;
 }
 
-// The largest difference from the indicator of a cap of that angle, all coefficients.
+// Returns the largest difference of a coefficient from the indicator of a cap of that angle.
 double indicator_error(const Coefficients& made, double half_angle) {
   double largest = 0;
   for (int l = 0; l <= made.degree(); ++l) {
@@ -108,8 +109,8 @@ TEST(CapIntegral, patches_in_one_frame_add_up_to_the_whole) {
   }
 }
 
-// Chords of angle h lie inside the sphere by up to h^2/8, and their ends inside the circle
-// likewise.
+// Chords of angle h lie inside the sphere by up to h^2/8, and chords of the border lie inside the
+// circle by the same amount.
 TEST(CapIntegral, a_patch_of_a_sphere_tends_to_the_indicator_of_its_cap) {
   double last = 0;
   for (const int n : {32, 64, 128}) {
@@ -136,9 +137,9 @@ TEST(CapIntegral, on_the_dilated_sphere_it_is_the_indicator_of_the_opened_cap) {
   EXPECT_NEAR(made.solid_angle, 2 * kPi * (1 - std::cos(0.3)), 1e-3);
 }
 
-// Degree 512 on triangles that are long against its waves: r of a plane at height 1 over the square
-// |x|, |y| < 1 is 1/cos, and the cap of the whole hemisphere's part of it has no closed form; the
-// same square in 2 and in 800 triangles is one function.
+// Degree 512 on triangles that are long compared with its waves. A plane at height 1 over the
+// square with sides |x| < 1, |y| < 1 has r = 1/cos; there is no closed form of its coefficients. A
+// square in 2 triangles and the same square in 800 are the same function.
 TEST(CapIntegral, the_triangulation_of_a_flat_patch_does_not_matter) {
   const auto square = [](int n) {
     Mesh mesh;
@@ -164,7 +165,7 @@ TEST(CapIntegral, the_triangulation_of_a_flat_patch_does_not_matter) {
   EXPECT_NEAR(a.solid_angle, 4 * kPi / 6, 1e-13);  // a face of a cube
 }
 
-// r - R_0 on the patch is that of the zero extension less R_0 times the patch's indicator, whose
+// r - R_0 on the patch equals the zero extension minus R_0 times the indicator of the patch, whose
 // integral is its solid angle.
 TEST(CapIntegral, the_sphere_as_extension_takes_its_part_off_the_mean) {
   const Mesh mesh = cap_mesh(0.7, 6, 20);
@@ -185,8 +186,8 @@ TEST(CapIntegral, a_patch_of_its_own_sphere_vanishes_on_the_sphere) {
   for (int l = 1; l <= 16; ++l) EXPECT_NEAR(made.coefficients.c(l, 0), 0, 1e-3);
 }
 
-// The paper's way from points to errors. Inside, the series of the zero extension converges; the
-// points at the border of the triangulation see half the radius.
+// The paper's sequence of steps from points to errors. Inside, the series of the zero extension
+// converges; at points on the border of the triangulation it is half the radius.
 TEST(CapIntegral, points_of_a_sphere_go_through_partition_triangulation_and_integral) {
   const PointCloud cloud = test::sphere_points(4000);
   const KdPartition made = kd_partition(cloud.points, cloud.normals, {.min_cosine = 0.6});
@@ -210,7 +211,7 @@ TEST(CapIntegral, points_of_a_sphere_go_through_partition_triangulation_and_inte
     for (const double e : errors.along_rays) within += std::abs(e) < 0.1;
     EXPECT_GT(2 * within, points.size());
   }
-  // What lies between patches belongs to none.
+  // Gaps between patches belong to no patch.
   EXPECT_LT(solid_angle, 4 * kPi);
   EXPECT_GT(solid_angle, 0.8 * 4 * kPi);
 }
@@ -220,7 +221,7 @@ TEST(CapErrors, are_those_of_the_paper) {
   frame.dilation = 3;
   Coefficients constant(4);
   constant.c(0, 0) = std::sqrt(4 * kPi) * 2;
-  const std::vector<Vec3> points = {{1, 2, 6}, {1, 4, 3}, {-3, 2, 3}};  // at 3, 2 and 4
+  const std::vector<Vec3> points = {{1, 2, 6}, {1, 4, 3}, {-3, 2, 3}};  // distances 3, 2 and 4
   const CapErrors errors = cap_errors(frame, constant, points);
   EXPECT_NEAR(errors.along_rays[0], 1, 1e-14);
   EXPECT_NEAR(errors.sum, std::sqrt(5), 1e-14);
@@ -248,7 +249,7 @@ TEST(CapIntegral, refuses_what_is_not_seen_from_inside) {
   };
   EXPECT_GT(run({0, 1, 2}, frame).solid_angle, 0);
   EXPECT_THROW(run({0, 2, 1}, frame), Error);  // inside out
-  EXPECT_THROW(run({0, 1, 9}, frame), Error);  // no such point
+  EXPECT_THROW(run({0, 1, 9}, frame), Error);  // a point that does not exist
   EXPECT_THROW(run({0, 1, 4}, frame), Error);  // the centre is a corner
   EXPECT_THROW(run({0, 1, 2}, frame, -1), Error);
   EXPECT_THROW(run({0, 1, 2}, frame, kMaxIntegralDegree + 1), Error);

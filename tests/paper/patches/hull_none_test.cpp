@@ -1,4 +1,4 @@
-// Where rholm is built without Qhull.
+// Tests for builds of rholm without Qhull.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// Patches that do not fold, and their spheres.
+// Star-shaped patches and their spheres.
 #include "paper/patches/kd_partition.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ PointCloud torus_points(std::size_t n) {
   return sample_surface(torus(2, 0.7, 64, 32), {.points = n});
 }
 
-// Points within `half_angle` of the z axis, on the sphere about `center`.
+// Returns points within `half_angle` of the z axis, on the sphere about `center`.
 PointCloud cap_points(std::size_t n, double half_angle, const Vec3& center, double radius) {
   PointCloud cloud;
   for (std::size_t i = 0; i < n; ++i) {
@@ -48,8 +48,8 @@ TEST(SphereFit, points_of_a_sphere_give_it_back) {
 }
 
 // With heights h over a plane of symmetric points, c_z = sum h q^2 / 2 sum h^2 in centred
-// coordinates: two rings of four points, radii 1 and 2, at h = 1 and -1: sum h (q^2 - mean) is
-// 4 (1 + 1) - 4 (4 + 1) = -12, so c_z = -12 / (2 * 8) = -3/4, and r^2 = 9/16 + 7/2.
+// coordinates. Two rings of four points have the radii 1 and 2 at h = 1 and -1: sum h (q^2 - mean)
+// is 4 (1 + 1) - 4 (4 + 1) = -12, so c_z = -12 / (2 * 8) = -3/4, and r^2 = 9/16 + 7/2.
 TEST(SphereFit, is_the_least_squares_of_the_papers_equations) {
   std::vector<Vec3> points;
   for (const double h : {1.0, -1.0}) {
@@ -131,8 +131,8 @@ TEST(KdPartition, a_convex_cap_within_the_cone_stays_whole) {
   EXPECT_NEAR(norm(made.patches[0].seen.sphere.center - Vec3{1, 2, 3}), 0, 1e-10);
 }
 
-// A roof whose sides fall by 70 degrees: its normals lie within a cone of 70 degrees, but a centre
-// that sees the whole roof sees its sides nearly edge on.
+// A roof whose sides slope down by 70 degrees. Its normals lie within a cone of 70 degrees, but a
+// centre that sees the whole roof sees its sides nearly edge-on.
 TEST(KdPartition, a_patch_within_the_cone_is_split_where_it_is_not_star_shaped) {
   const double slope = 70 * std::numbers::pi / 180;
   PointCloud roof;
@@ -154,7 +154,7 @@ TEST(KdPartition, a_patch_within_the_cone_is_split_where_it_is_not_star_shaped) 
   }
 }
 
-// Two sheets back to back cannot be parted: the halves mix them for ever.
+// Two coincident sheets of opposite normals cannot be separated: every half contains both.
 TEST(KdPartition, folds_finer_than_the_points_are_reported) {
   PointCloud cloud;
   for (std::uint64_t i = 0; i < 400; ++i) {

@@ -25,7 +25,7 @@ std::vector<Triangle> canonical(std::vector<Triangle> triangles) {
   return triangles;
 }
 
-// Van Oosterom and Strackee.
+// Returns the sum of solid angles (Van Oosterom and Strackee).
 double solid_angle(const std::vector<Vec3>& u, const std::vector<Triangle>& triangles) {
   double sum = 0;
   for (const auto& [a, b, c] : triangles) {
@@ -35,7 +35,7 @@ double solid_angle(const std::vector<Vec3>& u, const std::vector<Triangle>& tria
   return sum;
 }
 
-// The octant x, y, z > 0: random directions, its corners, and points of its sides.
+// The octant x, y, z > 0: random directions, its corners, and points on its sides.
 std::vector<Vec3> octant(std::size_t n) {
   std::vector<Vec3> points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (int k = 1; k < 8; ++k) {
@@ -49,7 +49,7 @@ std::vector<Vec3> octant(std::size_t n) {
   return points;
 }
 
-// Its triangles are nearly equilateral: each one's circle is empty.
+// The triangles are nearly equilateral, so that the circle of each triangle is empty.
 TEST(SphereDelaunay, directions_of_an_icosphere_give_its_triangles) {
   for (const int subdivisions : {0, 1, 3}) {
     const Mesh mesh = icosphere(subdivisions);
@@ -62,7 +62,7 @@ TEST(SphereDelaunay, no_direction_lies_within_the_circle_of_a_triangle) {
   u.reserve(300);
   for (std::uint64_t i = 0; i < 300; ++i) u.push_back(test::random_direction(1, i));
   const std::vector<Triangle> triangles = sphere_delaunay(u, kHull);
-  ASSERT_EQ(triangles.size(), 2 * u.size() - 4);  // Euler
+  ASSERT_EQ(triangles.size(), 2 * u.size() - 4);  // Euler's formula
   for (const auto& [a, b, c] : triangles) {
     const Vec3 normal = normalized(cross(u[b] - u[a], u[c] - u[a]));
     for (const Vec3& other : u) ASSERT_LE(dot(normal, other - u[a]), 1e-14);
@@ -80,26 +80,26 @@ TEST(SphereDelaunay, the_solid_angle_is_that_of_the_convex_patch) {
   }
 }
 
-// A disc of a hexagonal grid with one point far off: the point's triangles are long.
+// A disc of a hexagonal grid with one distant point, whose triangles are long.
 TEST(SphereDelaunay, long_triangles_go_at_the_border_but_not_inside) {
   const double step = 0.03;
   std::vector<Vec3> grid;
   for (int i = -10; i <= 10; ++i) {
     for (int k = -10; k <= 10; ++k) {
       const double x = step * (i + 0.5 * k), y = step * k * std::sqrt(0.75);
-      // The hole in the middle is 6 steps wide; its rim is not on one circle.
+      // The hole in the middle is 6 steps wide; its rim does not lie on one circle.
       const double r = std::hypot(x, y) / step;
       const double shift = r < 5 ? 0.1 * step * std::sin(7 * i + 11 * k) : 0;
       if (r < 9.5 && r > 2.9) grid.push_back({x + shift, y - shift, 1});
     }
   }
   const std::vector<Triangle> whole = sphere_delaunay(grid, kHull);
-  // The convex hull of such a disc has no border triangle of three steps: nothing goes.
+  // No border triangle of the disc's convex hull is three steps wide: none is removed.
   EXPECT_EQ(sphere_delaunay(grid), whole);
   std::vector<Vec3> with_far = grid;
   with_far.push_back({1, 0, 1});
   EXPECT_GT(sphere_delaunay(with_far, kHull).size(), whole.size());
-  // Its circles may have taken slivers of the disc's own border.
+  // Circles of the distant point may have removed slivers at the border of the disc.
   const std::vector<Triangle> kept = sphere_delaunay(with_far);
   EXPECT_TRUE(std::includes(whole.begin(), whole.end(), kept.begin(), kept.end()));
   EXPECT_GT(kept.size() + 6, whole.size());
@@ -117,7 +117,7 @@ TEST(SphereDelaunay, directions_without_triangles_have_none) {
   EXPECT_EQ(sphere_delaunay(three), (std::vector<Triangle>{{0, 1, 2}}));
 }
 
-// The circle of a hemisphere closes on itself: its inner side is flat, and goes.
+// The rim of a hemisphere is a closed circle: its inner side is flat and is removed.
 TEST(SphereDelaunay, a_hemisphere_is_covered_once) {
   std::vector<Vec3> points = {{0, 0, 1}};
   for (int k = 0; k < 16; ++k) {

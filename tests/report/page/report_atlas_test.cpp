@@ -1,4 +1,4 @@
-// The report of an atlas. Oracle: a unit sphere made of six caps about its centre.
+// The report of an atlas. The oracle is a unit sphere made of six caps about its centre.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,7 +42,7 @@ TEST(report_atlas, heights_are_those_of_orthonormal_coefficients) {
   AtlasModel model = six_caps_of_a_sphere();
   for (const Cap& cap : model.atlas.caps) {
     model.atlas.coefficients[cap.first + 1] = 0.3;  // degree 1
-    model.atlas.coefficients[cap.first + 4] = 0.4;  // degree 2, two of them
+    model.atlas.coefficients[cap.first + 4] = 0.4;  // degree 2, with two coefficients
     model.atlas.coefficients[cap.first + 8] = 0.3;
   }
   const std::vector<double> heights = report::cap_heights_by_degree(model.atlas);
@@ -73,7 +73,7 @@ TEST(report_atlas, is_one_page_that_needs_nothing_else) {
   options.commands = {{"This page", "rholm report a.h5 -o a.html"}};
   const std::string html = report_html(model, &shape, options);
   expect_decent(html);
-  EXPECT_EQ(count(html, "<img "), 7U);  // degrees 1 and 2, the shape, two of caps, two maps
+  EXPECT_EQ(count(html, "<img "), 7U);  // degrees 1 and 2, the shape, two caps, two maps
   EXPECT_EQ(count(html, "<table"), 2U);
   EXPECT_EQ(count(html, "4.26&nbsp;kB"), 1U);
   EXPECT_EQ(count(html, "rholm report a.h5 -o a.html"), 1U);

@@ -1,4 +1,4 @@
-// What holds for every page of a report.
+// Checks that every page of a report must pass.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ inline std::size_t count(const std::string& text, const std::string& part) {
   return n;
 }
 
-// The tags of a page in their order, without angle brackets.
+// Returns the tags of a page in order, without angle brackets.
 inline std::vector<std::string> tags_of(const std::string& html) {
   std::vector<std::string> tags;
   for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
@@ -26,7 +26,7 @@ inline std::vector<std::string> tags_of(const std::string& html) {
   return tags;
 }
 
-// Every element that needs it is closed in its turn.
+// Returns true if every element that needs an end tag is closed in the right order.
 inline bool is_balanced(const std::string& html) {
   static const std::set<std::string> kVoid = {"!DOCTYPE", "meta", "img", "br"};
   std::vector<std::string> open;
@@ -43,7 +43,7 @@ inline bool is_balanced(const std::string& html) {
   return open.empty();
 }
 
-// What holds for every page.
+// Checks a page for the properties of all pages.
 inline void expect_decent(const std::string& html) {
   EXPECT_TRUE(is_balanced(html));
   EXPECT_EQ(count(html, "<html lang=\"en\">"), 1u);

@@ -68,7 +68,7 @@ TEST(number, is_printed_as_in_books) {
   EXPECT_EQ(html::number(1.5e-7, 2), "1.5" + times + "10<sup>" + minus + "7</sup>");
   EXPECT_EQ(html::number(-3e200, 1), minus + "3" + times + "10<sup>200</sup>");
   EXPECT_EQ(html::number(std::nan("")), "not finite");
-  EXPECT_EQ(html::decimal(-1e-9, 3), "0.000");  // no minus before nothing
+  EXPECT_EQ(html::decimal(-1e-9, 3), "0.000");  // zero has no minus sign
   EXPECT_EQ(html::count(4225), "4225");
   EXPECT_EQ(html::count(33800), "33" + thin + "800");
 }
@@ -80,8 +80,8 @@ TEST(degree_ladder, doubles_up_to_the_degree) {
   EXPECT_EQ(report::degree_ladder(9), (std::vector<int>{1, 2, 4, 8, 9}));
 }
 
-// Coefficients of one per degree: C_l0 = 3 and a norm with 5 more. Cut off at l the rest is
-// 9 (L - l) + 5.
+// There is one coefficient per degree: C_l0 = 3. The norm has 5 more. The remainder after degree l
+// is 9 (L - l) + 5.
 TEST(report_data, rms_of_every_degree_is_that_of_parseval) {
   const int degree = 6;
   Expansion expansion;
@@ -99,8 +99,8 @@ TEST(report_data, rms_of_every_degree_is_that_of_parseval) {
   }
 }
 
-// A norm that exceeds the coefficients by less than their precision says how small the rest is, not
-// what it is; what was measured does.
+// A norm that exceeds the coefficients by less than their precision bounds the remainder, but does
+// not determine it. A measured error does.
 TEST(report_data, a_difference_within_the_precision_of_coefficients_is_not_called_exact) {
   Expansion expansion;
   expansion.coefficients.c(0, 0) = 1;
@@ -115,7 +115,8 @@ TEST(report_data, a_difference_within_the_precision_of_coefficients_is_not_calle
   EXPECT_EQ(*data.rows.back().rms, 1e-5);
 }
 
-// Rests from a part of their doubt to a hundred times it: the page knows what rms_beyond() knows.
+// The remainder varies from a part of its uncertainty to a hundred times it. The page must state
+// the same as rms_beyond().
 TEST(report_data, knows_of_every_degree_what_rms_beyond_knows) {
   Expansion expansion;
   expansion.coefficients = Coefficients(2);
@@ -142,8 +143,8 @@ TEST(report_data, knows_of_every_degree_what_rms_beyond_knows) {
   EXPECT_EQ(exact, 1);
 }
 
-// The unit sphere against the regular octahedron in it: the largest error is that of the middle of
-// a face, 1 - 1 / sqrt 3, which a point near it misses by little.
+// The unit sphere is compared with the regular octahedron in it. The largest error is at the middle
+// of a face, 1 - 1 / sqrt 3, and a point near it has nearly this error.
 TEST(report_data, largest_error_of_a_sphere_around_an_octahedron_is_at_the_faces) {
   Mesh octahedron = test::random_octahedron(1);
   for (Vec3& v : octahedron.vertices) v = normalized(v);
@@ -184,15 +185,15 @@ TEST(may_be_of, a_model_knows_its_own_shape_from_others) {
     EXPECT_TRUE(may_be_of(shape));
     EXPECT_FALSE(may_be_of(larger));
     EXPECT_FALSE(may_be_of(torus(1, 0.3, 24, 12)));
-    // A model of the gauge keeps no norm of the radius.
+    // A model of the gauge does not keep the norm of the radius.
     if (method == Method::kEdge) {
       EXPECT_FALSE(may_be_of(moved));
     }
   }
 }
 
-// Two panels of 2 x 60 pixels, grey in rows 20 ... 29 of the second: both keep these and 2 more on
-// either side.
+// Two panels of 2 x 60 pixels, grey in rows 20 ... 29 of the second: both keep these rows and 2
+// more on either side.
 TEST(cut_apart, panels_keep_their_columns_and_common_rows) {
   Image image{.width = 4, .height = 60, .rgb = std::vector<std::uint8_t>(4 * 60 * 3, 255)};
   for (std::size_t y = 20; y < 30; ++y) {
@@ -211,7 +212,7 @@ TEST(cut_apart, panels_keep_their_columns_and_common_rows) {
   }
 }
 
-// Slope -4 over two decades of x are eight of y: a line from corner to corner of the axes.
+// The slope -4 over two decades of x spans eight decades of y: a line from corner to corner.
 TEST(log_log_plot, a_power_law_is_a_straight_line) {
   report::Plot plot{
       .id = "p", .title = "t", .description = "d", .y_label = "y", .x_max = 100, .series = {}};
@@ -289,7 +290,7 @@ TEST(report_html, coefficients_alone_have_pictures_and_a_spectrum) {
   }
 }
 
-// q = 1 + 3 cos theta has no surface, q cut off at degree 0 has one.
+// q = 1 + 3 cos theta has no surface; its degree 0 alone has one.
 TEST(report_html, a_gauge_without_a_surface_is_refused_or_left_out) {
   Expansion expansion;
   expansion.function = RadialFunction::kGauge;
@@ -302,8 +303,8 @@ TEST(report_html, a_gauge_without_a_surface_is_refused_or_left_out) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kInvalidInput);
   }
-  // q = 4 + 4.5 x + 3 x^2 - 1 >= 1.3 with x = cos theta; degree 1, which is drawn beside degree 4,
-  // has 4 + 4.5 x.
+  // q = 4 + 4.5 x + 3 x^2 - 1 >= 1.3 with x = cos theta. The page also draws degree 1, which has 4
+  // + 4.5 x.
   expansion.coefficients.c(1, 0) *= 1.5;
   expansion.coefficients.c(0, 0) *= 4;
   expansion.coefficients.c(2, 0) = 2 * std::sqrt(4 * std::numbers::pi / 5);

@@ -16,15 +16,15 @@ namespace {
 
 constexpr Color kWhite = {1, 1, 1};
 
-// Ink on the canvas, in pixels.
+// Returns the amount of ink on the canvas, in pixels.
 double ink(const Canvas& canvas) {
   double sum = 0;
   for (const Color& c : canvas.pixels) sum += 1 - c.r;
   return sum;
 }
 
-// A round-ended line covers length * thickness + pi thickness^2 / 4; each pixel's cover is that of
-// a straight edge, which errs at the ends only: by less than a pixel.
+// A line with round ends covers length * thickness + pi thickness^2 / 4. The cover of each pixel is
+// computed for a straight edge, which is inexact at the ends only: by less than a pixel.
 TEST(draw_strokes, covers_the_area_of_the_line) {
   for (const double angle : {0.0, 0.3, 0.785}) {
     Canvas canvas = make_canvas(200, 200, kWhite);
@@ -77,7 +77,7 @@ TEST(font, capitals_and_digits_are_one_high) {
 TEST(font, takes_any_bytes) {
   EXPECT_EQ(characters("a\xC3\xA4z").size(), 3u);    // a, a-umlaut, z
   EXPECT_EQ(characters("\xE2\x82\xAC").size(), 1u);  // euro sign
-  EXPECT_EQ(characters("\xFF\xC3").size(), 2u);      // not UTF-8: byte by byte
+  EXPECT_EQ(characters("\xFF\xC3").size(), 2u);      // invalid UTF-8 is taken byte by byte
   EXPECT_EQ(characters("\xE2\x82").size(), 2u);      // cut off
   EXPECT_EQ(characters(std::string("\0x", 2)).size(), 2u);
   EXPECT_FALSE(glyph_strokes(characters("\xC3\xA4")[0]).empty());

@@ -13,7 +13,7 @@ struct Lab {
   double l, a, b;
 };
 
-// The way back, linear sRGB to Oklab, with the other pair of the source's matrices.
+// Converts linear sRGB to Oklab, with the other pair of the source's matrices.
 Lab to_oklab(const Color& c) {
   const double l = std::cbrt(0.4122214708 * c.r + 0.5363325363 * c.g + 0.0514459929 * c.b);
   const double m = std::cbrt(0.2119034982 * c.r + 0.6806995451 * c.g + 0.1073969566 * c.b);
@@ -34,7 +34,7 @@ bool displayable(const Color& c) {
   return true;
 }
 
-// The matrices are printed with ten digits, colours are float: 1e-6.
+// The bound is 1e-6: matrices are published with ten digits, and colours have single precision.
 TEST(from_oklch, is_the_inverse_of_the_published_matrices) {
   for (const double hue : {0.0, 75.0, 200.0, 310.0}) {
     const Lab lab = to_oklab(from_oklch(0.7, 0.1, hue));
@@ -53,7 +53,7 @@ TEST(color_scale, is_displayable_uniform_and_monotonic_in_lightness) {
     for (int k = 0; k < n; ++k) {
       ASSERT_TRUE(displayable(at(k)) && displayable(at(k + 1))) << k;
       const Lab here = to_oklab(at(k)), next = to_oklab(at(k + 1));
-      // Chords of an arc against each other; blue and red end equally far from the middle.
+      // The steps are chords of an arc; blue and red end equally far from the middle.
       ASSERT_NEAR(difference(here, next), step, 0.01 * step) << k;
       if (!scale.diverging() || k < n / 2) {
         ASSERT_GT(next.l, here.l);
@@ -64,8 +64,8 @@ TEST(color_scale, is_displayable_uniform_and_monotonic_in_lightness) {
   }
 }
 
-// The maps are drawn from tables. At twenty places of each step a component is within 2e-5 of the
-// map itself: of the ends and the hues that color.cpp gives, at every place.
+// Maps are drawn from tables. At twenty places of each step a component is within 2e-5 of the exact
+// map, computed at every place from the ends and hues that color.cpp gives.
 TEST(color_scale, is_the_map_between_the_places_of_its_table) {
   for (int k = 0; k <= 5120; ++k) {
     const double t = k / 5120.0;
@@ -94,8 +94,8 @@ TEST(color_scale, shows_values_outside_its_range_as_its_ends) {
   EXPECT_TRUE(displayable(ColorScale({3, 3}).color(3)));
 }
 
-// IEC 61966-2-1: 0.5 in linear light is 188 (0.7354 * 255), 0.0031308 is the end of the straight
-// part: 12.92 * 0.0031308 * 255 = 10.3.
+// IEC 61966-2-1: 0.5 in linear light is 188 (0.7354 * 255). The straight part ends at 0.0031308:
+// 12.92 * 0.0031308 * 255 = 10.3.
 TEST(to_srgb_byte, follows_the_standard_and_clips) {
   EXPECT_EQ(to_srgb_byte(0), 0);
   EXPECT_EQ(to_srgb_byte(1), 255);
@@ -105,7 +105,7 @@ TEST(to_srgb_byte, follows_the_standard_and_clips) {
   EXPECT_EQ(to_srgb_byte(7), 255);
 }
 
-// Rounding of floats, 1e-4 of a byte, may decide ties. Steps in proportion: dark ones are as many.
+// Rounding of floats, 1e-4 of a byte, may decide ties. Steps are proportional, to test dark values.
 TEST(to_srgb_byte, rounds_the_encoded_value_to_the_nearest) {
   for (double x = 1e-6; x < 1; x *= 1.0001) {
     const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;

@@ -15,8 +15,9 @@
 namespace rholm {
 namespace {
 
-// Random cells, some that see nothing: places a few tenths of a step apart, normals that differ by
-// more and less than a crease. Rows of 50 cells, 14 of them, and NaN after the last.
+// Random cells, some of which see nothing. Positions differ by a few tenths of a step; normals
+// differ by more or less than a crease. There are 14 rows of 50 cells, with NaN after the last
+// cell.
 class RandomCells {
  public:
   static constexpr int kWidth = 50, kRows = 14;
@@ -81,7 +82,7 @@ TEST(sum_windows, is_the_sum_over_each_window_by_likeness) {
   });
 }
 
-// The definition, cell by cell.
+// Evaluates the definition, cell by cell.
 bool is_edge(const RandomCells& cells, int x, int y, float step) {
   const bool seen = cells.of(kSide, x, y) != 0;
   for (int v = y - 1; v <= y + 1; ++v) {

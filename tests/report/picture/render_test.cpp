@@ -22,7 +22,7 @@
 namespace rholm {
 namespace {
 
-// Small and plain, to be fast; front view along -y... x to the right, z up.
+// Small pictures without effects, to be fast: front view with x to the right and z up.
 RenderOptions front() {
   RenderOptions options;
   options.width = 96;
@@ -105,7 +105,7 @@ TEST(render, shows_faces_from_behind_in_another_colour) {
   EXPECT_GT(r1, 1.5 * b1);
 }
 
-// In the corner of two plates at a right angle half of the sky of each is taken away.
+// In the corner between two plates at a right angle, each plate sees half of its sky.
 TEST(render, darkens_corners_by_occlusion) {
   Mesh mesh;  // floor z = 0 and wall y = 1, seen from above and the front
   mesh.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {1, 1, 2}, {-1, 1, 2}};
@@ -128,7 +128,7 @@ TEST(render, gives_the_same_bits_for_any_number_of_threads) {
   }
 }
 
-// Pixels in more than one strip.
+// The picture has pixels in more than one strip.
 TEST(render, of_many_pixels_gives_the_same_bits_for_any_number_of_threads) {
   const Mesh mesh = bumpy_sphere(3, 0.3);
   RenderOptions options = front();
@@ -140,7 +140,7 @@ TEST(render, of_many_pixels_gives_the_same_bits_for_any_number_of_threads) {
   }
 }
 
-// What a strip has of the one above is what it would have found itself.
+// A strip takes from the strip above exactly the values that it would compute itself.
 TEST(draw_shared, gives_the_same_bits_for_any_strips) {
   const RenderOptions options = front();
   const Subject subject = {.mesh = bumpy_sphere(3, 0.3), .normals = {}, .radius = 1.3};
@@ -156,11 +156,11 @@ TEST(draw_shared, gives_the_same_bits_for_any_strips) {
     return to_image(canvas).rgb;
   };
   const std::vector<std::uint8_t> at_once = drawn(1 << 20);
-  EXPECT_EQ(drawn(1), at_once);  // four of 64 rows and a shorter one
+  EXPECT_EQ(drawn(1), at_once);  // four strips of 64 rows and a shorter one
   EXPECT_EQ(drawn(100 * 300), at_once);
 }
 
-// No part of the sky is hidden from a convex body's surface, nor the key from what faces it.
+// On a convex body no part of the sky is hidden, nor is the key light from sides that face it.
 TEST(render, of_a_convex_body_has_no_shadows) {
   const Mesh mesh = icosphere(2);
   for (const bool fine : {false, true}) {
@@ -172,8 +172,8 @@ TEST(render, of_a_convex_body_has_no_shadows) {
   }
 }
 
-// Of a plate under a free sky: all of the sky and of the key, of which the mean over the samples of
-// its disc is known.
+// A plate under a free sky gets the whole light of the sky and the key light. The mean of the key
+// light over the samples of its disc is known.
 TEST(render, of_a_plate_has_the_light_of_its_direction) {
   Mesh plate;
   plate.vertices = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
@@ -191,7 +191,7 @@ TEST(render, of_a_plate_has_the_light_of_its_direction) {
     for (const LightSamples::Polar& point : many.key) {
       key += std::max(0.0, dot(key_direction(lamps, point, {}), place.normal)) / 4096;
     }
-    EXPECT_NEAR(light.key, 0.70 * key, 1e-4);  // 0.70: of the key in shade.cpp
+    EXPECT_NEAR(light.key, 0.70 * key, 1e-4);  // 0.70 is the strength of the key light in shade.cpp
     const Color color = light.lit(1, 1);
     const auto [r, g, b] = pixel(render_one(plate, options), 48, 40);
     EXPECT_EQ(r, to_srgb_byte(color.r));
@@ -200,7 +200,7 @@ TEST(render, of_a_plate_has_the_light_of_its_direction) {
   }
 }
 
-// The rms difference of a picture from that of all rays for all samples, in levels of 255.
+// Returns the rms difference from the picture with all rays for all samples, in levels of 255.
 double off_from_fine(const Mesh& mesh, RenderOptions options) {
   options.samples = 4;
   const Image shared = render_one(mesh, options);
@@ -215,14 +215,14 @@ double off_from_fine(const Mesh& mesh, RenderOptions options) {
   return std::sqrt(sum / static_cast<double>(fine.rgb.size()));
 }
 
-// Where shadows are, a few levels of 255; scripts/render-figures measures more.
+// At shadows the difference is a few levels of 255; scripts/render-figures measures more shapes.
 TEST(render, shares_light_without_changing_it) {
   EXPECT_LT(off_from_fine(bumpy_sphere(4, 0.3), front()), 2);
 }
 
-// Slats under a roof whose width makes a unit a pixel, no two neighbours at one depth, each within
-// a column between the cells that look for shadows first. Measured: 5.1 if all cells looked, 7.0 if
-// those that no other answers for did not ask themselves.
+// Slats under a roof whose width makes a unit one pixel. No two neighbours have the same depth, and
+// each slat lies between the cells that look for shadows first. Measured: 5.1 if all cells looked,
+// 7.0 if cells without a suitable neighbour did not look themselves.
 TEST(render, sees_shadows_on_what_is_narrower_than_two_pixels) {
   Mesh mesh;
   const auto add_plate = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
@@ -246,7 +246,7 @@ TEST(render, does_not_depend_on_the_unit_and_hardly_on_the_place) {
     for (const double scale : {0x1p-900, 0x1p-20, 0x1p20, 0x1p900}) {
       EXPECT_EQ(one.rgb, render_one(moved(mesh, scale, {}), options).rgb) << scale;
     }
-    // Rounding of the coordinates moves a ray across an edge now and then.
+    // Rounding of coordinates sometimes moves a ray across an edge.
     const Image there = render_one(moved(mesh, 1, {1000, -500, 3}), options);
     int different = 0;
     for (std::size_t k = 0; k < one.rgb.size(); ++k) {
@@ -272,7 +272,7 @@ TEST(render, draws_panels_side_by_side_at_one_scale_with_labels_below) {
   };
   const Image plain = render(panels, options);
   const double ratio = coloured(plain, 0, 96, 0, 80) * 1.0 / coloured(plain, 96, 192, 0, 80);
-  EXPECT_NEAR(ratio, 4, 0.3);  // half a pixel of border on radii of 36 and 18
+  EXPECT_NEAR(ratio, 4, 0.3);  // the border adds half a pixel to radii of 36 and 18
   EXPECT_EQ(coloured(plain, 0, 192, 76, 80), 0);
   panels[1].label = "L = 64";
   const Image labelled = render(panels, options);
@@ -315,7 +315,7 @@ TEST(render, colours_scalars_and_draws_their_scale) {
   options.scale_min = -1e6;
   options.scale_max = 1e6;
   const auto [r2, g2, b2] = pixel(render({&panel, 1}, options), 48 - 20, 32);
-  EXPECT_NEAR(b2, r2, 8);  // hardly off the neutral middle
+  EXPECT_NEAR(b2, r2, 8);  // close to the neutral middle
 }
 
 TEST(render, draws_a_constant_scalar) {
@@ -323,7 +323,7 @@ TEST(render, draws_a_constant_scalar) {
   for (const double value : {0.0, 3.0, -3.0, 1e300}) {
     Panel panel{&mesh, "", std::vector<double>(mesh.vertices.size(), value), false};
     EXPECT_NE(pixel(render({&panel, 1}, front()), 48, 32), kWhite) << value;
-    // A surface compared with itself: the scale has one end, and all values lie there.
+    // A surface is compared with itself: the scale has zero length, and all values lie at it.
     RenderOptions from = front(), to = front();
     from.scale_min = value;
     to.scale_max = value;
@@ -333,8 +333,8 @@ TEST(render, draws_a_constant_scalar) {
   }
 }
 
-// On a coarse sphere with the sphere's own normals neighbouring pixels inside the disc differ
-// little; with flat faces there are steps at the edges.
+// On a coarse sphere with exact normals, neighbouring pixels inside the disc differ little. With
+// flat faces there are steps at the edges.
 TEST(render, smooth_shading_hides_the_facets) {
   Mesh mesh = icosphere(1);
   const auto component = [&](const char* name, double Vec3::*member) {
@@ -387,7 +387,7 @@ TEST(render, draws_degenerate_shapes) {
   EXPECT_EQ(render({&panel, 1}, least).rgb.size(), 3u * 16 * 16);
 }
 
-// Beside a sphere of 1 what is 1e-30 of it is no pixel, and no ray that overflows.
+// A body of relative size 1e-30 beside a sphere has no pixel and causes no overflow.
 TEST(render, leaves_white_what_is_far_below_a_pixel) {
   const Mesh large = icosphere(2), small = moved(icosphere(2), 1e-30, {});
   for (const Mesh* first : {&large, &small}) {
@@ -449,7 +449,7 @@ Image render_points(const PointCloud& cloud, double radius, const RenderOptions&
   return render({&panel, 1}, options, context);
 }
 
-// The unit sphere as a ball about one point, and as a fine mesh with its normals.
+// The unit sphere is drawn as a ball about one point, and as a fine mesh with its normals.
 TEST(render, draws_a_point_as_a_ball) {
   Mesh sphere = icosphere(6);
   const char* const names[] = {"nx", "ny", "nz"};
@@ -474,11 +474,11 @@ TEST(render, draws_a_point_as_a_ball) {
         others += std::abs(brightness(image, x, y) - brightness(expected, x, y)) > 12;
       }
     }
-    EXPECT_LT(others, 12);  // of some 230 at the border, where rounding decides
+    EXPECT_LT(others, 12);  // of some 230 pixels at the border, where rounding decides
   }
 }
 
-// 21 x 21 points on a grid: by their own radius they close the square, by a small one they do not.
+// 21 x 21 points on a grid: their default radius closes the square, a small radius does not.
 TEST(render, closes_a_surface_of_points) {
   PointCloud cloud;
   for (int x = -10; x <= 10; ++x) {
@@ -560,7 +560,7 @@ TEST(render, refuses_points_that_it_cannot_draw) {
   EXPECT_TRUE(refused({.colors = {{1, 1, 1}, {0, 0, 0}}, .points = &good}));
 }
 
-// A ray through a point of the picture plane projects back to it, wherever along the ray.
+// A ray through a point of the picture plane projects back to it, from any position on the ray.
 TEST(view, projects_its_rays_to_points) {
   for (const bool perspective : {false, true}) {
     RenderOptions options;

@@ -11,7 +11,7 @@
 namespace rholm {
 namespace {
 
-// Every element is closed in its turn, and no bare & or control character is left.
+// Returns true if every element is closed in order, without bare & or control characters.
 bool is_balanced(const std::string& svg) {
   std::vector<std::string> open;
   for (std::size_t at = svg.find('<'); at != std::string::npos; at = svg.find('<', at + 1)) {
@@ -39,7 +39,7 @@ double number_after(const std::string& text, const std::string& key, std::size_t
   return std::strtod(text.c_str() + text.find(key, from) + key.size(), nullptr);
 }
 
-// Zonal coefficients with the given energy per degree.
+// Returns zonal coefficients with the given energy per degree.
 template <typename Energy>
 Expansion with_energy(int degree, const Energy& energy) {
   Expansion expansion;
@@ -49,7 +49,7 @@ Expansion with_energy(int degree, const Energy& energy) {
   return expansion;
 }
 
-// A spectrum that is its own predicted tail: all points of the curve lie on the dashed line.
+// A spectrum that equals its predicted tail: all points of the curve lie on the dashed line.
 // Coordinates are printed to 0.01.
 TEST(spectrum_svg, a_spectrum_that_is_the_tail_lies_on_the_straight_line) {
   const double strength = 5;

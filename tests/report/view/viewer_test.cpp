@@ -1,4 +1,4 @@
-// The viewer in a page, and what it reads.
+// The viewer in a page, and the data that it reads.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -21,7 +21,7 @@ Expansion expansion_of(const Mesh& mesh, int degree) {
   return encode(mesh, {.analyze = {.degree = degree}}).analysis.expansion;
 }
 
-// The text after `name` up to `end`.
+// Returns the text between `name` and `end`.
 std::string_view after(std::string_view text, std::string_view name, std::string_view end) {
   const std::size_t at = text.find(name);
   if (at == std::string_view::npos) return {};
@@ -35,7 +35,7 @@ std::size_t times(std::string_view text, std::string_view what) {
   return n;
 }
 
-// Read as the head says, by hand.
+// Reads a file by its header, independently of the library.
 struct Read {
   std::string json;
   std::string_view bytes;
@@ -60,7 +60,7 @@ Read read(std::string_view bytes) {
 }
 
 TEST(named_arrays, lie_where_the_head_says_whatever_its_length) {
-  // Names of all lengths put the arrays at every place, and offsets get more digits.
+  // Names of all lengths put the arrays at every offset, so that offsets get more digits.
   for (std::size_t letters = 1; letters < 120; ++letters) {
     const std::string name(letters, 'x');
     const std::vector<double> doubles = {1.5, -2.25, 1e300};

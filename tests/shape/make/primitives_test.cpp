@@ -42,13 +42,13 @@ TEST(icosphere, has_20_times_4_to_the_n_triangles_and_vertices_on_the_unit_spher
     const Mesh mesh = icosphere(n);
     EXPECT_EQ(mesh.triangles.size(), 20 * power);
     EXPECT_EQ(mesh.vertices.size(), 10 * power + 2);
-    // A normalised vector has length 1 within 2 ulp.
+    // A normalised vector has the length 1 within 2 ulp.
     for (const Vec3& v : mesh.vertices) ASSERT_NEAR(norm(v), 1, 4.5e-16);
   }
 }
 
-// Edge a = 1 / sin(2 pi / 5) for unit circumradius: area 5 sqrt(3) a^2, volume 5 (3 + sqrt 5)/12
-// a^3.
+// The edge is a = 1 / sin(2 pi / 5) for unit circumradius: area 5 sqrt(3) a^2, volume 5 (3 + sqrt
+// 5)/12 a^3.
 TEST(icosphere, without_subdivision_is_the_regular_icosahedron) {
   const double a = 1 / std::sin(2 * pi / 5);
   EXPECT_NEAR(surface_area(icosphere(0)), 5 * std::sqrt(3) * a * a, 1e-14);
@@ -94,8 +94,8 @@ TEST(box, has_the_volume_area_and_counts_of_a_box) {
   }
 }
 
-// Between two neighbouring half planes the solid is (rho, z, s) -> rho ((1 - s) e0 + s e1) + z, of
-// Jacobian rho sin(angle): a Pappus' theorem for polygons.
+// Between two neighbouring half planes the solid is (rho, z, s) -> rho ((1 - s) e0 + s e1) + z,
+// with the Jacobian rho sin(angle). This is Pappus' theorem for polygons.
 TEST(torus, has_the_volume_of_its_polygonal_rings) {
   const int n_ring = 9, n_tube = 7;
   const double ring = 2, tube = 0.75;
@@ -113,7 +113,7 @@ TEST(bumpy_sphere, stays_within_its_amplitude_and_depends_on_the_seed_alone) {
   }
   EXPECT_GE(low, 0.7);
   EXPECT_LE(high, 1.3);
-  EXPECT_GT(high - low, 0.1);  // it does have bumps
+  EXPECT_GT(high - low, 0.1);  // there are bumps
   EXPECT_EQ(mesh.vertices, bumpy_sphere(3, 0.3, 7).vertices);
   EXPECT_NE(mesh.vertices, bumpy_sphere(3, 0.3, 8).vertices);
   EXPECT_EQ(bumpy_sphere(2, 0).vertices, icosphere(2).vertices);

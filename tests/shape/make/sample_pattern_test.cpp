@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-// The values, each at most `tolerance` from the next of its group: the means of the groups, sorted.
+// Splits values into groups where neighbours differ by more than `tolerance`; returns sorted means.
 std::vector<double> groups_of(std::vector<double> values, double tolerance) {
   std::sort(values.begin(), values.end());
   std::vector<double> means;
@@ -31,7 +31,7 @@ std::vector<double> groups_of(std::vector<double> values, double tolerance) {
   return means;
 }
 
-// f of every point.
+// Returns f of every point.
 template <typename F>
 std::vector<double> of_points(const PointCloud& cloud, const F& f) {
   std::vector<double> values(cloud.points.size());
@@ -53,8 +53,8 @@ const Attribute& attribute(const PointCloud& cloud, const std::string& name) {
   return *found;
 }
 
-// A box of 2 x 2 x 4 has curves of 8 around at each height: with steps h along and 5 h across there
-// are 4 / (5 h) of them with 8 / h points.
+// A box of 2 x 2 x 4 has a curve of length 8 at each height. With steps of h along and 5 h across,
+// there are 4 / (5 h) curves with 8 / h points.
 TEST(sample_slices, lie_in_planes_and_are_as_far_apart_as_the_ratio_says) {
   const PointCloud cloud = sample_surface(
       box({2, 2, 4}), {.points = 3200, .pattern = SamplePattern::kSlices, .pattern_ratio = 5});
@@ -66,7 +66,7 @@ TEST(sample_slices, lie_in_planes_and_are_as_far_apart_as_the_ratio_says) {
   expect_even(planes, 4 / slices);
   const double around = std::round(8 / h);
   EXPECT_EQ(static_cast<double>(cloud.points.size()), slices * around);
-  // Along the curve, which goes straight except at four corners.
+  // Points follow the curve, which is straight except at four corners.
   std::size_t straight = 0;
   for (std::size_t i = 1; i < cloud.points.size(); ++i) {
     straight += std::abs(norm(cloud.points[i] - cloud.points[i - 1]) - 8 / around) < 1e-9;
@@ -83,14 +83,14 @@ TEST(sample_slices, go_across_the_axis_that_is_given) {
   const std::vector<double> heights =
       of_points(cloud, [&](const Vec3& p) { return dot(p, axis) / 3; });
   const std::vector<double> planes = groups_of(heights, 1e-9);
-  // Sphere of radius 1: curves add up to pi^2 over all heights.
+  // On the unit sphere, the lengths of curves over all heights add up to pi^2.
   const double step = 4 * std::sqrt(pi * pi / (4 * 2000.0));
   EXPECT_NEAR(static_cast<double>(planes.size()), 2 / step, 1.5);
   expect_even(planes, planes[1] - planes[0]);
   EXPECT_NEAR(static_cast<double>(cloud.points.size()), 2000, 60);
 }
 
-// Triangles that share no vertices, as STL has them, make the same curves.
+// Triangles without common vertices, as in STL, give the same curves.
 TEST(sample_slices, do_not_depend_on_how_triangles_share_vertices) {
   const Mesh whole = icosphere(3);
   Mesh soup;
@@ -113,7 +113,8 @@ TEST(sample_rings, lie_in_planes_through_the_axis_at_equal_angles) {
       of_points(cloud, [&](const Vec3& p) { return std::fmod(std::atan2(p.y, p.x) + pi, pi); });
   const std::vector<double> planes = groups_of(angles, 1e-9);
   expect_even(planes, pi / static_cast<double>(planes.size()));
-  // Each has two circles of 2 pi 0.5; steps at the mean distance 2 are five times those along.
+  // Each plane has two circles of 2 pi 0.5. Steps across, at the mean distance 2, are five steps
+  // along.
   const double points = static_cast<double>(cloud.points.size());
   const double along = 2 * pi * 0.5 / (points / (2 * static_cast<double>(planes.size())));
   const double across = 2 * pi / static_cast<double>(planes.size());
@@ -130,7 +131,7 @@ TEST(sample_grid, of_a_box_is_a_lattice_on_each_face) {
     if (cloud.normals[i].z < 0.5) continue;
     x.push_back(cloud.points[i].x), y.push_back(cloud.points[i].y);
   }
-  // 22 of area: steps h and 4 h with 22 / (4 h^2) = 4400.
+  // The area is 22: with steps of h and 4 h, 22 / (4 h^2) = 4400.
   const double h = std::sqrt(22 / (4 * 4400.0));
   const std::vector<double> columns = groups_of(x, 1e-9), rows = groups_of(y, 1e-9);
   const bool fine_x = columns[1] - columns[0] < rows[1] - rows[0];
@@ -159,8 +160,8 @@ TEST(sample_scans, see_what_faces_their_scanners) {
   }
 }
 
-// Of two balls each hides a part of the other from a scanner: no ray to a point may pass through
-// one.
+// Each of two balls hides a part of the other from a scanner: no ray to a point may pass through a
+// ball.
 TEST(sample_scans, do_not_see_through_the_surface) {
   Mesh two = icosphere(3);
   const Mesh one = two;
@@ -174,7 +175,7 @@ TEST(sample_scans, do_not_see_through_the_surface) {
     const Vec3 at{x[i], y[i], z[i]}, ray = cloud.points[i] - at;
     const bool on_first = cloud.points[i].x < 1.25;
     const Vec3 other = on_first ? Vec3{2.5, 0, 0} : Vec3{0, 0, 0};
-    // The polyhedron holds a ball of radius .98.
+    // The polyhedron contains a ball of radius .98.
     const double along = std::clamp(dot(other - at, ray) / dot(ray, ray), 0.0, 1.0);
     EXPECT_GT(norm(at + along * ray - other), 0.98);
   }
@@ -194,8 +195,9 @@ TEST(sample_scans, are_off_by_the_distance_asked_for) {
     sum += dot(d, d) / static_cast<double>(right.points.size());
   }
   const double wanted = 0.01 * 2 * std::sqrt(14.0);
-  // Squares of six Gaussian numbers a scan, not of equal weight: within five deviations of their
-  // mean, sqrt(2 / 3) of it each; and what scanners see is not all of the surface.
+  // The sum has squares of six Gaussian numbers per scan, with unequal weights, each with a
+  // deviation of sqrt(2 / 3) of its mean. The bound is five deviations; scanners do not see the
+  // whole surface.
   EXPECT_NEAR(std::sqrt(sum), wanted, wanted * (2.5 * std::sqrt(2 / 3.0 / kScansOfTest) + 0.03));
 }
 
@@ -239,7 +241,7 @@ TEST(sample_pattern, that_never_meets_the_surface_is_refused) {
   EXPECT_THROW(sample_surface(flat, {.pattern = SamplePattern::kSlices}), Error);
   EXPECT_EQ(sample_surface(flat, {.points = 100, .pattern = SamplePattern::kGrid}).normals[0],
             (Vec3{0, 0, 1}));
-  // A needle across the grid: what is between its corners, not all of its box.
+  // A needle across the grid: its interior is sampled, not its whole bounding box.
   flat.vertices = {{0, 0, 0}, {1, 0.618, 0}, {1, 0.618001, 0}};
   EXPECT_NEAR(
       static_cast<double>(

@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 
-// The square 0 ... side in the plane z = 0.
+// Returns the square 0 ... side in the plane z = 0.
 Mesh square(double side) {
   return {.vertices = {{0, 0, 0}, {side, 0, 0}, {side, side, 0}, {0, side, 0}},
           .triangles = {{0, 1, 2}, {0, 2, 3}},
@@ -31,7 +31,7 @@ TEST(sample, of_a_box_lies_on_it_with_the_normals_of_its_faces) {
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Vec3 p = cloud.points[i], n = cloud.normals[i];
     EXPECT_EQ(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1.0);
-    // n . p is half the edge of the box along n.
+    // n . p is half of the box's edge along n.
     EXPECT_NEAR(dot(n, p), std::abs(n.x) * 1 + std::abs(n.y) * 2 + std::abs(n.z) * 3, 1e-14);
     EXPECT_LE(std::abs(p.x), 1 + 1e-14);
     EXPECT_LE(std::abs(p.y), 2 + 1e-14);
@@ -46,7 +46,8 @@ TEST(sample, has_points_in_proportion_to_area) {
     return static_cast<double>(std::count_if(cloud.normals.begin(), cloud.normals.end(), is_face)) /
            n;
   };
-  // Faces 24, 24; 12, 12; 8, 8 of 88; five standard deviations of a binomial share.
+  // Faces have 24, 24; 12, 12; 8, 8 of 88. The bound is five standard deviations of a binomial
+  // share.
   const auto expect = [&](double measured, double p) {
     EXPECT_NEAR(measured, p, 5 * std::sqrt(p * (1 - p) / n));
   };
@@ -69,7 +70,7 @@ TEST(sample, within_a_triangle_is_uniform) {
 
 TEST(sample, noise_has_the_deviation_asked_for_along_every_axis) {
   constexpr std::size_t n = 40000;
-  const double sigma = 0.01 * std::sqrt(2.0);  // of the square's diagonal
+  const double sigma = 0.01 * std::sqrt(2.0);  // 1 % of the square's diagonal
   const PointCloud clean = sample_surface(square(1), {.points = n});
   const PointCloud noisy = sample_surface(square(1), {.points = n, .noise = 0.01});
   Vec3 variance;
@@ -77,7 +78,7 @@ TEST(sample, noise_has_the_deviation_asked_for_along_every_axis) {
     const Vec3 d = noisy.points[i] - clean.points[i];
     variance += Vec3{d.x * d.x, d.y * d.y, d.z * d.z} / n;
   }
-  // A measured variance of a Gaussian deviates by sqrt(2 / n) of itself.
+  // The measured variance of Gaussian numbers has a relative deviation of sqrt(2 / n).
   for (const double v : {variance.x, variance.y, variance.z}) {
     EXPECT_NEAR(v / (sigma * sigma), 1, 5 * std::sqrt(2.0 / n));
   }
@@ -94,7 +95,7 @@ TEST(sample, noise_of_normals_has_the_deviation_asked_for) {
     mean += normal / n;
   }
   EXPECT_NEAR(mean2 / (15 * 15), 1, 5 * std::sqrt(2.0 / n));
-  // Along x: sin(angle) cos(phi), of variance below sigma^2 / 2.
+  // Along x the value is sin(angle) cos(phi), with a variance below sigma^2 / 2.
   EXPECT_NEAR(mean.x, 0, 5 * (15 * pi / 180) * std::sqrt(0.5 / n));
   EXPECT_NEAR(mean.y, 0, 5 * (15 * pi / 180) * std::sqrt(0.5 / n));
 }
@@ -115,8 +116,8 @@ TEST(sample, holes_are_empty_and_the_rest_is_as_it_was) {
   const Mesh mesh = icosphere(4);
   const PointCloud whole = sample_surface(mesh, {.points = 20000});
   const PointCloud cloud = sample_surface(mesh, {.points = 20000, .holes = 1, .hole_radius = 0.1});
-  // A ball about a point of the unit sphere, radius r = 0.1 * 2 sqrt(3) for its box, cuts
-  // out r^2 / 4 of the area.
+  // A ball of radius r = 0.1 * 2 sqrt(3) (for the sphere's box) about a point of the unit sphere
+  // cuts out r^2 / 4 of the area.
   const double share = 0.03;
   const double kept = static_cast<double>(cloud.points.size()) / 20000;
   EXPECT_NEAR(kept, 1 - share, 5 * std::sqrt(share / 20000) + 1e-3);
@@ -130,7 +131,7 @@ TEST(sample, holes_are_empty_and_the_rest_is_as_it_was) {
     }
   }
   EXPECT_EQ(k, cloud.points.size());
-  // What is gone lies within one ball, and what is left does not come near its middle.
+  // The removed points lie within one ball, and no remaining point is near its middle.
   const Bounds hole = bounds(removed);
   EXPECT_LE(hole.max.x - hole.min.x, 0.4 * std::sqrt(3.0));
   Vec3 middle;
@@ -139,7 +140,7 @@ TEST(sample, holes_are_empty_and_the_rest_is_as_it_was) {
 }
 
 TEST(sample, density_falls_by_the_ratio_along_the_longest_axis) {
-  // On a strip of length 1: density ~ exp(-ln(q) x), so the half with small x has
+  // On a strip of length 1 the density is proportional to exp(-ln(q) x). The half with small x has
   // (1 - q^-1/2) / (1 - 1/q) of the points.
   const Mesh strip{.vertices = {{0, 0, 0}, {0.1, 0, 0}, {0.1, 1, 0}, {0, 1, 0}},
                    .triangles = {{0, 1, 2}, {0, 2, 3}},
@@ -173,7 +174,7 @@ TEST(sample, is_the_same_for_any_threads_and_another_for_another_seed) {
   EXPECT_NE(one.points, sample_surface(mesh, other).points);
 }
 
-// The value 1 + x - 2 y + 3 z at every vertex, under that name and type.
+// Adds the value 1 + x - 2 y + 3 z at every vertex, with that name and type.
 void add_linear(Mesh& mesh, const std::string& name, ScalarType type) {
   Attribute attribute{.name = name, .type = type, .values = {}};
   for (const Vec3& v : mesh.vertices) attribute.values.push_back(1 + v.x - 2 * v.y + 3 * v.z);
@@ -181,11 +182,11 @@ void add_linear(Mesh& mesh, const std::string& name, ScalarType type) {
 }
 
 TEST(sample, has_the_attributes_of_its_places) {
-  Mesh mesh = box({2, 4, 6});  // values are -9, -7, ... 11 at its corners
+  Mesh mesh = box({2, 4, 6});  // values at its corners are -9, -7, ... 11
   const SampleOptions options{.points = 5000, .holes = 2, .hole_radius = 0.1};
   const PointCloud plain = sample_surface(mesh, options);
   add_linear(mesh, "linear", ScalarType::kFloat64);
-  add_linear(mesh, "nx", ScalarType::kFloat32);  // the sample has its own
+  add_linear(mesh, "nx", ScalarType::kFloat32);  // the sample has its own normals
   add_linear(mesh, "whole", ScalarType::kInt16);
   add_linear(mesh, "single", ScalarType::kFloat32);
   const PointCloud cloud = sample_surface(mesh, options, {.threads = 1});
@@ -201,7 +202,7 @@ TEST(sample, has_the_attributes_of_its_places) {
   ASSERT_EQ(linear.values.size(), cloud.points.size());
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Vec3 p = cloud.points[i];
-    // Coordinates and values below 12, some ten roundings of each: 12 * 10 * 2^-53.
+    // Coordinates and values are below 12, with about ten roundings each: 12 * 10 * 2^-53.
     EXPECT_NEAR(linear.values[i], 1 + p.x - 2 * p.y + 3 * p.z, 1.4e-14);
     EXPECT_EQ(whole.values[i], std::round(linear.values[i]));
     EXPECT_EQ(single.values[i], static_cast<double>(static_cast<float>(linear.values[i])));

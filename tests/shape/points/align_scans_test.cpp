@@ -1,4 +1,4 @@
-// Scans that are off as rigid bodies, brought together.
+// Alignment of scans that are moved as rigid bodies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr Vec3 kAxes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-// Root mean square distance along the normals of the truth, less a common motion.
+// Returns the rms distance along the exact normals, after removal of a common motion.
 double off_by(const std::vector<Vec3>& points, const PointCloud& truth) {
   std::vector<ScanPair> pairs;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -47,7 +47,7 @@ SampleOptions eight_scans(double misalignment) {
 }
 
 TEST(scan_motions, exact_pairs_are_brought_together) {
-  // Three scans of the same places, each moved; pairs in all directions know everything.
+  // Three moved scans of the same places. Pairs in all directions determine the motions completely.
   const std::vector<Vec3> places = test::sphere_points(200).points;
   const Vec3 middle{0.1, 0.2, 0.3};
   const RigidMotion off[] = {{middle, {1e-4, -2e-4, 0}, {3e-4, 0, 1e-4}},
@@ -70,13 +70,14 @@ TEST(scan_motions, exact_pairs_are_brought_together) {
   const std::vector<RigidMotion> motions = solve_motions(pairs, bodies, middle, 2);
   for (const ScanPair& pair : pairs) {
     const Vec3 rest = motions[pair.from].point(pair.a) - motions[pair.to].point(pair.b);
-    // Some thousandths of the ways, up to 1e-3, stay, as they are weighed against rest.
+    // Some thousandths of the motions (up to 1e-3) remain, because motions are weighed against
+    // rest.
     EXPECT_LT(norm(rest), 1e-5);
   }
 }
 
 TEST(scan_motions, what_no_pair_knows_of_stays) {
-  // Pairs along z only: no shift in the plane, no turn about z.
+  // Pairs along z determine neither shifts in the plane nor turns about z.
   std::vector<ScanPair> pairs;
   const std::vector<Vec3> places = test::sphere_points(300).points;
   pairs.reserve(places.size());
@@ -120,7 +121,7 @@ TEST(align_scans, moves_normals_and_sensors_with_their_points) {
 }
 
 TEST(align_scans, does_not_pull_the_sheets_of_a_blade_together) {
-  // Thinner than scans are off: only sides tell its sheets apart.
+  // The blade is thinner than the misalignment: only normals distinguish its sheets.
   const Mesh mesh = blade(0.02);
   const PointCloud truth = sample_surface(mesh, eight_scans(0));
   PointCloud cloud = sample_surface(mesh, eight_scans(0.015));
@@ -130,7 +131,7 @@ TEST(align_scans, does_not_pull_the_sheets_of_a_blade_together) {
 }
 
 TEST(align_scans, leaves_what_fits_and_what_nothing_is_known_of) {
-  // A ball: its scans may turn as they like, and shall not.
+  // The scans of a ball could turn freely, and must not.
   const PointCloud ball = sample_surface(icosphere(6), eight_scans(0));
   PointCloud cloud = ball;
   EXPECT_LT(align_scans(cloud).moved, 1e-3);

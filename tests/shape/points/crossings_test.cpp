@@ -1,4 +1,4 @@
-// Sheets that cross, and what looks like it.
+// Intersecting sheets, and shapes that resemble them.
 #include "shape/points/crossings.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using test::random_direction;
 using test::random_normal;
 using test::uniform;
 
-// Two squares of edge 2 that halve each other at an angle.
+// Returns two squares of edge 2 that intersect in their middle lines at an angle.
 std::vector<Vec3> crossing_squares(std::size_t n, double angle) {
   return points_of(n, [&](std::size_t i) {
     const double along = uniform(1, i), across = uniform(2, i);
@@ -49,7 +49,7 @@ CrossingSearch search_of(const std::vector<Vec3>& points, double noise) {
   return {.n = points.size(), .diagonal = diagonal, .noise = noise * diagonal};
 }
 
-// Noise in diagonals.
+// The noise is in units of the diagonal.
 Crossings look(const std::vector<Vec3>& points, double noise = 0, int threads = 1) {
   const OrderedCloud cloud(points);
   const SamplingGaps gaps = find_gaps(cloud.tree, cloud.points, {}, {});
@@ -58,8 +58,8 @@ Crossings look(const std::vector<Vec3>& points, double noise = 0, int threads = 
   return find_crossings(cloud.tree, cloud.points, gaps, {}, search_of(points, noise), context);
 }
 
-// The lengths are 2 and the circumference of a circle of radius 0.6. Noise of 1 % asks for balls in
-// which spheres are no paraboloids: less is found there.
+// The lengths are 2 and the circumference of a circle of radius 0.6. Noise of 1 % needs balls in
+// which spheres are not close to paraboloids, so that less is found there.
 TEST(crossings, of_planes_and_spheres_are_about_as_long_as_they_are) {
   for (const std::size_t n : {800, 4000}) {
     for (const double noise : {0.0, 0.005, 0.01}) {
@@ -80,10 +80,10 @@ TEST(crossings, of_planes_and_spheres_are_about_as_long_as_they_are) {
 TEST(crossings, are_named_by_points_near_them) {
   const Crossings found = look(crossing_squares(4000, std::numbers::pi / 2));
   ASSERT_EQ(found.named(), kNamedCrossings);
-  for (const Vec3& at : found.at) EXPECT_LT(std::hypot(at.y, at.z), 0.15);  // spacing: 0.045
+  for (const Vec3& at : found.at) EXPECT_LT(std::hypot(at.y, at.z), 0.15);  // the spacing is 0.045
 }
 
-// Edges of 90 degrees, sheets with borders, one that ends at another one, and spheres that touch.
+// Edges of 90 degrees, sheets with borders, a sheet that ends at another sheet, touching spheres.
 TEST_OF_TWO_SIZES(crossings, are_not_found_where_sheets_bend_end_or_touch) {
   const auto box = [](std::size_t i) {
     Vec3 p{uniform(1, i), uniform(2, i), uniform(3, i)};
@@ -133,7 +133,7 @@ TEST(crossings, are_the_same_in_parts_and_by_any_number_of_threads) {
   EXPECT_EQ(parts.at, whole.at);
 }
 
-// What cannot be told, and too few points.
+// The noise is too large, and the points are too few.
 TEST(crossings, are_not_looked_for_in_noise_beyond_a_local_ball) {
   EXPECT_EQ(look(crossing_squares(4000, std::numbers::pi / 2), 0.05).found, 0U);
   EXPECT_EQ(look(crossing_squares(40, std::numbers::pi / 2)).found, 0U);

@@ -1,4 +1,4 @@
-// Gauss's integral over points, its adjoint and its gradient.
+// Gauss's integral over points, with its adjoint and its gradient.
 #include "shape/points/gauss_field.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using std::numbers::pi;
 using test::random_direction;
 using test::random_in;
 
-// Points at random in a cube, in the order of their tree, with normals and widths of all sizes.
+// Random points in a cube, in the order of their tree, with normals and widths of all sizes.
 struct Scene {
   explicit Scene(std::size_t n) : tree(make_points(n)) {
     const std::vector<Vec3> given = make_points(n);
@@ -46,7 +46,7 @@ struct Scene {
     result.set_widths(widths);
     return result;
   }
-  // w by its definition.
+  // Returns w by its definition.
   double winding(const Vec3& x) const {
     double sum = 0;
     for (std::size_t j = 0; j < points.size(); ++j) {
@@ -69,7 +69,8 @@ struct Scene {
   std::vector<double> charges, widths, areas;
 };
 
-// What single precision and the far sets leave, of the largest sum.
+// Returns the largest absolute value. Errors of single precision and of far sets are relative to
+// it.
 template <typename Value>
 double largest(const std::vector<Value>& values) {
   double most = 0;
@@ -98,7 +99,7 @@ TEST(GaussField, is_the_direct_sum_in_one_leaf_with_every_instruction_set) {
   }
 }
 
-// With a margin for the sets that are seen as one: their first moments are left out.
+// The bound has a margin for sets that are combined: their first moments are omitted.
 TEST(GaussField, is_near_the_direct_sum_of_many_points) {
   const Scene scene(3001);
   const GaussField field = scene.field();
@@ -170,8 +171,9 @@ TEST(GaussField, of_a_sphere_is_a_half_at_its_points_and_falls_outwards) {
   field.set_widths(std::vector<double>(n, 2 * std::sqrt(4 * pi / n)));
   double mean = 0;
   for (const double w : field.winding(area_normals, {})) mean += w / n;
-  // Within s = 2 spacings = 0.112 the sphere has 1 / (2 r) to sum, s / 4 of w, of which patches of
-  // that width leave a quarter; and a point's own patch has none, spacing / (4 sqrt(pi)).
+  // Within s = 2 spacings = 0.112 the sphere contributes 1 / (2 r) to the sum, s / 4 of w, of which
+  // patches of that width keep a quarter. A point's own patch, spacing / (4 sqrt(pi)), contributes
+  // nothing.
   EXPECT_NEAR(mean, 0.5 - 0.75 * 0.112 / 4 - 0.056 / (4 * std::sqrt(pi)), 0.01);
   const std::vector<Vec3> fall = field.fall(area_normals, {});
   for (std::size_t i = 0; i < n; ++i) EXPECT_GT(dot(normalized(fall[i]), points[i]), 0.95);

@@ -1,4 +1,4 @@
-// What points look like: curve, surface, volume.
+// Local shape of points: curve, surface or volume.
 #include "shape/points/local_shape.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ std::vector<Vec3> make(std::size_t n, const Place& place) {
   return points;
 }
 
-// The noise is a part of the radius: 0.087 is 2.5 % of the diagonal of the bounding box.
+// The noise is relative to the radius: 0.087 is 2.5 % of the diagonal of the bounding box.
 std::vector<Vec3> noisy_ball(std::size_t n, double noise) {
   return make(n, [&](std::size_t i) {
     return random_direction(1, i) +
@@ -64,7 +64,7 @@ TEST(local_shape, of_points_of_a_body_is_a_volume) {
     for (const auto& points : {ball, slab, lattice}) {
       EXPECT_EQ(look(points).kind, LocalKind::kVolume) << n;
     }
-    // Whatever normals there are.
+    // The normals do not matter.
     const auto radial = make(n, [&](std::size_t i) { return normalized(ball[i]); });
     EXPECT_EQ(look(ball, radial).kind, LocalKind::kVolume) << n;
   }
@@ -87,7 +87,7 @@ TEST(local_shape, says_which_normals_are_not_across_the_surface) {
   const auto points = noisy_ball(2000, 0);
   const auto any = make(2000, [](std::size_t i) { return random_direction(9, i); });
   EXPECT_EQ(look(points, points).crooked, 0);
-  // Of directions at random cos 45 degrees are farther than that from a given one.
+  // A share of cos(45 degrees) of random directions is more than 45 degrees from a given one.
   EXPECT_NEAR(look(points, any).crooked, std::sqrt(0.5), 0.12);
 }
 

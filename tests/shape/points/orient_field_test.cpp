@@ -1,4 +1,4 @@
-// Normals from the field of all points, none of which is known before.
+// Normals from the field of all points, without any known normal.
 #include "shape/points/orient_field.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 
-// A cloud in the order of its tree, within -1 ... 1, with the area of a point.
+// A cloud in the order of its tree, within -1 ... 1, with the area per point.
 struct Scene : test::OrderedCloud {
   Scene(const PointCloud& cloud, double area) : OrderedCloud(cloud) {
     spacing.assign(points.size(), std::sqrt(area / static_cast<double>(points.size())));
@@ -42,7 +42,7 @@ TEST(field_normals, of_a_sphere_point_outwards_all) {
 }
 
 TEST(field_normals, of_a_shell_as_thin_as_its_points_are_apart_have_both_sides) {
-  // 1000 points 0.147 apart, the sheets 0.15.
+  // 1000 points with the spacing 0.147; the sheets are 0.15 apart.
   const double inner = 0.85;
   const PointCloud shell =
       test::joined(test::sphere_points(580, 1), scaled(test::sphere_points(420, 2), inner, -1));
@@ -54,7 +54,7 @@ TEST(field_normals, of_points_in_rows_are_those_of_the_surface) {
       sample_surface(torus(2, 0.7, 200, 100),
                      {.points = 12000, .pattern = SamplePattern::kRings, .pattern_ratio = 12}),
       1 / 2.7);
-  // Between rows: the area of a point is a twelfth of the square.
+  // The spacing is the distance of rows: the area per point is a twelfth of its square.
   EXPECT_EQ(Scene(rows, 12 * 4 * pi * pi * 2 * 0.7 / (2.7 * 2.7)).share_right(), 1);
 }
 
@@ -78,8 +78,8 @@ TEST(field_normals, of_few_points_are_finite) {
 }
 
 TEST(field_normals, of_points_at_nearly_one_place_are_found_and_finite) {
-  // More than the first sample holds, none of them farther from eight others than single precision
-  // tells.
+  // There are more points than the first sample holds. In single precision, none of them differs
+  // from its eight nearest neighbours.
   PointCloud cloud = test::sphere_points(600);
   for (std::size_t i = 0; i < 9000; ++i) {
     cloud.points.push_back(cloud.points[i % 600] + 1e-12 * test::random_direction(5, i));

@@ -31,7 +31,7 @@ PointCloud without_normals(PointCloud cloud) {
   return cloud;
 }
 
-// The share of normals on the right side, and their mean angle to the true ones up to sign,
+// Share of normals with the right orientation, and mean angle to the exact normals up to sign, in
 // degrees.
 struct Quality {
   double right = 0;
@@ -123,7 +123,7 @@ TEST(orient, sphere_points_outwards_within_a_degree) {
   for (const Vec3& n : cloud.normals) EXPECT_NEAR(norm(n), 1, 1e-12);
 }
 
-// Half fits of five points are wild now and then: one of these spheres in four was taken for noise.
+// Half fits of five points are sometimes far off: one in four of these spheres was taken for noise.
 TEST_OF_TWO_SIZES(orient, clean_points_take_few_neighbours_whatever_their_sample) {
   for (std::uint64_t seed = 1; seed <= (nightly ? 20 : 8); ++seed) {
     const PointCloud truth = random_sphere(3000, seed);
@@ -151,7 +151,8 @@ TEST(orient, beside_the_edges_of_a_box_normals_are_those_of_one_face) {
   PointCloud cloud = without_normals(truth);
   orient(cloud);
   const Quality q = quality(cloud.normals, truth.normals);
-  // 10 % of the points have neighbours on two faces: fits across give them 20 degrees or so.
+  // 10 % of the points have neighbours on two faces: fits across the edge are off by about 20
+  // degrees.
   EXPECT_LE(q.angle, 0.5);
   EXPECT_GE(q.right, 0.9999);
 }
@@ -159,7 +160,7 @@ TEST(orient, beside_the_edges_of_a_box_normals_are_those_of_one_face) {
 TEST(orient, two_sheets_three_spacings_apart_have_normals_away_from_each_other) {
   PointCloud cloud, truth;
   for (std::uint64_t i = 0; i < 20000; ++i) {
-    const double z = i % 2 == 0 ? 0.03 : 0.0;  // spacing 0.01 on each
+    const double z = i % 2 == 0 ? 0.03 : 0.0;  // each sheet has the spacing 0.01
     truth.points.push_back({random_in(0, 1, 1, 2 * i), random_in(0, 1, 1, 2 * i + 1), z});
     truth.normals.push_back({0, 0, z > 0 ? 1.0 : -1.0});
   }
@@ -179,7 +180,7 @@ TEST(orient, separate_spheres_point_outwards_and_one_inside_another_bounds_a_cav
   const PointCloud ball = random_sphere(3000), other = random_sphere(2000, 2);
   PointCloud truth;
   add(truth, ball, 1, {}, 1);
-  add(truth, other, 0.5, {0.1, 0, 0}, -1);  // in the first
+  add(truth, other, 0.5, {0.1, 0, 0}, -1);  // inside the first
   add(truth, ball, 0.8, {4, 1, 0}, 1);
   PointCloud cloud = without_normals(truth);
   EXPECT_EQ(orient(cloud).components, 3u);
@@ -187,7 +188,7 @@ TEST(orient, separate_spheres_point_outwards_and_one_inside_another_bounds_a_cav
 }
 
 TEST(orient, a_shell_as_thin_as_its_points_are_apart_has_both_sides) {
-  // The graph of neighbours runs from one sheet to the other.
+  // The graph of neighbours connects both sheets.
   PointCloud truth = test::sphere_points(580, 1);
   PointCloud inner = test::sphere_points(420, 2);
   for (Vec3& p : inner.points) p *= 0.85;
@@ -197,7 +198,7 @@ TEST(orient, a_shell_as_thin_as_its_points_are_apart_has_both_sides) {
   orient(cloud);
   const Quality q = quality(cloud.normals, truth.normals);
   EXPECT_EQ(q.right, 1);
-  EXPECT_LT(q.angle, 1);  // fits to the points of one sheet
+  EXPECT_LT(q.angle, 1);  // fits to points of one sheet
 }
 
 TEST_OF_TWO_SIZES(orient, points_in_rows_have_normals_of_the_surface) {
@@ -214,8 +215,8 @@ TEST_OF_TWO_SIZES(orient, points_in_rows_have_normals_of_the_surface) {
   }
 }
 
-// Slices are small rings there, wide apart. Measured: rms 0.04 degrees, 2.4 with gaps by the
-// directions of rows alone.
+// Near the poles slices are small rings, far apart. Measured rms: 0.04 degrees, and 2.4 if gaps
+// used the directions of rows only.
 TEST(orient, points_in_rows_around_the_poles_of_a_sphere_have_its_normals) {
   PointCloud cloud = sample_surface(
       icosphere(6),
@@ -248,7 +249,8 @@ TEST(orient, density_may_fall_a_hundred_times) {
   EXPECT_GE(quality(cloud.normals, truth.normals).right, 0.999);
 }
 
-// Before neighbours are looked for, which takes minutes for millions of them: nothing is reported.
+// The error comes before the search for neighbours, which takes minutes for millions of points. For
+// this reason no progress is reported.
 TEST(orient, points_on_a_line_are_refused_before_any_work) {
   for (const double width : {0.0, 1e-9}) {
     PointCloud line;
@@ -266,7 +268,7 @@ TEST(orient, points_on_a_line_are_refused_before_any_work) {
 }
 
 TEST(orient, lines_of_a_scanner_are_not_taken_for_lines_nightly) {
-  // Twelve times as dense along a line as across.
+  // Points are twelve times as dense along lines as across.
   PointCloud truth;
   for (int i = 0; i < 40; ++i) {
     for (int j = 0; j < 1000; ++j) {
@@ -337,7 +339,7 @@ TEST(orient, is_the_same_for_any_threads_and_scales_and_shifts_with_its_points) 
   orient(one, {}, {.threads = 1});
   orient(two, {}, {.threads = 2});
   EXPECT_EQ(one.normals, two.normals);
-  // Powers of two: the same bits.
+  // Powers of two give the same bits.
   for (const double scale : {0x1p-400, 0x1p400}) {
     PointCloud scaled = truth;
     for (Vec3& p : scaled.points) p *= scale;
@@ -415,7 +417,7 @@ TEST(clean, merges_what_single_precision_cannot_tell_apart) {
       cloud.normals.push_back(cloud.normals[i]);
     }
   }
-  // But for points that happen to lie on both sides of a boundary between cells.
+  // Points on both sides of a boundary between cells are not merged.
   EXPECT_GE(clean(cloud).duplicates, 4 * n - n / 20);
 }
 

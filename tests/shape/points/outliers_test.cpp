@@ -1,4 +1,4 @@
-// Points that belong to no surface.
+// Points that do not belong to a surface.
 #include "shape/points/outliers.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using test::random_direction;
 using test::random_in;
 using test::random_normal;
 
-// Flags in the order of the cloud.
+// Returns flags in the order of the cloud.
 std::vector<std::uint8_t> outliers_of(const PointCloud& cloud, double noise,
                                       const Context& context = {}) {
   const test::OrderedCloud ordered(cloud);
@@ -33,7 +33,7 @@ std::size_t count(const std::vector<std::uint8_t>& flags, std::size_t begin, std
 
 TEST(Outliers, a_clean_sphere_has_none) {
   const auto flags = outliers_of(test::sphere_points(10000), 0);
-  // Random points leave gaps: one in ten thousand may look alone.
+  // Random points leave gaps: one point in ten thousand may look isolated.
   EXPECT_LE(count(flags, 0, flags.size()), 1U);
 }
 
@@ -49,12 +49,13 @@ TEST(Outliers, stray_points_are_found_and_the_surface_is_not_lost) {
   EXPECT_LT(count(flags, 0, n), n / 500);
   std::size_t off_surface = 0, found = 0;
   for (std::size_t i = n; i < n + stray; ++i) {
-    // Nearer than two spacings to the surface a normal may happen to agree.
+    // Within two spacings of the surface a normal may agree by chance.
     if (std::abs(norm(cloud.points[i]) - 1) < 2 * std::sqrt(4 * std::numbers::pi / n)) continue;
     ++off_surface;
     found += flags[i];
   }
-  // In the first of the three looks; random normals agree with five of sixteen once in twenty.
+  // In the first of three passes, random normals agree with five of sixteen neighbours once in
+  // twenty.
   EXPECT_GT(static_cast<double>(found), 0.9 * static_cast<double>(off_surface));
 }
 
@@ -82,7 +83,8 @@ TEST(Outliers, uneven_density_and_two_sheets_are_no_reason) {
     plate.points.push_back({random_in(-1, 1, 7, i), random_in(-1, 1, 8, i), 0.005 * side});
     plate.normals.push_back({0, 0, side});
   }
-  // Half of the 16 neighbours are of the other side: fewer than 5 are not once in 26, 307 +- 17.
+  // Half of the 16 neighbours are on the other side: fewer than 5 are not for 1 in 26, or 307 +-
+  // 17.
   EXPECT_LT(count(outliers_of(plate, 0), 0, plate.points.size()), 400U);
 }
 
@@ -91,7 +93,7 @@ TEST(Outliers, wrong_normals_are_told_from_those_of_edges_and_thin_parts) {
     const test::OrderedCloud ordered(cloud);
     return share_of_wrong_normals(ordered.tree, ordered.normals);
   };
-  // Directions within 45 degrees, 15 %, are no contradiction.
+  // Random directions within 45 degrees (15 %) do not contradict their neighbours.
   PointCloud sphere = test::sphere_points(10000);
   for (std::size_t i = 0; i < 10000; i += 10) sphere.normals[i] = random_direction(9, i);
   EXPECT_NEAR(share(sphere), 0.085, 0.02);

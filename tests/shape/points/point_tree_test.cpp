@@ -1,4 +1,4 @@
-// Nearest neighbours. Oracle: all distances, sorted.
+// Nearest neighbours. The oracle is the sorted list of all distances.
 #include "shape/points/point_tree.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ Vec3 random_point(std::uint64_t seed, std::uint64_t i) {
 std::vector<Cloud> clouds() {
   std::vector<Cloud> all = {{"one", {{1, 2, 3}}}, {"two", {{0, 0, 0}, {1, 0, 0}}}};
   Cloud cube{"cube", {}}, sphere{"sphere", {}}, line{"line", {}}, same{"same", {}};
-  Cloud strays{"sphere among strays", {}};  // leaves with one of them look almost empty
+  Cloud strays{"sphere among strays", {}};  // leaves with an isolated point are almost empty
   Cloud lattice{"lattice", {}}, twice{"every place nine times", {}}, uneven{"uneven", {}};
   for (std::uint64_t i = 0; i < 700; ++i) {
     cube.points.push_back(random_point(1, i));
@@ -43,7 +43,7 @@ std::vector<Cloud> clouds() {
     lattice.points.push_back(
         {static_cast<double>(i % 9), static_cast<double>(row % 9), static_cast<double>(layer)});
     twice.points.push_back(random_point(4, i / 9));
-    // Clusters of all sizes.
+    // Clusters have all sizes.
     uneven.points.push_back(std::pow(10.0, -static_cast<double>(i % 5)) * random_point(5, i));
   }
   for (Cloud* cloud : {&cube, &sphere, &strays, &line, &same, &lattice, &twice, &uneven}) {
@@ -72,7 +72,7 @@ double extent(const std::vector<Vec3>& points) {
   return 2 * largest;
 }
 
-// The k smallest of all distances, sorted.
+// Returns the k smallest of all distances, sorted.
 std::vector<double> sorted_distances(const std::vector<Vec3>& points, const Vec3& x) {
   std::vector<double> distances;
   distances.reserve(points.size());
@@ -81,7 +81,7 @@ std::vector<double> sorted_distances(const std::vector<Vec3>& points, const Vec3
   return distances;
 }
 
-// Ordered by distance, each once, and the distances are those of the points.
+// Checks that points are sorted by distance and distinct, and that the distances are correct.
 void expect_sound(const PointTree& tree, const std::vector<Vec3>& points, const Vec3& x,
                   const std::vector<Neighbor>& found, double tolerance) {
   std::vector<std::uint32_t> indices;
@@ -92,7 +92,7 @@ void expect_sound(const PointTree& tree, const std::vector<Vec3>& points, const 
                 norm(points[tree.order()[found[j].index]] - x), tolerance);
     if (j == 0) continue;
     EXPECT_LE(found[j - 1].distance2, found[j].distance2);
-    // Of one place by their indices.
+    // Points at the same place are sorted by index.
     const Vec3 before = tree.point(found[j - 1].index), own = tree.point(found[j].index);
     if (before == own) {
       EXPECT_LT(found[j - 1].index, found[j].index);
@@ -102,8 +102,8 @@ void expect_sound(const PointTree& tree, const std::vector<Vec3>& points, const 
   EXPECT_EQ(std::unique(indices.begin(), indices.end()), indices.end());
 }
 
-// Coordinates are those of single precision: of two distances within it, either is the smaller.
-// Three coordinates, two points, half a unit in 2^24 each of half the extent.
+// Coordinates have single precision: of two distances closer than it, either may come first. Three
+// coordinates of two points have errors of half a unit in 2^24 of half the extent.
 double rounding(const std::vector<Vec3>& points, const Vec3& x) {
   return 0x1p-22 * (extent(points) + norm(x - points[0]));
 }
@@ -116,7 +116,7 @@ TEST(PointTree, nearest_points_are_those_of_brute_force) {
       const double size = extent(cloud.points);
       std::vector<Neighbor> found;
       for (std::uint64_t i = 0; i < 12; ++i) {
-        // At a point, near one, among them and far away.
+        // Query points are at a point, near one, among the points, and far away.
         const Vec3 at = cloud.points[i * 7 % cloud.points.size()];
         const double away = i % 4 == 0 ? 0 : i % 4 == 1 ? 1e-3 : i % 4 == 2 ? 0.3 : 50;
         const Vec3 x = at + away * size * random_point(9, i);
@@ -151,7 +151,7 @@ TEST(PointTree, of_any_number_of_points_finds_those_of_brute_force) {
         expect_sound(tree, points, x, found, tolerance);
         EXPECT_NEAR(std::sqrt(static_cast<double>(found.back().distance2)), expected[k - 1],
                     tolerance);
-        // Between this one and the next.
+        // The radius lies between this distance and the next.
         if (k == n || expected[k] - expected[k - 1] < 4 * tolerance) continue;
         tree.within(x, (expected[k - 1] + expected[k]) / 2, found);
         EXPECT_EQ(found.size(), k);

@@ -61,7 +61,7 @@ TEST_OF_TWO_SIZES(sampling_gaps, of_slices_and_rings_have_their_ratio_wherever_t
     const SamplingGaps gaps = find_gaps(cloud.tree, cloud.points, {}, {});
     ASSERT_EQ(gaps.ratio.size(), cloud.points.size());
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-      // Rows are as far apart as the axis is.
+      // The distance of rows is proportional to the distance from the axis.
       const Vec3& p = cloud.points[i];
       const double here = ratio * std::hypot(p.x, p.y) / 2;
       EXPECT_GT(gaps.ratio[i], 0.6 * here);
@@ -70,7 +70,7 @@ TEST_OF_TWO_SIZES(sampling_gaps, of_slices_and_rings_have_their_ratio_wherever_t
   }
 }
 
-// Rings on the unit sphere, with the same steps from one to the next everywhere.
+// Returns rings on the unit sphere with equal steps between rings.
 std::vector<Vec3> sphere_of_rings(int n_rings, double ratio) {
   std::vector<Vec3> points;
   const double across = std::numbers::pi / n_rings;

@@ -1,4 +1,4 @@
-// Given normals that contradict each other, and what is right and looks like it.
+// Given normals that contradict each other, and correct normals that resemble them.
 #include "shape/points/sign_check.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using test::joined;
 using test::random_in;
 using test::sphere_points;
 
-// Moved and scaled; with a negative size normals point inwards.
+// Returns a moved and scaled ball; with a negative size its normals point inwards.
 PointCloud ball(std::size_t n, double size, const Vec3& middle, std::uint64_t seed) {
   PointCloud cloud = sphere_points(n, seed);
   for (Vec3& p : cloud.points) p = middle + std::abs(size) * p;
@@ -29,7 +29,7 @@ PointCloud ball(std::size_t n, double size, const Vec3& middle, std::uint64_t se
 
 struct Checked {
   SignCheck signs;
-  std::size_t left = 0;              // points that contradict their neighbours still
+  std::size_t left = 0;              // points that still contradict their neighbours
   double inward = 0;                 // as in MendedSigns
   std::vector<std::uint8_t> turned;  // in the order of the cloud
   std::size_t n_turned = 0;
@@ -76,7 +76,7 @@ Checked check(const PointCloud& cloud) {
   return result;
 }
 
-// Turns the normals of the points that are chosen; the same ones must be found.
+// Turns the normals of the chosen points, and checks that exactly these are found.
 template <class Chosen>
 void expect_found(PointCloud cloud, const Chosen& chosen) {
   std::vector<std::uint8_t> wanted(cloud.points.size());
@@ -120,13 +120,13 @@ TEST(signs, of_a_hollow_that_faces_as_the_outer_wall_are_found) {
 }
 
 TEST(signs, that_are_right_stay) {
-  // A hollow, two balls that touch, and two that are apart.
+  // A hollow ball, two touching balls, and two separate balls.
   EXPECT_EQ(check(joined(ball(2000, 1, {}, 1), ball(800, -0.6, {}, 2))).n_turned, 0U);
   EXPECT_EQ(check(joined(ball(3000, 1, {}, 1), ball(3000, 1, {2, 0, 0}, 2))).n_turned, 0U);
   EXPECT_EQ(check(joined(ball(2000, 1, {}, 1), ball(800, 0.6, {2, 0, 0}, 2))).n_turned, 0U);
 }
 
-// Of a plate 2 wide, without its rim: the spacing is 0.05.
+// A plate of width 2 without its rim; the spacing is 0.05.
 TEST(signs, of_two_near_walls_stay) {
   for (const double apart : {0.1, 0.03, 0.01, 0.003}) {
     for (const double facing : {1.0, -1.0}) {
@@ -143,7 +143,7 @@ TEST(signs, of_two_near_walls_stay) {
   }
 }
 
-// Heights of one or two edges have no standard error to speak of.
+// A height from one or two edges has no meaningful standard error.
 TEST(signs, of_two_walls_are_told_by_three_edges_at_least) {
   for (const int edges : {1, 2, 3, 10}) {
     AllPieces all{.own = {100, 100}};
@@ -157,7 +157,7 @@ TEST(signs, of_two_walls_are_told_by_three_edges_at_least) {
   }
 }
 
-// An open sheet has no side, but its points agree on one.
+// An open sheet has no inside, but its points agree on one orientation.
 TEST(signs, of_an_open_sheet_follow_most_points) {
   PointCloud cloud;
   for (std::size_t i = 0; i < 2000; ++i) {

@@ -1,4 +1,4 @@
-// Points far from any surface.
+// Isolated points, far from any surface.
 #include "shape/points/strays.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 using test::random_direction;
 using test::random_in;
 
-// Flags in the order of the points.
+// Returns flags in the order of the points.
 std::vector<std::uint8_t> strays_of(const std::vector<Vec3>& points, const Context& context = {}) {
   const test::OrderedCloud ordered(points);
   const SamplingGaps gaps = find_gaps(ordered.tree, ordered.points, {}, context);
@@ -76,7 +76,7 @@ TEST(strays, of_a_tenth_of_random_points_those_off_the_surface_are_found) {
 }
 
 TEST(strays, sparser_parts_rows_and_second_objects_are_none) {
-  // A patch ten times as dense amid a plane.
+  // A patch in a plane is ten times as dense as the plane.
   std::vector<Vec3> plane;
   plane.reserve(15000);
   for (std::uint64_t i = 0; i < 4000; ++i) {
@@ -91,7 +91,7 @@ TEST(strays, sparser_parts_rows_and_second_objects_are_none) {
       sample_surface(torus(2, 0.7, 200, 100),
                      {.points = 20000, .pattern = SamplePattern::kRings, .pattern_ratio = 15});
   EXPECT_EQ(count(strays_of(rows.points), 0, rows.points.size()), 0U);
-  // A tenth of the points on a sphere three times as large, far away.
+  // A tenth of the points lie on a sphere three times as large, far away.
   std::vector<Vec3> two = test::sphere_points(5000).points;
   for (std::uint64_t i = 0; i < 500; ++i) two.push_back(3 * random_direction(5, i) + Vec3{9, 0, 0});
   EXPECT_EQ(count(strays_of(two), 0, two.size()), 0U);
@@ -105,7 +105,7 @@ TEST(strays, noise_makes_none) {
   EXPECT_LE(count(strays_of(points), 0, points.size()), 10U);
 }
 
-// Scattered, in rows that lie closer along than across, and fewer than a group has.
+// Isolated points, rows with smaller steps along than across, and fewer points than a group has.
 TEST(strays, give_the_neighbours_that_are_found_alone) {
   std::vector<Vec3> rows;
   for (int row = 0; row < 30; ++row) {

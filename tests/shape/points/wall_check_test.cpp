@@ -1,4 +1,4 @@
-// Points on a surface, and points that fill what lies between its walls or around it.
+// Points on a surface, and points that fill the space between its walls or around it.
 #include "shape/points/wall_check.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ struct Surface {
   }
 };
 
-// Two squares of edge 2, as far apart as that.
+// Returns two squares of edge 2 at this distance.
 Surface plate(double thickness) {
   Surface surface;
   for (double x = -1; x <= 1; x += kStep) {
@@ -89,7 +89,7 @@ TEST(wall_check, finds_walls_nearer_than_a_few_deviations_of_the_noise) {
   }
 }
 
-// Whatever the distance of the walls is, they are at most 4 scatters apart.
+// Whatever the distance of the walls is, it is at most 4 times the scatter.
 TEST(wall_check, finds_points_that_fill_a_plate) {
   const double thickness = 0.3;
   const std::vector<Vec3> points = points_of(kPoints, [&](std::size_t i) {
@@ -100,7 +100,7 @@ TEST(wall_check, finds_points_that_fill_a_plate) {
   }
 }
 
-// 4000 points of the unit sphere are 0.056 apart.
+// 4000 points of the unit sphere have the spacing 0.056.
 TEST(wall_check, tells_points_that_fill_a_shell_from_noise_of_the_same_scatter) {
   const double half = 0.08;
   const std::vector<Vec3> evenly = points_of(

@@ -12,7 +12,7 @@
 namespace rholm {
 namespace {
 
-// Points of faces, moved by up to `reach`: balls about them that reach the surface.
+// Returns balls about points of faces, moved by up to `reach`, that reach the surface.
 Balls balls_on(const Mesh& mesh, std::size_t n, double reach, std::uint64_t seed) {
   Balls balls;
   for (std::size_t k = 0; k < n; ++k) {
@@ -28,7 +28,7 @@ Balls balls_on(const Mesh& mesh, std::size_t n, double reach, std::uint64_t seed
   return balls;
 }
 
-// Faces that are small against the cells of the balls, that are as large, and that are far larger.
+// Faces are much smaller than the cells of the balls, as large as the cells, and much larger.
 TEST(faces_near, have_the_closest_points_of_the_whole_mesh) {
   for (const Mesh& mesh : {bumpy_sphere(5, 0.5), bumpy_sphere(2, 0.5), box({1, 2, 3}, 1)}) {
     const TriangleTree tree(mesh);
@@ -38,14 +38,14 @@ TEST(faces_near, have_the_closest_points_of_the_whole_mesh) {
       ASSERT_FALSE(near.triangles.empty());
       const TriangleTree near_tree(near);
       for (const Vec3& center : balls.centers) {
-        // Trees measure in frames of their own.
+        // Each tree computes in its own frame.
         EXPECT_NEAR(near_tree.closest(center).distance, tree.closest(center).distance, 1e-14);
       }
     }
   }
 }
 
-// Balls in one place: what lies outside of their box is left out.
+// All balls are in one place: faces outside their box are left out.
 TEST(faces_near, are_few_where_balls_are_small) {
   const Mesh mesh = bumpy_sphere(6, 0.5);
   EXPECT_LT(faces_near(view_of(mesh), {}, 1, balls_on(mesh, 100, 1e-3, 2), {}).triangles.size(),

@@ -21,7 +21,7 @@ using test::soup;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// An octahedron, each triangle cut in n^2, every vertex on the unit sphere; vertices not shared.
+// Returns an octahedron, each face cut into n^2, projected to the unit sphere; vertices not shared.
 Mesh octasphere(int n) {
   Mesh mesh;
   const auto emit = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -51,7 +51,7 @@ Mesh moved(Mesh mesh, double scale, const Vec3& offset) {
   return mesh;
 }
 
-// Also while the tree is built, which comes last: at its last question.
+// Building the tree can be cancelled, too. It comes last, and asks the last question.
 TEST(RayScene, ends_where_the_scope_of_the_thread_says_so) {
   const Mesh mesh = octasphere(100);
   int asked = 0, go_on = 1 << 30;
@@ -87,8 +87,9 @@ TEST(count_hits, sphere_from_inside_is_met_once_through_vertices_edges_and_faces
 TEST(count_hits, sphere_from_outside_is_met_twice_or_never) {
   const Mesh mesh = octasphere(12);
   const RayScene scene(mesh);
-  // No edge is longer than sqrt(2)/12 * sqrt(3) = 0.21 (projecting an octahedron's face stretches
-  // by at most sqrt(3)), so the facets stay outside the ball of radius 1 - 0.21^2 / 2 > 0.97.
+  // No edge is longer than sqrt(2)/12 * sqrt(3) = 0.21 (projection stretches a face of the
+  // octahedron by at most sqrt(3)), so that facets lie outside the ball of radius 1 - 0.21^2 / 2 >
+  // 0.97.
   for (int k = 0; k < 2000; ++k) {
     const Vec3 axis = normalized(random_point(11, k));
     const Vec3 side = normalized(cross(axis, {0.3, 0.5, 0.8}));
@@ -142,7 +143,7 @@ TEST(count_hits, of_nested_shells_counts_every_shell) {
   }
 }
 
-// A float hit is good to a few 2^-24 of the size.
+// A hit in single precision is accurate to a few 2^-24 of the size.
 TEST(first_hit, is_the_nearest_face_with_its_place_on_the_triangle) {
   const Mesh mesh = cube();
   const RayScene scene(mesh);
@@ -168,7 +169,7 @@ TEST(occluded, says_whether_something_is_within_the_range) {
   EXPECT_FALSE(scene.occluded(above, {0, 0, 1}, 0, kInfinity));
 }
 
-// Against the closed form, by random rays at random balls.
+// Random rays at random balls, compared with the closed form.
 TEST(rays, meet_balls_about_vertices) {
   constexpr double kRadius = 0.1;
   Mesh mesh;
@@ -186,19 +187,19 @@ TEST(rays, meet_balls_about_vertices) {
         nearest = std::min(nearest, along - std::sqrt(kRadius * kRadius - off * off));
       }
     }
-    if (margin < 1e-5) continue;  // it just touches one: floats may see it or not
+    if (margin < 1e-5) continue;  // touches a ball: single precision may hit or miss
     const RayHit hit = scene.first_hit(origin, direction, 0, kInfinity);
     ASSERT_EQ(hit.hit, std::isfinite(nearest));
     EXPECT_EQ(scene.occluded(origin, direction, 0, kInfinity), hit.hit);
     if (!hit.hit) continue;
-    // Floats of 4, and a chord that may be flat: 1e-6 / sqrt(2 * 1e-5 / 0.1).
+    // Floats near 4, and a chord at a small angle: 1e-6 / sqrt(2 * 1e-5 / 0.1).
     EXPECT_NEAR(hit.distance, nearest, 1e-4);
     EXPECT_LT(norm(origin + nearest * direction - mesh.vertices[hit.triangle]), kRadius + 1e-4);
   }
 }
 
-// What a slow search in extended precision finds: each triangle whose plane is met in front of the
-// origin, inside of its three edges; `margin` says how near to an edge (or the origin) it was.
+// A slow search in extended precision: all triangles whose plane is met in front of the origin and
+// inside their three edges. `margin` is the smallest distance to an edge or to the origin.
 struct SlowCrossing {
   std::uint32_t triangle;
   long double distance;
@@ -238,12 +239,12 @@ TEST(rays, meet_what_a_search_of_all_triangles_finds) {
     const Mesh mesh = soup(seed, 400);
     const RayScene scene(mesh);
     for (int k = 0; k < 700; ++k) {
-      // From inside, near by and farther away.
+      // Origins are inside, nearby and farther away.
       const Vec3 origin = std::array{1.0, 2.0, 4.0}[k % 3] * random_point(20 + seed, k);
       const Vec3 direction = normalized(random_point(30 + seed, k) - origin);
       long double margin = 1;
       const std::vector<SlowCrossing> slow = slow_crossings(mesh, origin, direction, margin);
-      if (margin < 1e-2L) continue;  // so near to an edge that float decides
+      if (margin < 1e-2L) continue;  // too near to an edge for single precision
       ++compared, met += !slow.empty();
       const std::vector<RayCrossing> found = scene.crossings(origin, direction);
       ASSERT_EQ(found.size(), slow.size()) << seed << " " << k;
@@ -254,7 +255,7 @@ TEST(rays, meet_what_a_search_of_all_triangles_finds) {
       ASSERT_EQ(hit.hit, !slow.empty());
       EXPECT_EQ(scene.occluded(origin, direction, 0, kInfinity), hit.hit);
       if (!hit.hit) continue;
-      // A float of 4, and a triangle that may be met at a small angle.
+      // A float near 4, and a triangle that may be met at a small angle.
       EXPECT_NEAR(hit.distance, static_cast<double>(slow[0].distance), 1e-4);
       if (slow.size() == 1 || slow[1].distance - slow[0].distance > 2e-4L) {
         EXPECT_EQ(hit.triangle, slow[0].triangle);
@@ -267,10 +268,10 @@ TEST(rays, meet_what_a_search_of_all_triangles_finds) {
   EXPECT_GT(met, 500);
 }
 
-// From within a closed mesh, wherever they are aimed at. Embree lets some rays pass between
+// Rays from inside a closed mesh hit it in every direction. Embree lets some rays pass between
 // triangles.
 #ifdef RHOLM_HAS_EMBREE
-constexpr int kMostSlips = 20;  // of 20 000
+constexpr int kMostSlips = 20;  // out of 20 000
 #else
 constexpr int kMostSlips = 0;
 #endif
@@ -296,7 +297,7 @@ TEST(rays, do_not_slip_through_edges_and_vertices) {
   EXPECT_LE(slips, kMostSlips);
 }
 
-// Many rays at once, or one after the other; of a tree built in either way.
+// Many rays at once are compared with single rays, for trees built in both ways.
 TEST(rays, meet_the_same_in_packets) {
   const Mesh mesh = soup(8, 300);
   for (const double radius : {0.0, 0.1}) {
@@ -313,7 +314,7 @@ TEST(rays, meet_the_same_in_packets) {
     for (std::size_t k = 0; k < rays.size(); ++k) {
       const RayHit hit = scene.first_hit(rays[k].origin, rays[k].direction, 0, kInfinity);
       EXPECT_EQ(occluded[k], hits[k].hit);
-      // The arithmetic of a packet rounds otherwise: a ray that just touches may miss.
+      // A packet rounds differently: a ray that just touches may miss.
       differences += hit.hit != hits[k].hit || hit.triangle != hits[k].triangle;
       if (hit.hit && hits[k].hit && hit.triangle == hits[k].triangle) {
         EXPECT_NEAR(hits[k].distance, hit.distance, 1e-4);

@@ -1,4 +1,4 @@
-// Expected values: distances between the faces of boxes, winding numbers of nested spheres.
+// Expected values are distances between the faces of boxes, and winding numbers of nested spheres.
 #include "shape/queries/sheet_gaps.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ Mesh scaled(Mesh mesh, double factor) {
   return mesh;
 }
 
-// One point of each triangle, off its middle.
+// One point of each triangle, away from its middle.
 struct Points {
   std::vector<Vec3> points;
   std::vector<std::uint32_t> triangles;
@@ -95,7 +95,7 @@ TEST(outer_winding, tells_what_other_parts_enclose) {
                           [](int w) { return w == 0; }));
   EXPECT_TRUE(std::all_of(nested.begin() + static_cast<std::ptrdiff_t>(n), nested.end(),
                           [](int w) { return w == 1; }));
-  // The wall of a cavity faces it: the solid ends there.
+  // The wall of a cavity faces the cavity: it bounds the solid.
   Mesh wall = inner;
   flip(wall);
   for (const int w : winding_of(both(outer, wall))) EXPECT_EQ(w, 0);
@@ -104,7 +104,7 @@ TEST(outer_winding, tells_what_other_parts_enclose) {
   for (const int w : winding_of(inverted)) EXPECT_EQ(w, -1);
 }
 
-// Two boxes that share the corner [0, 1/2]^3: what lies in the other is enclosed once.
+// Two boxes share the corner [0, 1/2]^3: the parts of each box in the other are enclosed once.
 TEST(outer_winding, counts_the_enclosed_parts_of_crossing_boxes) {
   const Mesh one = box({1, 1, 1}, 8);
   const Mesh mesh = both(one, one, {0.5, 0.5, 0.5});

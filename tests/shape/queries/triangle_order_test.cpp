@@ -33,7 +33,7 @@ Mesh shuffled_sphere(bool vertices_too, int subdivisions = 5) {
   return test::renumbered(mesh, order);
 }
 
-// Mean distance between first corners of triangles that follow each other.
+// Returns the mean distance between the first corners of consecutive triangles.
 double mean_step(const MeshView& mesh) {
   double sum = 0;
   for (std::size_t t = 1; t < mesh.n_triangles; ++t) {
@@ -67,8 +67,8 @@ TEST(triangle_order, smallest_corners_ascend_by_vertex) {
   }
 }
 
-// A curve through n cells of a sphere of radius 1 makes steps of some sqrt(4 pi / n); random
-// points are 4/3 apart.
+// A curve through n cells of the unit sphere has steps of about sqrt(4 pi / n). Random points have
+// a distance of 4/3.
 TEST(triangle_order, neighbours_are_near_by_position) {
   const Mesh mesh = shuffled_sphere(true);
   const double n = static_cast<double>(mesh.triangles.size());

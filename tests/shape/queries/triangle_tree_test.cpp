@@ -31,8 +31,8 @@ Mesh moved(Mesh mesh, double scale, const Vec3& offset) {
   return mesh;
 }
 
-// Independent of the library's way: the minimum of |x - p| over the triangle by its barycentric
-// quadratic form, region by region (inside, three edges), all in long double.
+// Returns the minimum of |x - p| over the triangle, independently of the library. Its barycentric
+// quadratic form is minimised region by region (inside, three edges), in long double.
 double oracle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   using Real = long double;
   const auto dot3 = [](const Vec3& u, const Vec3& v) {
@@ -68,7 +68,8 @@ double brute_force_distance(const Mesh& mesh, const Vec3& p) {
   return best;
 }
 
-// Coordinates up to 1: differences, squares and the root leave a few 2^-53. 1e-14 is some 50.
+// With coordinates up to 1, differences, squares and the root have errors of a few 2^-53; 1e-14 is
+// about fifty.
 TEST(closest_point, equals_a_brute_force_search_in_extended_precision) {
   const Mesh mesh = soup(7, 2000);
   const TriangleTree tree(mesh);
@@ -85,8 +86,9 @@ TEST(closest_point, equals_a_brute_force_search_in_extended_precision) {
   }
 }
 
-// 500 specks at distances that differ by less than a float can tell: the search must look a little
-// further than it has found. Each speck is there 16 times, so that leaves of the tree are points.
+// 500 tiny triangles at distances that floats cannot distinguish: the search must look slightly
+// farther than the best result. Each triangle occurs 16 times, so that leaves of the tree are
+// points.
 TEST(closest_point, is_not_lost_in_the_rounding_of_the_tree) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Mesh mesh;
@@ -101,7 +103,7 @@ TEST(closest_point, is_not_lost_in_the_rounding_of_the_tree) {
   }
 }
 
-// Shifted by 1000 the coordinates themselves are good to 1e-13; scales are exact powers of two.
+// After a shift by 1000 coordinates are accurate to 1e-13; scales are powers of two and thus exact.
 TEST(closest_point, keeps_its_accuracy_at_any_scale_and_place) {
   const Mesh mesh = soup(8, 300);
   const TriangleTree here(mesh);
@@ -128,7 +130,7 @@ TEST(closest_point, of_far_points_is_exact_or_at_least_finite) {
   for (const double far : {1e3, 1e8, 1e20, 1e100, 1e200, 1e308}) {
     const ClosestPoint found = tree.closest({far, 0, 0});
     EXPECT_DOUBLE_EQ(found.distance, far - 1) << far;
-    if (far > 1e15) continue;  // 2^-53 far hides the mesh
+    if (far > 1e15) continue;  // 2^-53 of `far` exceeds the mesh
     EXPECT_EQ(found.point.x, 1) << far;
   }
 }
@@ -136,7 +138,7 @@ TEST(closest_point, of_far_points_is_exact_or_at_least_finite) {
 TEST(closest_point, ties_go_to_the_smaller_index) {
   const Mesh mesh = cube();
   const TriangleTree tree(mesh);
-  // Triangle 0 and 1 share the diagonal of the bottom; 0, 1, 4, 5, 8, 9 have the corner 0.
+  // Triangles 0 and 1 share the diagonal of the bottom; 0, 1, 4, 5, 8, 9 have the corner 0.
   EXPECT_EQ(tree.closest({0.25, 0.25, -3}).triangle, 0u);
   EXPECT_EQ(tree.closest({-2, -2, -2}).triangle, 0u);
   EXPECT_EQ(tree.closest({1.5, 3, 2.25}).triangle, 2u);  // corner 7: 2, 3, 6, 7, 10, 11
@@ -146,8 +148,8 @@ TEST(closest_point, ties_go_to_the_smaller_index) {
   for (int k = 0; k < 200; ++k) EXPECT_LT(doubled.closest(random_point(3, k)).triangle, 12u);
 }
 
-// Flat triangles along the axes, whose boxes are as far away as they are, but for rounding; each is
-// there three times, far from itself.
+// Flat triangles along the axes are as far away as their boxes, except for rounding. Each triangle
+// occurs three times, far apart in the list.
 TEST(closest_point, of_equal_triangles_is_on_the_first) {
   Mesh mesh = moved(cube(), 0.7, {0.123, 0.456, 0.789});
   std::vector<Triangle> all;
@@ -171,7 +173,7 @@ TEST(closest_point, of_equal_triangles_is_on_the_first) {
   }
 }
 
-// Portions of any size, in any order: each triangle alone, one in seven, halves.
+// Portions have any size and any order: each triangle alone, one in seven, halves.
 TEST(closest_point, of_portions_is_that_of_the_whole) {
   Mesh mesh = cube();
   const Mesh more = soup(19, 300);
@@ -180,7 +182,7 @@ TEST(closest_point, of_portions_is_that_of_the_whole) {
     mesh.triangles.push_back({first, first + 1, first + 2});
     for (const std::uint32_t corner : t) mesh.vertices.push_back(more.vertices[corner]);
   }
-  for (const Triangle& t : cube().triangles) mesh.triangles.push_back(t);  // again
+  for (const Triangle& t : cube().triangles) mesh.triangles.push_back(t);  // repeated
   const UnitFrame frame = unit_frame(bounds(mesh.vertices));
   const TriangleTree whole(mesh);
   const std::size_t n = mesh.triangles.size();
@@ -219,7 +221,7 @@ TEST(closest_point, of_a_degenerate_triangle_is_that_of_its_edges) {
   EXPECT_EQ(closest_point_of_triangle({-1, 0, 0}, {{{0, 0, 0}, {2, 0, 0}, {2, 0, 0}}}), Vec3{});
 }
 
-// A needle of length 1 and width w: p at height h over its middle has the distance h whatever w.
+// A needle of length 1 and width w: p at height h over its middle has the distance h for any w.
 TEST(closest_point, of_a_sliver_is_as_good_as_its_normal) {
   for (const double width : {1e-2, 1e-6, 1e-10, 1e-14}) {
     const double h = 0.7;
@@ -246,7 +248,7 @@ TEST(closest_point, of_a_mesh_that_is_a_single_point_is_that_point) {
 }
 
 // Every number of triangles up to two levels of the tree and some more, so that leaves and nodes
-// are full or not.
+// are full or partly filled.
 TEST(closest_point, of_any_number_of_triangles_is_that_of_a_brute_force_search) {
   test::for_each_target([](const char* target) {
     for (std::uint32_t n = 1; n < 150; n += n < 20 ? 1 : 13) {
@@ -261,8 +263,8 @@ TEST(closest_point, of_any_number_of_triangles_is_that_of_a_brute_force_search) 
   });
 }
 
-// The least of the distances to all triangles, in the tree's own frame and order of corners: a tree
-// that passes none over has the same bits.
+// Returns the smallest distance to any triangle, in the tree's own frame and order of corners. A
+// tree that skips no necessary triangle returns the same bits.
 double distance_without_a_tree(const Mesh& mesh, const Vec3& p) {
   const UnitFrame frame = unit_frame(bounds(mesh.vertices));
   const Vec3 q = frame.to_local(p);
@@ -277,7 +279,7 @@ double distance_without_a_tree(const Mesh& mesh, const Vec3& p) {
   return best;
 }
 
-// The planes of the tree have hardly a direction in single precision; points lie on the triangles,
+// In single precision the planes of the tree hardly have a direction. Points lie on the triangles,
 // near them, and far beyond their sharp corners.
 TEST(closest_point, of_slivers_is_that_without_a_tree) {
   test::for_each_target([](const char* target) {
@@ -303,7 +305,7 @@ TEST(closest_point, of_slivers_is_that_without_a_tree) {
   });
 }
 
-// Whole rows of triangles have their middles at one coordinate.
+// Whole rows of triangles have the same middle coordinate.
 TEST(closest_point, of_a_grid_is_the_height_over_it) {
   constexpr std::uint32_t kSide = 90;
   Mesh mesh;

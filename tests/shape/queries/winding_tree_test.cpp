@@ -1,4 +1,4 @@
-// Oracles: the direct sum, and the closed forms of a sphere and of a disc.
+// Oracles are the direct sum and the closed forms of a sphere and of a disc.
 #include "shape/queries/winding_tree.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ struct Sheet {
   std::vector<Vec3> points, area_normals;
 };
 
-// n points of a sphere, along a spiral: each stands for 4 pi / n of its area.
+// Returns n points of a sphere along a spiral; each has the area 4 pi / n.
 Sheet sphere(int n) {
   Sheet sheet;
   for (int i = 0; i < n; ++i) {
@@ -69,12 +69,12 @@ double largest_error(const Sheet& sheet, std::span<const Vec3> x, double opening
 
 TEST(WindingTree, is_the_direct_sum_and_converges_to_it_with_the_opening) {
   Sheet sheet = sphere(3000);
-  for (std::size_t i = 0; i < sheet.points.size(); ++i) {  // an uneven shape, normals at random
+  for (std::size_t i = 0; i < sheet.points.size(); ++i) {  // an uneven shape with unrelated normals
     sheet.points[i] = (1 + random_uniform(1, i)) * sheet.points[i];
   }
   const std::vector<Vec3> x = random_points(500, 2, 2.5);
-  // What is left out is about (radius / distance)^2 of what is kept, falling with that of the kept:
-  // see below.
+  // The omitted terms are about (radius / distance)^2 of the kept terms, and fall with them: see
+  // below.
   EXPECT_LT(largest_error(sheet, x, 2), 0.03);
   EXPECT_LT(largest_error(sheet, x, 6), 0.003);
   EXPECT_LT(largest_error(sheet, x, 1e6), 1e-12);
@@ -85,12 +85,12 @@ TEST(WindingTree, sphere_has_1_inside_and_0_outside) {
   const WindingTree tree(sheet.points, sheet.area_normals);
   std::vector<Vec3> x = random_points(2000, 3, 1.3);
   const double spacing = std::sqrt(4 * pi / 20000);
-  // The error of the far field, third power of the opening: measured.
+  // The error of the far field falls with the third power of the opening (measured).
   for (const auto& [opening, tolerance] : {std::pair{2.0, 0.01}, {4.0, 0.001}}) {
     const std::vector<double> w = tree.winding(x, {}, opening);
     for (std::size_t i = 0; i < x.size(); ++i) {
       const double r = norm(x[i]);
-      // Within a spacing or two of the points their pattern is seen.
+      // Within a spacing or two of the points their pattern is visible.
       if (std::abs(r - 1) > 2 * spacing) {
         EXPECT_NEAR(w[i], r < 1 ? 1 : 0, tolerance) << r;
       }
@@ -98,7 +98,7 @@ TEST(WindingTree, sphere_has_1_inside_and_0_outside) {
   }
 }
 
-// A disc of radius 1 seen from height h over its middle: (1 - h / sqrt(1 + h^2)) / 2.
+// From height h over the middle of a disc of radius 1, w is (1 - h / sqrt(1 + h^2)) / 2.
 TEST(WindingTree, open_disc_has_half_of_its_solid_angle_over_2_pi) {
   Sheet sheet;
   const int rings = 100;
@@ -203,8 +203,8 @@ TEST(WindingTree, degenerate_points_give_finite_numbers) {
   EXPECT_THROW(WindingTree(good, same), Error);
 }
 
-// The first levels have the same bits where nothing is asked of what they have left out, and that
-// is nearly everywhere.
+// The first levels alone give the same bits where no other level is needed, which is nearly
+// everywhere.
 TEST(winding_tree, has_the_same_numbers_by_its_first_levels) {
   const Sheet sheet = sphere(5000);
   const WindingTree tree(sheet.points, sheet.area_normals);

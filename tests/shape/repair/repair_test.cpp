@@ -23,7 +23,7 @@ using test::joined;
 using test::random_in;
 using test::tetrahedron;
 
-// Closed, manifold, oriented, outwards: what 'repair' promises of a damaged solid.
+// Checks the promise of 'repair' for a damaged solid: closed, manifold, oriented, outwards.
 void expect_solid(const Inspection& i, std::size_t components) {
   EXPECT_TRUE(i.closed);
   EXPECT_TRUE(i.manifold);
@@ -70,7 +70,7 @@ TEST(repair, of_mixed_orientation_turns_the_smaller_part_and_keeps_the_volume) {
   }
 }
 
-// The sense of a part is that of most of its area, not of its first face.
+// The orientation of a part follows most of its area, not its first face.
 TEST(repair, turns_the_first_face_where_it_alone_is_wrong) {
   const Mesh mesh = icosphere(1);
   Mesh mixed = mesh;
@@ -97,8 +97,8 @@ TEST(repair, drops_duplicates_of_either_sense_needles_and_stray_vertices) {
   EXPECT_EQ(result.mesh.triangles.size(), n);
 }
 
-// The edge from 0 to 1 of a tetrahedron has a vertex in its middle on one side only: between them a
-// triangle without area.
+// The edge from 0 to 1 of a tetrahedron has a vertex in its middle in one face only. A triangle
+// without area lies in between.
 TEST(repair, swaps_a_sliver_for_two_triangles_with_area) {
   const Mesh mesh{.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}},
                   .triangles = {{0, 2, 4}, {4, 2, 1}, {0, 4, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}},
@@ -112,7 +112,7 @@ TEST(repair, swaps_a_sliver_for_two_triangles_with_area) {
   EXPECT_NEAR(enclosed_volume(result.mesh), 8.0 / 6, 1e-15);
 }
 
-// Two corners apart by the last bit: a needle, and the hole of its neighbour beyond the short edge.
+// Two corners differ in the last bit: a needle, and a hole of its neighbour at the short edge.
 TEST(repair, makes_one_of_corners_that_rounding_keeps_apart) {
   Mesh mesh = tetrahedron();
   for (Vec3& v : mesh.vertices) v += {1, 1, 1};
@@ -128,7 +128,7 @@ TEST(repair, makes_one_of_corners_that_rounding_keeps_apart) {
 TEST(repair, closes_small_holes_and_keeps_the_genus) {
   Mesh mesh = torus(1, 0.4, 24, 12);
   const double volume = enclosed_volume(mesh);
-  // Two triangles of one square, and one elsewhere.
+  // Two triangles of one square are missing, and one elsewhere.
   mesh.triangles.erase(mesh.triangles.begin() + 100, mesh.triangles.begin() + 102);
   mesh.triangles.erase(mesh.triangles.begin() + 300);
   const Repaired result = repair(mesh);
@@ -140,7 +140,7 @@ TEST(repair, closes_small_holes_and_keeps_the_genus) {
 }
 
 // The torus of seven vertices has an edge between any two of them. Without vertex 6 and its faces,
-// no diagonal of the hole is free: it is closed around a new vertex.
+// no diagonal of the hole is free: the hole is closed around a new vertex.
 TEST(repair, closes_a_hole_around_a_new_vertex_where_all_its_corners_are_joined) {
   Mesh mesh{.vertices = {},
             .triangles = {},
@@ -167,10 +167,10 @@ TEST(repair, closes_a_hole_around_a_new_vertex_where_all_its_corners_are_joined)
   ASSERT_EQ(result.mesh.vertices.size(), 7u);
   EXPECT_NEAR(norm(result.mesh.vertices[6] - Vec3{0, 0, 0.05}), 0, 1e-15);
   EXPECT_NEAR(result.mesh.attributes[0].values[6], 2.75, 1e-15);
-  EXPECT_EQ(result.mesh.attributes[1].values[6], 9);  // of 55 / 6, as a whole number
+  EXPECT_EQ(result.mesh.attributes[1].values[6], 9);  // 55 / 6 as an integer
 }
 
-// Without one face (two triangles) of every kind of box; flat covers are exact.
+// One face of the box (two triangles per cell) is missing; flat covers are exact.
 TEST(repair, gives_a_box_its_missing_side_back) {
   for (const int cells : {1, 4, 8}) {
     Mesh mesh = box({1, 2, 3}, cells);
@@ -196,9 +196,9 @@ TEST(repair, leaves_large_holes_and_open_sheets_and_says_so) {
   EXPECT_EQ(kept.report.large_holes, 1u);
   EXPECT_EQ(kept.report.largest_hole, rim);
   EXPECT_FALSE(kept.report.after.closed);
-  // Half a ball with a lid is no sheet: pi / 2 pi.
+  // Half a ball with a lid is not a sheet: the ratio is pi / 2 pi.
   expect_solid(repair(half, {.max_hole = rim}).report.after, 1);
-  // A square, one triangle: covers as large as they are.
+  // A square and one triangle: their covers are as large as they are.
   const Mesh square{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
                     .triangles = {{0, 1, 2}, {0, 2, 3}},
                     .attributes = {}};
@@ -220,7 +220,7 @@ TEST(repair, separates_solids_that_touch_in_an_edge_or_a_corner) {
     expect_solid(result.report.after, 2);
     EXPECT_EQ(result.report.split_vertices, by.z == 0 ? 2u : 1u);
     EXPECT_NEAR(enclosed_volume(result.mesh), 2, 1e-5);
-    // Single precision must not join them again.
+    // Single precision must not join the vertices again.
     Mesh rounded = result.mesh;
     for (Vec3& v : rounded.vertices) {
       v = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -232,7 +232,7 @@ TEST(repair, separates_solids_that_touch_in_an_edge_or_a_corner) {
 TEST(repair, takes_a_fin_off_a_solid) {
   Mesh mesh = tetrahedron();
   mesh.vertices.push_back({2, 2, 2});
-  mesh.triangles.push_back({1, 2, 4});  // three triangles in the edge from 1 to 2
+  mesh.triangles.push_back({1, 2, 4});  // three triangles at the edge from 1 to 2
   const Repaired result = repair(mesh);
   EXPECT_EQ(result.report.after.components, 2u);
   EXPECT_EQ(result.report.after.boundary_edges, 3u);
@@ -241,7 +241,7 @@ TEST(repair, takes_a_fin_off_a_solid) {
 }
 
 TEST(repair, of_nested_solids_makes_cavities) {
-  // Ball in shell in ball, all inside out or not: depths 0, 1, 2.
+  // A ball in a shell in a ball, each inside out or not: depths 0, 1, 2.
   const double sizes[] = {3, 2, 1};
   for (int wrong = 0; wrong < 8; ++wrong) {
     Mesh all;
@@ -316,7 +316,7 @@ TEST(repair, refuses_holes_that_cost_too_much) {
   EXPECT_NO_THROW(repair(Mesh{}));
 }
 
-// n points on a circle: n - 2 triangles, the area of the polygon, whatever diagonals are taken.
+// n points on a circle give n - 2 triangles with the area of the polygon, for any diagonals.
 TEST(triangulate_hole, of_a_convex_polygon_has_its_area) {
   for (const std::uint32_t n : {3u, 4u, 7u, 40u}) {
     std::vector<Vec3> rim;
@@ -335,7 +335,7 @@ TEST(triangulate_hole, of_a_convex_polygon_has_its_area) {
   }
 }
 
-// An L: a diagonal across the notch would add area.
+// An L-shaped polygon: a diagonal across the notch would add area.
 TEST(triangulate_hole, of_a_polygon_with_a_notch_stays_inside) {
   const std::vector<Vec3> rim = {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 4, 0}, {0, 4, 0}};
   const std::vector<Vec3> beyond(rim.size(), Vec3{0, 0, 1});
@@ -345,7 +345,7 @@ TEST(triangulate_hole, of_a_polygon_with_a_notch_stays_inside) {
   EXPECT_NEAR(hole->area, 7, 1e-14);
 }
 
-// Whether diagonals that are free triangulate the polygon from i to j.
+// Returns true if free diagonals can triangulate the polygon from i to j.
 bool can_close(std::uint32_t i, std::uint32_t j, std::uint32_t n,
                const std::set<std::pair<std::uint32_t, std::uint32_t>>& taken) {
   if (j == i + 1) return true;
@@ -356,7 +356,7 @@ bool can_close(std::uint32_t i, std::uint32_t j, std::uint32_t n,
   return false;
 }
 
-// Polygons of which most triangles have no area, and some diagonals are taken.
+// Polygons whose triangles mostly have no area, with some diagonals taken.
 TEST(triangulate_hole, of_straight_sides_keeps_off_taken_diagonals) {
   int closed = 0, open = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
@@ -389,7 +389,7 @@ TEST(triangulate_hole, of_straight_sides_keeps_off_taken_diagonals) {
   EXPECT_GT(open, 100);
 }
 
-// Splits a triangle's edge from a to b at new vertices, in shares of the edge.
+// Splits the edge from a to b of a triangle at new vertices, given as parts of the edge.
 void split_edge(std::uint32_t triangle, std::uint32_t a, std::uint32_t b,
                 const std::vector<double>& shares, Mesh& mesh) {
   const Vec3 begin = mesh.vertices[a], way = mesh.vertices[b] - begin;
@@ -404,7 +404,7 @@ void split_edge(std::uint32_t triangle, std::uint32_t a, std::uint32_t b,
   }
 }
 
-// A box, edges of which are split on one side only, or at other places on the other side.
+// A box with edges that are split on one side only, or at different places on both sides.
 TEST(repair, joins_vertices_on_edges_of_other_faces) {
   const std::vector<std::pair<std::vector<double>, std::vector<double>>> cases = {
       {{0.5}, {}},
@@ -432,7 +432,7 @@ TEST(repair, joins_vertices_on_edges_of_other_faces) {
   }
 }
 
-// A face without width closes the gap of a junction, beside an edge that three faces have then.
+// A face without width closes the gap of a junction, beside an edge that then has three faces.
 TEST(repair, drops_a_thin_face_beside_an_edge_of_three) {
   Mesh mesh = box({2, 2, 2}, 1);
   const Edge edge = pair_edges(mesh).front();
@@ -447,7 +447,7 @@ TEST(repair, drops_a_thin_face_beside_an_edge_of_three) {
   EXPECT_EQ(result.mesh.triangles.size(), 12u);
 }
 
-// Open edges that leave a vertex in one direction, but are farther apart than the rounding, stay.
+// Open edges in one direction from a vertex stay if they are farther apart than the rounding.
 TEST(repair, leaves_slits_that_are_wider_than_rounding) {
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1, -1e-3, 0}, {0.5, -1, 0}};

@@ -28,7 +28,7 @@ using test::joined;
 using test::moved;
 using test::tetrahedron;
 
-// The unit square as n x n cells of two triangles.
+// Returns the unit square as n x n cells of two triangles.
 Mesh square(int n) {
   Mesh mesh;
   for (int j = 0; j <= n; ++j) {
@@ -89,12 +89,13 @@ TEST(simplify, a_square_becomes_two_triangles_within_its_border) {
 }
 
 TEST(simplify, topology_stays_down_to_the_smallest_meshes_there_are) {
-  // A closed surface has no fewer triangles than a tetrahedron, a torus than that of Csaszar.
+  // A closed surface has at least 4 triangles, as a tetrahedron; a torus 14, as Csaszar's
+  // polyhedron.
   const Mesh sphere = simplify(icosphere(3), {.triangles = 1}).mesh;
   EXPECT_EQ(expect_closed_manifold(sphere, 2).triangles, 4U);
   const Mesh ring = simplify(torus(1, 0.3, 48, 24), {.triangles = 1}).mesh;
   EXPECT_GE(expect_closed_manifold(ring, 0).triangles, 14U);
-  EXPECT_LE(ring.triangles.size(), 60U);  // the turn of triangles is limited as well
+  EXPECT_LE(ring.triangles.size(), 60U);  // the turn of normals is limited as well
   const Mesh two = simplify(joined(icosphere(2), torus(5, 1, 40, 20)), {.triangles = 1}).mesh;
   EXPECT_EQ(expect_closed_manifold(two, 2).components, 2U);
 }
@@ -106,12 +107,12 @@ TEST(simplify, vertices_stay_on_a_sphere_and_triangles_near_it) {
     EXPECT_LE(found.triangles, wanted);
     EXPECT_GE(found.triangles, wanted - 2);
     for (const Vec3& v : simple.mesh.vertices) EXPECT_NEAR(norm(v), 1, 1e-12);
-    // Equilateral triangles would miss least of the ball. With edges a there are 4 pi / (sqrt(3)/4
-    // a^2) of them, and the mean gap over one is (a^2/3 - a^2/12) / 2.
+    // Equilateral triangles would lose the least volume of the ball. With edges a there are 4 pi /
+    // (sqrt(3)/4 a^2) of them, and the mean gap over one is (a^2/3 - a^2/12) / 2.
     const double least = 2 * std::numbers::pi * std::sqrt(3.0) / static_cast<double>(wanted);
     const double missing = 1 - found.volume / (4 * std::numbers::pi / 3);
     EXPECT_GT(missing, 0.98 * least);
-    EXPECT_LT(missing, 1.6 * least);  // 1.1 ... 1.55
+    EXPECT_LT(missing, 1.6 * least);  // measured 1.1 ... 1.55
   }
 }
 
@@ -128,7 +129,7 @@ TEST(simplify, the_error_allowed_is_kept_and_used) {
 }
 
 TEST(simplify, edges_of_more_triangles_and_touching_fans_stay) {
-  // Two boxes that share an edge, and two that share a corner.
+  // Two boxes with a common edge, and two with a common corner.
   const auto shift = [](double x, double y, double z) {
     test::Motion motion;
     motion.shift = {x, y, z};
@@ -149,7 +150,7 @@ TEST(simplify, edges_of_more_triangles_and_touching_fans_stay) {
   }
 }
 
-// Closed, open and torn, with vertices and edges that touch.
+// Returns closed, open and torn surfaces with vertices and edges that touch.
 Mesh random_complex(std::uint64_t seed) {
   std::uint64_t next = 0;
   const auto below = [&](std::size_t n) {
@@ -167,7 +168,7 @@ Mesh random_complex(std::uint64_t seed) {
     const std::uint32_t a = below(mesh.vertices.size()), b = below(mesh.vertices.size());
     for (Triangle& t : mesh.triangles) std::replace(t.begin(), t.end(), a, b);
   }
-  std::set<Triangle> seen;  // no repeated corners, no triangle twice
+  std::set<Triangle> seen;  // rejects repeated corners and repeated triangles
   std::erase_if(mesh.triangles, [&](Triangle t) {
     std::sort(t.begin(), t.end());
     return t[0] == t[1] || t[1] == t[2] || !seen.insert(t).second;
@@ -176,7 +177,7 @@ Mesh random_complex(std::uint64_t seed) {
 }
 
 TEST(simplify, connectivity_stays_whatever_the_mesh) {
-  // Shrinking an edge under the link condition keeps the homotopy type.
+  // Collapsing an edge under the link condition preserves the homotopy type.
   std::size_t shrunk = 0;
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
     const Mesh mesh = random_complex(seed);
@@ -250,7 +251,8 @@ TEST(simplify, options_out_of_range_are_refused) {
   }
 }
 
-// Halves of a sphere, each by itself, with what they share locked; then all with what each knows.
+// Each half of a sphere is simplified with its common vertices locked; then all, with the known
+// errors.
 TEST(simplify, parts_fit_together_and_go_on_together) {
   const Mesh mesh = icosphere(5);
   std::vector<std::uint8_t> sides(mesh.vertices.size(), 0);
@@ -304,7 +306,7 @@ TEST(simplify, parts_fit_together_and_go_on_together) {
   const Inspection found = inspect({.vertices = mesh.vertices, .triangles = whole.triangles});
   EXPECT_TRUE(found.closed && found.manifold);
   EXPECT_EQ(found.triangles, 1000U);
-  // As if it had been one from the beginning.
+  // The result is as good as for the whole mesh from the beginning.
   EXPECT_NEAR(whole.error, simplify(mesh, {.triangles = 1000}).error, 0.15 * whole.error);
 }
 

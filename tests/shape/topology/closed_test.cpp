@@ -13,7 +13,7 @@ namespace {
 TEST(is_closed, asks_for_every_edge_both_ways) {
   const Mesh closed = test::rotated(bumpy_sphere(2, 0.3));
   EXPECT_TRUE(is_closed(view_of(closed)));
-  // Each face with corners of its own.
+  // Each face has its own corners.
   Mesh copies;
   for (const Triangle& t : closed.triangles) {
     const auto first = static_cast<std::uint32_t>(copies.vertices.size());
@@ -21,7 +21,7 @@ TEST(is_closed, asks_for_every_edge_both_ways) {
     copies.triangles.push_back({first, first + 1, first + 2});
   }
   EXPECT_TRUE(is_closed(view_of(copies)));
-  // And a face between two corners at one place.
+  // A face has two corners at one place.
   copies.triangles.push_back({0, 0, 1});
   copies.triangles.push_back({1, 0, 0});
   EXPECT_TRUE(is_closed(view_of(copies)));
@@ -31,7 +31,7 @@ TEST(is_closed, asks_for_every_edge_both_ways) {
   Mesh turned = closed;
   std::swap(turned.triangles[7][0], turned.triangles[7][1]);
   EXPECT_FALSE(is_closed(view_of(turned)));
-  // Open at both ends: what is missing has no area in the sum.
+  // The tube is open at both ends, but the missing parts have no area in the sum.
   Mesh tube = torus(2, 0.5, 40, 20);
   std::erase_if(tube.triangles, [&](const Triangle& t) { return tube.vertices[t[0]].x > 0; });
   EXPECT_FALSE(is_closed(view_of(tube)));

@@ -1,4 +1,4 @@
-// Loops that part no surface, found and cut. Oracles: rings of polygons, counts by inspect().
+// Non-separating loops are found and cut. Oracles are rings of polygons and counts by inspect().
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ Mesh without_triangle(Mesh mesh) {
   return mesh;
 }
 
-// Two rings of one piece, joined where a triangle of each is missing.
+// Joins two rings where a triangle of each is missing.
 Mesh double_torus() {
   Mesh both = torus(2, 0.5, kRing, kTube);
   const auto n = static_cast<std::uint32_t>(both.vertices.size());
@@ -106,7 +106,7 @@ TEST(cut_graph, is_crossed_an_even_number_of_times_around_every_triangle_and_ver
   }
 }
 
-// Around a hole of an open surface there is a loop too: its border does not count.
+// Around a hole of an open surface there is also a loop: its border does not count.
 TEST(cut_graph, tells_a_ring_from_a_disc) {
   Mesh ring = icosphere(3);
   std::erase_if(ring.triangles,
@@ -116,7 +116,8 @@ TEST(cut_graph, tells_a_ring_from_a_disc) {
   std::uint32_t base = 0;
   while (std::abs(ring.vertices[base].z) > 0.1) ++base;
   const Loop loop = search.shortest(base, 7);
-  // Below the equator's length as polygons are, and above that of the border at 0.7.
+  // The length is below the equator's, up to the polygons, and above the length of the border at
+  // 0.7.
   EXPECT_LT(loop.length, 1.05 * 2 * std::numbers::pi);
   EXPECT_GT(loop.length, 2 * std::numbers::pi * std::sqrt(1 - 0.49));
   EXPECT_TRUE(search.shortest(base, 4).corners.empty());
@@ -167,7 +168,7 @@ TEST(cut_loop, takes_a_handle_and_neither_volume_nor_orientation) {
     EXPECT_EQ(after.components, 1U);
     EXPECT_EQ(after.euler_characteristic, before.euler_characteristic + 2);
     EXPECT_NEAR(after.volume, before.volume, 1e-12 * before.volume);
-    // Two regular polygons.
+    // The area grows by two regular polygons.
     const double disc = kTube * 0.25 / 2 * std::sin(2 * std::numbers::pi / kTube);
     EXPECT_NEAR(after.area, before.area + 2 * disc, 1e-12 * before.area);
     ASSERT_EQ(copies.size(), static_cast<std::size_t>(kTube + 2));

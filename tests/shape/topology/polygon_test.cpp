@@ -26,8 +26,9 @@ Vec3 area_vector(const std::vector<Vec3>& p, const Triangle& t) {
   return 0.5 * cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
 }
 
-// A triangulation of a flat simple polygon is right if every triangle faces as the polygon does
-// and their areas sum to its own (the shoelace formula): then they cannot overlap.
+// A triangulation of a flat simple polygon is correct under two conditions. Every triangle faces
+// like the polygon, and the areas add up to the polygon's (shoelace formula): then no triangles
+// overlap.
 void expect_tiles(const std::vector<Vec3>& p) {
   const std::vector<Triangle> triangles = triangulate(p);
   EXPECT_EQ(triangles.size(), p.size() - 2);
@@ -42,7 +43,7 @@ void expect_tiles(const std::vector<Vec3>& p) {
   EXPECT_NEAR(sum, norm(polygon), 1e-12 * norm(polygon));
 }
 
-// The same polygon in six planes: the three coordinate planes from both sides, tilted.
+// Tests a polygon in six planes: the coordinate planes from both sides, tilted.
 void expect_tiles_in_every_plane(const std::vector<Vec3>& flat) {
   for (int plane = 0; plane < 6; ++plane) {
     std::vector<Vec3> p;
@@ -73,7 +74,7 @@ TEST(triangulate_polygon, quadrilateral_is_cut_along_the_shorter_diagonal) {
 }
 
 TEST(triangulate_polygon, quadrilateral_with_a_dent_is_cut_inside_though_that_is_longer) {
-  // An arrowhead: the dent is corner 3, then 2, 1, 0; the short diagonal lies outside.
+  // An arrowhead: the reflex corner is 3, then 2, 1, 0; the short diagonal lies outside.
   for (std::size_t shift = 0; shift < 4; ++shift) {
     const std::vector<Vec3> arrow = {{-2, -1, 0}, {0, 8, 0}, {2, -1, 0}, {0, 0, 0}};
     std::vector<Vec3> p;
@@ -96,7 +97,7 @@ TEST(triangulate_polygon, convex_polygon_is_a_fan) {
 }
 
 TEST(triangulate_polygon, concave_polygons_are_tiled_exactly) {
-  // an L, a comb, and a spiral
+  // The polygons are an L, a comb and a spiral.
   expect_tiles_in_every_plane({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}});
   std::vector<Vec3> comb = {{20, -1, 0}, {20, 4, 0}};
   for (int i = 19; i > 0; --i) comb.push_back({double(i), i % 2 == 1 ? 0.0 : 4.0, 0});

@@ -12,7 +12,7 @@ namespace {
 
 using test::exploded;
 
-// A sphere cut in two along its equator, a gap between the halves.
+// A sphere is cut in two at its equator, with a gap between the halves.
 TEST(closing_tolerance, is_just_above_the_gap_of_a_seam) {
   const Mesh mesh = ellipsoid({1, 1, 1}, 4);
   for (const double gap : {1e-12, 1e-6, 1e-3}) {

@@ -37,7 +37,7 @@ void expect_edges_right(const Mesh& mesh, const std::vector<Edge>& edges) {
   }
 }
 
-// Loops over all of a mesh ask, of functions without a Context too.
+// Loops over a whole mesh can be cancelled, also in functions without a Context.
 TEST(inspect, ends_where_the_scope_of_the_thread_says_so) {
   const Mesh mesh = icosphere(6);
   const auto expect_cancelled = [](const auto& run) {
@@ -67,7 +67,7 @@ TEST(pair_edges, names_both_triangles_of_every_edge_in_the_order_of_vertices) {
 TEST(pair_edges, pairs_opposite_sides_in_file_order_where_four_triangles_meet) {
   Mesh mesh =
       joined(tetrahedron(), moved(tetrahedron(), test::rotation({0, 0, 1}, std::numbers::pi)));
-  // Both stand on the z axis: edge 0-3.
+  // Both bodies stand on the z axis: edge 0-3.
   for (Triangle& t : mesh.triangles) {
     for (std::uint32_t& v : t) {
       if (v == 4) v = 0;
@@ -140,8 +140,8 @@ TEST(inspect, volume_area_and_centroids_of_a_tetrahedron_are_those_of_the_books)
   EXPECT_EQ(shape.bounds.max, (Vec3{1, 1, 1}));
 }
 
-// Moving by 1e6 sizes costs 1e6 2^-53 of the coordinates, and of the results no more than a few
-// times that.
+// A shift by 1e6 sizes costs 1e6 2^-53 in coordinates, and at most a few times that in the
+// results.
 TEST(inspect, measures_stay_accurate_far_from_the_origin) {
   const Inspection near = inspect(icosphere(3));
   const Inspection far = inspect(moved(icosphere(3), {.shift = {1e6, -2e6, 3e6}}));
@@ -159,7 +159,7 @@ TEST(inspect, measures_scale_with_the_shape) {
     EXPECT_NEAR(shape.area / scale / scale, one.area, 1e-14);
     EXPECT_NEAR(shape.volume_centroid.x / scale, 0.25, 1e-15);
   }
-  for (const double scale : {1e-300, 1e300}) {  // volume and area leave the range of double
+  for (const double scale : {1e-300, 1e300}) {  // volume and area exceed the range of double
     const Inspection shape = inspect(moved(tetrahedron(), {.scale = scale, .shift = {}}));
     EXPECT_EQ(shape.degenerate_triangles, 0u);
     EXPECT_NEAR(shape.volume_centroid.x / scale, 0.25, 1e-15);
@@ -167,14 +167,14 @@ TEST(inspect, measures_scale_with_the_shape) {
   }
 }
 
-// The faces of the tetrahedron at the origin have normals (0, 0, -1), (-1, 0, 0), (0, -1, 0) and
+// Faces of the tetrahedron at the origin have the normals (0, 0, -1), (-1, 0, 0), (0, -1, 0) and
 // (1, 1, 1), each as long as twice its area.
 TEST(area_normals, are_sums_of_normals_as_long_as_twice_the_areas) {
   Mesh mesh = tetrahedron();
-  mesh.vertices.push_back({7, 7, 7});  // of no triangle
+  mesh.vertices.push_back({7, 7, 7});  // belongs to no triangle
   const std::vector<Vec3> normals = area_normals(mesh.vertices, mesh.triangles);
   EXPECT_EQ(normals, (std::vector<Vec3>{{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}));
-  for (Vec3& v : mesh.vertices) v = 2 * v;  // powers of two: exact
+  for (Vec3& v : mesh.vertices) v = 2 * v;  // powers of two are exact
   EXPECT_EQ(area_normals(mesh.vertices, mesh.triangles)[1], (Vec3{4, 0, 0}));
   flip(mesh);
   EXPECT_EQ(area_normals(mesh.vertices, mesh.triangles)[2], (Vec3{0, -4, 0}));
@@ -207,7 +207,7 @@ TEST(inspect, counts_boundary_and_misoriented_edges) {
   EXPECT_FALSE(inspect(turned).oriented);
 }
 
-// A strip of n squares, the last joined to the first upside down.
+// A strip of n squares, with the last joined to the first upside down.
 TEST(inspect, a_moebius_strip_has_one_boundary_no_orientation_and_characteristic_zero) {
   constexpr std::uint32_t n = 8;
   Mesh strip;
@@ -275,14 +275,14 @@ TEST(inspect, degenerate_triangles_are_those_flat_within_rounding) {
         .degenerate_triangles;
   };
   EXPECT_EQ(count({0, 0, 0}, {1, 0, 0}, {2, 0, 0}), 1u);
-  EXPECT_EQ(count({0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}, {0.3, 0.3, 0.3}), 1u);  // rounded decimals
+  EXPECT_EQ(count({0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}, {0.3, 0.3, 0.3}), 1u);  // decimals are rounded
   EXPECT_EQ(count({1, 2, 3}, {1, 2, 3}, {4, 4, 4}), 1u);
   EXPECT_EQ(count({1, 2, 3}, {1, 2, 3}, {1, 2, 3}), 1u);
-  // Thin, but thicker than the rounding of its coordinates.
+  // The triangle is thin, but thicker than the rounding of its coordinates.
   EXPECT_EQ(count({0, 0, 0}, {1, 1e-12, 0}, {2, 0, 0}), 0u);
   EXPECT_EQ(count({0, 0, 0}, {1e-14, 0, 0}, {0, 1, 0}), 0u);
   EXPECT_EQ(count({0, 0, 0}, {1e-200, 0, 0}, {0, 1, 0}), 1u);
-  // The same thickness 1e5 away is noise: an ulp there is 1.5e-11.
+  // At a distance of 1e5 this thickness is rounding: an ulp there is 1.5e-11.
   EXPECT_EQ(count({1e5, 1e5, 0}, {1e5 + 1, 1e5 + 1e-12, 0}, {1e5 + 2, 1e5, 0}), 1u);
   const Mesh repeated{
       .vertices = {{0, 0, 0}, {1, 0, 0}}, .triangles = {{0, 0, 1}}, .attributes = {}};

@@ -45,7 +45,7 @@ TEST(outward, welds_and_turns_what_is_inside_out_and_nothing_else) {
     EXPECT_EQ(shape.welded.mesh.vertices.size(), right.vertices.size());
     EXPECT_GT(enclosed_volume(shape.welded.mesh), 0);
   }
-  // An open mesh has no inside, whatever sign its volume has.
+  // An open mesh has no inside, whatever the sign of its volume.
   turned.triangles.pop_back();
   ASSERT_LT(enclosed_volume(turned), 0);
   const Outward open = outward(turned);
@@ -127,7 +127,7 @@ TEST(weld, works_at_every_scale) {
     const Welded welded = weld(mesh, 1e-8 * scale);
     EXPECT_EQ(welded.mesh.vertices.size(), 56u) << scale;
     EXPECT_TRUE(inspect(welded.mesh).closed) << scale;
-    // Tolerances far below the spacing of doubles, and far above the size.
+    // Tolerances are far below the spacing of doubles, and far above the size.
     EXPECT_EQ(weld(mesh, std::numeric_limits<double>::denorm_min()).merged_vertices, 0u);
     EXPECT_TRUE(weld(mesh, 1e4 * scale).mesh.vertices.empty());
   }

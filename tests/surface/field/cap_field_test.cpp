@@ -1,5 +1,5 @@
-// The blended potential on a grid and at vertices. Oracle: the same sums in double precision, cap
-// by cap, from evaluate().
+// The blended potential on a grid and at vertices. The oracle computes the same sums in double
+// precision, cap by cap, from evaluate().
 #include "surface/field/cap_field.h"
 
 #include <gtest/gtest.h>
@@ -23,19 +23,19 @@ using test::Field;
 using test::largest_support;
 using test::make_field;
 
-// Quadratic B-spline of (P44), 1 at 0.
+// Quadratic B-spline of (P44), with the value 1 at 0.
 double spline(double t) { return (t < 0.5 ? 0.75 - t * t : 0.5 * (1.5 - t) * (1.5 - t)) / 0.75; }
 
-// The square of the cosine between a cap's surface and the sphere it is on: that of the angle
-// between the surface's normal and the direction from the centre.
+// Returns the squared cosine between a cap's surface and its sphere. This is the angle between the
+// surface's normal and the direction from the centre.
 double squared_cosine(const Atlas& atlas, const Cap& cap, const Vec3& x) {
   const CapValue value = evaluate(cap, atlas.coefficients_of(cap), x);
   const double out = dot(value.gradient, normalized(x - cap.frame.center));
   return out * out / dot(value.gradient, value.gradient);
 }
 
-// Method: G = sum w g / sum w, w = trust (1 - s^2)^3 (1 - g^2/T^2)^2, and the squared cosine where
-// points are noisy.
+// Method: G = sum w g / sum w, w = trust (1 - s^2)^3 (1 - g^2/T^2)^2, with the squared cosine as a
+// factor where points are noisy.
 struct Sum {
   double weight = 0, value = 0;
 };
@@ -66,7 +66,7 @@ void expect_blend(const Atlas& atlas, double step, double band) {
     for (std::size_t i = 0; i < BlockGrid::kNodes; i += 5) {
       const Sum sum = blend_at(atlas, band, field.grid.node(b, i));
       const float value = field.grid.block_values(b)[i];
-      // Doubtful: a weight below 0.1 within a step of the surface.
+      // A node is unsure if its weight is below 0.1 within a step of the surface.
       const bool doubted = (doubtful[8 * b + (i >> 6)] >> (i & 63) & 1) != 0;
       if (sum.weight > 0.101 || !(std::abs(value) < 1.001 * step)) {
         EXPECT_FALSE(doubted);
@@ -78,7 +78,7 @@ void expect_blend(const Atlas& atlas, double step, double band) {
       } else if (sum.weight > 1e-3) {
         ++known;
         ASSERT_TRUE(std::isfinite(value));
-        // Single precision, in steps; weights near the rim of a cap are differences.
+        // The bound is single precision, in steps; weights near the rim of a cap are differences.
         EXPECT_NEAR(value, sum.value / sum.weight, 1e-4 * step);
       }
     }
@@ -138,7 +138,7 @@ TEST(CapField, what_is_done_beside_is_done_once_and_changes_nothing) {
   }
 }
 
-// Blocks have any number of vertices.
+// Blocks have different numbers of vertices.
 TEST(CapField, vertices_are_moved_to_the_surface_with_its_normals) {
   const Atlas atlas = test::whole_sphere(4000);
   const double step = 0.7 * atlas.spacing;

@@ -1,5 +1,5 @@
-// How far places are within the data. Expected values: the quadratic form of discs in closed form,
-// and a sphere whose points end at a known height.
+// How far places are within the data. Expected values are the quadratic form of discs in closed
+// form, and a sphere whose points end at a known height.
 #include "surface/field/data_support.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using test::sphere_atlas;
 
 constexpr double kStep = 0.1;
 
-// Discs of radius 1 in the plane z = 0, around these places on the x axis.
+// Returns discs of radius 1 in the plane z = 0, around these places on the x axis.
 Atlas discs(const std::vector<double>& at) {
   Atlas atlas;
   for (const double x : at) {
@@ -39,14 +39,14 @@ Atlas discs(const std::vector<double>& at) {
   return atlas;
 }
 
-// Blocks around the origin, and the caps of each.
+// Returns blocks around the origin, with the caps of each block.
 Field field_of(const Atlas& atlas) {
   Field field{test::box_grid({}, kStep, -3, 3), {}};
   field.lists = list_caps(field.grid, discs_of(atlas, CapBands(atlas, kStep)));
   return field;
 }
 
-// Of a place at the height 0, s^2 of the nearest disc.
+// Returns s^2 of the nearest disc, for a place at height 0.
 double square_from(const std::vector<double>& at, const Vec3& x) {
   double least = INFINITY;
   for (const double middle : at) least = std::min(least, std::pow(x.x - middle, 2) + x.y * x.y);
@@ -59,7 +59,7 @@ std::vector<Vec3> places() {
   return all;
 }
 
-// 1 - s^2 / 0.63 of the cap that it is farthest within.
+// The support is 1 - s^2 / 0.63 for the cap in which the vertex is farthest inside.
 TEST(DataSupport, of_vertices_falls_from_1_in_the_middle_to_0_at_the_rim) {
   const std::vector<double> at = {-0.4, 0.3};
   const Atlas atlas = discs(at);
@@ -88,14 +88,14 @@ TEST(DataSupport, of_vertices_falls_from_1_in_the_middle_to_0_at_the_rim) {
   }
 }
 
-// 1 up to s^2 = 0.63, 0 from 0.7 on.
+// The support is 1 up to s^2 = 0.63, and 0 from 0.7 on.
 TEST(DataSupport, of_nodes_ends_between_the_rim_of_the_data_and_that_of_caps) {
   const std::vector<double> at = {-0.4, 0.3};
   const Atlas atlas = discs(at);
   const Field field = field_of(atlas);
   std::vector<Vec3> x = places();
   for (const double y : {0.78, 0.79, 0.795, 0.8, 0.81, 0.82, 0.83, 0.84}) x.push_back({0.3, y, 0});
-  x.push_back({100, 0, 0});  // no block
+  x.push_back({100, 0, 0});  // outside all blocks
   std::vector<double> support(x.size(), NAN);
   node_support(atlas, field.lists, field.grid, {})(x, support);
   std::size_t between = 0;
@@ -130,7 +130,7 @@ TEST(DataSupport, is_positive_within_the_data_and_negative_beyond) {
     }
   }
   EXPECT_GT(inside, 1000U);
-  EXPECT_LT(100 * doubtful, inside);  // gaps that random points leave
+  EXPECT_LT(100 * doubtful, inside);  // gaps between random points
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Block grids filled from functions.
+// Grids of blocks, filled from functions.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace rholm::test {
 
-// Blocks low ... high - 1 along each axis, all values unknown.
+// Returns blocks low ... high - 1 along each axis, with all values unknown.
 inline BlockGrid box_grid(const Vec3& origin, double step, int low, int high) {
   std::vector<BlockCoordinates> blocks;
   for (int z = low; z < high; ++z) {
@@ -19,7 +19,7 @@ inline BlockGrid box_grid(const Vec3& origin, double step, int low, int high) {
   return make_block_grid(origin, step, std::move(blocks));
 }
 
-// value(node's place) at all nodes.
+// Sets all nodes to value(place of the node).
 template <typename Value>
 void fill_grid(BlockGrid& grid, const Value& value) {
   for (std::size_t b = 0; b < grid.n_blocks(); ++b) {

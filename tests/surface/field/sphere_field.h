@@ -12,7 +12,7 @@
 
 namespace rholm::test {
 
-// The atlas of a unit sphere, or of what `keep` leaves of it.
+// Returns the atlas of the part of a unit sphere for which `keep` is true.
 template <typename Keep>
 Atlas sphere_atlas(std::size_t n, const Keep& keep) {
   std::vector<Vec3> all, points;

@@ -1,4 +1,4 @@
-// Closing a grid with missing values. Oracles: inspect() counts, the sphere a part is missing of.
+// Closing a grid with missing values. Oracles are counts by inspect(), and the complete sphere.
 #include "surface/holes/hole_fill.h"
 
 #include <gtest/gtest.h>
@@ -38,8 +38,8 @@ FeetNear all_of(std::vector<FootPoint> feet) {
   return [feet = std::move(feet)](std::span<const Hole>) { return feet; };
 }
 
-// The unit sphere without the part within `half_angle` of z: points, values known where the
-// nearest point of the sphere is there, and blocks only where something is known.
+// The unit sphere without the part within `half_angle` of z. Values are known where the nearest
+// point of the sphere exists; there are only blocks with known values.
 struct OpenSphere {
   std::vector<FootPoint> feet;
   std::vector<Vec3> points, area_normals;
@@ -88,7 +88,7 @@ TEST(CloseGrid, a_hole_is_closed_by_the_winding_number) {
   EXPECT_EQ(inspect(surface.mesh).euler_characteristic, 2);
   for (std::size_t v = 0; v < surface.mesh.vertices.size(); ++v) {
     const double above_border = surface.mesh.vertices[v].z - std::cos(0.4);
-    if (std::abs(above_border) < 0.04) continue;  // a step: the edge may have one end on each side
+    if (std::abs(above_border) < 0.04) continue;  // within a step an edge may cross the border
     EXPECT_EQ(surface.filled[v] != 0, above_border > 0);
   }
 }
@@ -103,8 +103,8 @@ TEST(CloseGrid, doubtful_values_on_the_wrong_side_become_unknown) {
   for (std::size_t b = 0; b < grid.n_blocks(); ++b) {
     for (std::size_t n = 0; n < BlockGrid::kNodes; ++n) {
       float& value = grid.block_values(b)[n];
-      // Wrong and doubtful; wrong and not doubtful; right and doubtful; right. Beyond a dipole's
-      // radius of 0.022 the winding number is 0 or 1.
+      // Nodes are wrong and unsure; wrong and sure; right and unsure; right. Farther than 0.022,
+      // the radius of a dipole, the winding number is 0 or 1.
       const bool wrong = std::abs(value) > 0.03F && (n & 2) == 0, doubted = (n & 1) == 0;
       if (wrong) value = -value;
       if (doubted && std::isfinite(value))
@@ -122,7 +122,7 @@ TEST(CloseGrid, doubtful_values_on_the_wrong_side_become_unknown) {
 }
 
 TEST(CloseGrid, a_side_is_refuted_beyond_0_15_from_a_half) {
-  // Dipoles of area 1 at one place: w = n / (4 pi d^2) at a distance d below them.
+  // Dipoles of total area n at one place: w = n / (4 pi d^2) at a distance d below them.
   const std::vector<Vec3> points(100, Vec3{}), area_normals(100, Vec3{0, 0, 1});
   const WindingTree tree(points, area_normals);
   for (const double w : {0.34, 0.36, 0.64, 0.66}) {
@@ -131,7 +131,7 @@ TEST(CloseGrid, a_side_is_refuted_beyond_0_15_from_a_half) {
         make_block_grid({0, 0, -std::sqrt(100 / (4 * std::numbers::pi * w))}, 1, {{0, 0, 0}});
     std::vector<std::uint64_t> doubtful(8, 0);
     doubtful[0] = 1;
-    const float side = w < 0.5 ? -0.5F : 0.5F;  // what is less likely
+    const float side = w < 0.5 ? -0.5F : 0.5F;  // the less likely sign
     grid.block_values(0)[0] = side;
     const bool refuted = w < 0.35 || w > 0.65;
     EXPECT_EQ(clear_refuted(grid, doubtful, tree.numbers()), refuted ? 1U : 0U);
@@ -151,7 +151,7 @@ TEST(CloseGrid, nothing_is_asked_for_where_nothing_is_open) {
   EXPECT_TRUE(grid.filled.empty());
 }
 
-// The worst case: nodes known at random, with random signs, and an oracle that knows a sphere.
+// The worst case: known nodes at random with random signs, and an oracle that knows a sphere.
 TEST(CloseGrid, random_known_nodes_become_a_closed_manifold) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     BlockGrid grid = make_block_grid({}, 1, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}});
@@ -250,7 +250,7 @@ TEST(HoleSets, holes_are_counted_and_placed) {
   }
 }
 
-// The cap that is missing rises 1 - cos(20 degrees) over its rim: the sagitta.
+// The missing cap rises by the sagitta 1 - cos(20 degrees) over its rim.
 TEST(HoleFill, missing_cap_of_a_sphere_is_filled_to_a_small_part_of_its_sagitta) {
   const double half_angle = 20 * pi / 180;
   const double sagitta = 1 - std::cos(half_angle);
@@ -267,8 +267,9 @@ TEST(HoleFill, missing_cap_of_a_sphere_is_filled_to_a_small_part_of_its_sagitta)
     double largest = 0;
     for (const Vec3& v : surface.mesh.vertices) largest = std::max(largest, std::abs(norm(v) - 1));
     EXPECT_LT(largest, 0.05 * sagitta);
-    // Normals of all vertices, those of the border too, but for tiny triangles around a node, where
-    // the error of linear interpolation, step^2 / 8, is not small; 2 degrees are a chord's.
+    // Normals of all vertices are compared, also at the border. Tiny triangles around a node are
+    // left out: the error of linear interpolation, step^2 / 8, is large for them. A chord gives 2
+    // degrees.
     std::vector<Vec3> normals(surface.mesh.vertices.size());
     for (const Triangle& t : surface.mesh.triangles) {
       const std::vector<Vec3>& v = surface.mesh.vertices;
@@ -290,7 +291,7 @@ TEST(HoleFill, missing_cap_of_a_sphere_is_filled_to_a_small_part_of_its_sagitta)
 TEST(HoleFill, values_without_support_are_handed_over_to_the_fill) {
   const double half_angle = 20 * pi / 180;
   OpenSphere sphere = open_sphere(half_angle, 0.03, 14000);
-  // What a cap may guess beyond its points: a band of 5 degrees that bends away.
+  // A wrong extrapolation of caps beyond their points: a band of 5 degrees that bends away.
   const double from = half_angle + 5 * pi / 180;
   for (std::size_t b = 0; b < sphere.grid.n_blocks(); ++b) {
     for (std::size_t n = 0; n < BlockGrid::kNodes; ++n) {
@@ -323,18 +324,18 @@ TEST(HoleFill, the_grid_itself_says_where_the_fill_begins) {
   const NodeSupport all = [](std::span<const Vec3> x, std::span<double> support) {
     std::fill_n(support.begin(), x.size(), 1.0);
   };
-  // Without a single foot of a cap.
+  // The cloud has no foot points of caps.
   const HoleFilling filling =
       fill_holes(sphere.grid, all_of({}), tree.numbers(), {.max_blocks = 100000, .support = all});
   EXPECT_EQ(filling.smooth, 1U);
   const ExtractedSurface surface = extract_surface(sphere.grid);
   expect_closed_manifold(surface.mesh);
-  // The grid's nodes with six known ones around them begin two steps from the rim.
+  // Grid nodes with six known neighbours begin two steps from the rim.
   const double wide = half_angle + 2 * 0.03;
   for (const Vec3& v : surface.mesh.vertices) EXPECT_NEAR(norm(v), 1, 0.075 * (1 - std::cos(wide)));
 }
 
-// Two concentric spheres, without the same part of both.
+// Returns two concentric spheres, both without the same part.
 OpenSphere open_shell(double half_angle, double thickness, double step, int n) {
   OpenSphere shell = open_sphere(half_angle, step, n);
   const double inner = 1 - thickness;
@@ -357,7 +358,7 @@ TEST(HoleFill, a_hole_in_two_sheets_is_no_bridge_between_them) {
   // The winding number bridges holes wider than sqrt(3) / 2 of the thickness.
   for (const double half_angle : {0.14, 0.16, 0.2, 0.3}) {
     OpenSphere shell = open_shell(half_angle, thickness, step, 14000);
-    // Few large caps, whose supports the hole is smaller than.
+    // The few caps are large: the hole is smaller than their supports.
     std::vector<FootPoint> feet;
     for (std::size_t i = 0; i < shell.feet.size(); i += 20) {
       feet.push_back(shell.feet[i]);

@@ -1,4 +1,4 @@
-// What lines of sight say of a place.
+// Emptiness of places, as lines of sight determine it.
 #include "surface/holes/seen_space.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 namespace rholm {
 namespace {
 
-// A square of points in the plane z = 0, |x|, |y| <= 1, and one at (0, 0, -2) that makes the box
-// deep.
+// A square of points in the plane z = 0, |x|, |y| <= 1, and two points at z = -2 and z = 2, which
+// make the box deep.
 SeenSpace over_square(const Vec3& sensor, double margin, const Context& context = {}) {
   std::vector<Vec3> points;
   for (int i = -50; i <= 50; ++i) {
@@ -22,7 +22,7 @@ SeenSpace over_square(const Vec3& sensor, double margin, const Context& context 
   points.push_back({0, 0, -2});
   points.push_back({0, 0, 2});
   std::vector<Vec3> sensors(points.size(), sensor);
-  sensors[n] = points[n], sensors[n + 1] = points[n + 1];  // no line
+  sensors[n] = points[n], sensors[n + 1] = points[n + 1];  // two points without lines of sight
   return SeenSpace(points, sensors, 0.04, margin, context);
 }
 
@@ -32,27 +32,27 @@ TEST(seen_space, is_empty_before_the_points_and_not_behind_or_beside) {
     for (const double z : {0.4, 1.0, 1.9}) EXPECT_EQ(seen.emptiness({x, -x / 2, z}), 1) << z;
     for (const double z : {-0.1, -1.0, -1.9}) EXPECT_EQ(seen.emptiness({x, -x / 2, z}), 0) << z;
   }
-  // Lines end 0.2 before the plane; three cubes are soft.
+  // Lines end 0.2 before the plane; the transition takes three cubes.
   EXPECT_EQ(seen.emptiness({0.3, 0.3, 0.08}), 0);
   EXPECT_EQ(seen.emptiness({0.3, 0.3, 0.32}), 1);
-  // Far outside as at the border.
+  // Far outside, the emptiness is as at the border.
   EXPECT_EQ(seen.emptiness({0, 0, 50}), 1);
   EXPECT_EQ(seen.emptiness({0, 0, -50}), 0);
 }
 
 TEST(seen_space, ends_where_the_cone_of_a_near_sensor_does) {
-  // From (0, 0, 2): at height z the square is seen through |x| < 1 - z / 2.
+  // From (0, 0, 2), at height z, the square is seen through |x| < 1 - z / 2.
   const SeenSpace seen = over_square({0, 0, 2}, 0.1);
   for (const double z : {0.4, 0.8, 1.2}) {
     const double half = 1 - z / 2;
     EXPECT_EQ(seen.emptiness({half - 0.15, 0, z}), 1) << z;
     EXPECT_EQ(seen.emptiness({half + 0.15, 0, z}), 0) << z;
-    // The edge itself is about a half.
+    // The value at the edge is about a half.
     EXPECT_NEAR(seen.emptiness({half, 0, z}), 0.5, 0.4) << z;
   }
 }
 
-// Half of the lines in one part, half in another.
+// One half of the lines is in one part, the other half in another.
 TEST(seen_space, of_parts_is_that_of_all) {
   const PointCloud cloud = test::sphere_points(4000);
   std::vector<Vec3> sensors;

@@ -1,5 +1,5 @@
-// Bridges and tunnels that are cut, and rods that are not. Oracles: counts by inspect(), distances
-// from planes.
+// Bridges and tunnels that are cut, and rods that are not cut. Oracles are counts by inspect() and
+// distances from planes.
 #include "surface/level_set/cut_handles.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kRadius = 2;
 
-// A ring around z whose tube has a radius that depends on the angle.
+// Returns a ring about z whose tube has a radius that depends on the angle.
 template <typename Tube>
 Mesh ring(const Tube& tube_radius, int around = 48) {
   Mesh mesh = torus(kRadius, 0.5, 300, around);
@@ -32,7 +32,8 @@ Mesh ring(const Tube& tube_radius, int around = 48) {
   return mesh;
 }
 
-// 1.2 wide but for a neck of 2 * narrow that widens by as much as it is long, to both sides.
+// The ring is 1.2 wide, except for a neck: at arc length s from it the radius is hypot(narrow, 4
+// s).
 Mesh with_neck(double narrow) {
   return ring([=](double phi) {
     return std::min(0.6, std::sqrt(narrow * narrow + std::pow(4 * kRadius * phi, 2)));
@@ -54,13 +55,13 @@ TEST(cut_handles, takes_a_bridge_between_two_walls) {
     EXPECT_EQ(after.components, 1U);
     EXPECT_EQ(after.euler_characteristic, 2);
     EXPECT_EQ(mesh.vertices.size(), before.vertices + cut.copies.size());
-    // What is smoothed is near the neck: less than a ball of that radius.
+    // Smoothing changes less than a ball of that radius at the neck.
     EXPECT_NEAR(after.volume, before.volume, 4.0 / 3 * std::numbers::pi * std::pow(0.2, 3));
     double least = 1;
     for (const Vec3& v : mesh.vertices) {
       if (v.x > 0) least = std::min(least, std::abs(v.y));
     }
-    EXPECT_GT(least, 1e-3);  // both ends have drawn back
+    EXPECT_GT(least, 1e-3);  // both ends have retracted
     for (const Attribute& attribute : mesh.attributes) {
       EXPECT_EQ(attribute.values.size(), mesh.vertices.size());
       EXPECT_EQ(attribute.values.back(), 0);
@@ -69,7 +70,7 @@ TEST(cut_handles, takes_a_bridge_between_two_walls) {
 }
 
 TEST(cut_handles, takes_a_hole_through_a_thin_wall) {
-  // Inside out the neck is a hole through the wall between two hollows.
+  // Inside out, the neck is a hole through the wall between two cavities.
   Mesh mesh = with_neck(0.05);
   flip(mesh);
   EXPECT_EQ(cut_handles(mesh, everywhere(0.15), {}).handles, 1U);
@@ -92,7 +93,7 @@ TEST(cut_handles, leaves_what_is_wider_than_five_resolutions) {
 }
 
 TEST(cut_handles, leaves_necks_without_which_there_would_be_two_parts) {
-  // An hourglass: no handle at all.
+  // An hourglass has no handle.
   Mesh mesh = icosphere(5);
   for (Vec3& v : mesh.vertices) {
     const double wide = std::min(1.0, 0.05 + 3 * std::abs(v.z));
@@ -100,7 +101,7 @@ TEST(cut_handles, leaves_necks_without_which_there_would_be_two_parts) {
   }
   test::add_normals(mesh);
   EXPECT_EQ(cut_handles(mesh, everywhere(0.15), {}).handles, 0U);
-  // Two necks in one ring: with both cut there would be two parts.
+  // A ring with two necks: if both were cut there would be two parts.
   Mesh two = ring([](double phi) {
     const double along = 4 * kRadius * std::min(std::abs(phi), std::numbers::pi - std::abs(phi));
     return std::min(0.6, std::hypot(0.05, along));
@@ -110,7 +111,7 @@ TEST(cut_handles, leaves_necks_without_which_there_would_be_two_parts) {
   EXPECT_EQ(inspect(two).euler_characteristic, 2);
 }
 
-// A ring with a neck that is cut on one side, and a rod that stays on the other.
+// A ring with a neck that is cut on one side, and a rod that stays on the other side.
 TEST(places_to_cut, are_all_that_cutting_needs) {
   constexpr double kResolution = 0.07;
   const Mesh whole = ring(

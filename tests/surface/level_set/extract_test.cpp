@@ -1,5 +1,5 @@
-// Expected values are closed forms: areas, volumes and Euler characteristics of smooth surfaces;
-// closedness and manifoldness are counted by inspect().
+// Expected values are closed forms: areas, volumes and Euler characteristics of smooth surfaces.
+// Closedness and manifoldness are counted by inspect().
 #include "surface/level_set/extract.h"
 
 #include <gtest/gtest.h>
@@ -37,8 +37,8 @@ void expect_closed_manifold(const Inspection& found) {
   EXPECT_EQ(found.duplicate_triangles, 0U);
 }
 
-// A value for each node of blocks 0 ... 2, random where the eight cubes around it are complete, and
-// outside at the border.
+// Values for the nodes of blocks 0 ... 2: random where the eight cubes around a node are complete,
+// and outside at the border.
 BlockGrid random_grid(std::uint64_t seed, double share_inside) {
   BlockGrid grid = box_grid({}, 1, 0, 3);
   std::uint64_t counter = 0;
@@ -116,8 +116,8 @@ TEST(Extract, values_of_zero_are_outside_and_give_no_degenerate_triangle) {
   }
 }
 
-// Linear interpolation is off by h^2 / 8 times the curvature of the field, and so is a chord: the
-// area and volume are off by a few (h / r)^2; measured 0.3 and 0.5.
+// Linear interpolation has the error h^2 / 8 times the curvature of the field, and so has a chord.
+// Area and volume are off by a few (h / r)^2, measured as 0.3 and 0.5.
 TEST(Extract, sphere_has_its_area_volume_and_one_piece) {
   for (const double h : {0.2, 0.1, 0.05}) {
     const Vec3 origin = {-4.8 * 8 * h / 2, 0.03, -0.01};
@@ -146,9 +146,9 @@ TEST(Extract, torus_has_its_area_volume_and_one_hole) {
   EXPECT_NEAR(found.volume, 2 * pi * pi * 0.16, 2 * pi * pi * 0.16 * relative);
 }
 
-// The gyroid has genus 3 in a primitive cell, two of which make the cubic cell: its Euler
-// characteristic there is -8. Its area is 3.0915 in a cell of side 1 (Schoen 1970 gives 3.091444
-// for the minimal surface, from which the trigonometric one differs by less than 1e-3).
+// The gyroid has genus 3 in a primitive cell. The cubic cell has two of them: its Euler
+// characteristic is -8. Its area is 3.0915 in a cell of side 1. Schoen (1970) gives 3.091444 for
+// the minimal surface, from which the trigonometric surface differs by less than 1e-3.
 TEST(Extract, gyroid_has_the_euler_characteristic_of_its_cell) {
   const double h = 1.0 / 32;  // the cubic cell is 4 x 4 x 4 blocks
   BlockGrid grid = box_grid({}, h, -1, 5);
@@ -176,7 +176,7 @@ TEST(Extract, gyroid_has_the_euler_characteristic_of_its_cell) {
     ++triangles;
     area += norm(cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]])) / 2;
   }
-  EXPECT_EQ(2 * vertices - triangles, 2 * -8);  // 3 triangles have 2 x 3 halves of edges
+  EXPECT_EQ(2 * vertices - triangles, 2 * -8);  // 3 triangles have 2 x 3 half-edges
   EXPECT_NEAR(area, 3.0915, 0.01);
 }
 
@@ -205,7 +205,7 @@ TEST(Extract, vertices_of_filled_nodes_are_marked) {
   const ExtractedSurface surface = extract_surface(grid);
   ASSERT_EQ(surface.filled.size(), surface.mesh.vertices.size());
   for (std::size_t v = 0; v < surface.filled.size(); ++v) {
-    // An edge reaches 0.5 if it starts there, or ends there from 0.4.
+    // Vertices between the nodes at 0.4 and 0.5 may count either way, and are not tested.
     const double z = surface.mesh.vertices[v].z;
     if (z > 0.499 || z < 0.401) {
       EXPECT_EQ(surface.filled[v] != 0, z > 0.45);
@@ -245,7 +245,7 @@ TEST(Extract, no_blocks_give_an_empty_mesh) {
   EXPECT_TRUE(extract_surface(grid).mesh.triangles.empty());
 }
 
-// Every node within the disc must have its block; blocks are sorted and distinct.
+// Every node within a disc must have its block; blocks are sorted and distinct.
 TEST(BlockGrid, discs_find_the_blocks_of_all_their_nodes) {
   const Vec3 origin = {1, -2, 3};
   const double step = 0.3;

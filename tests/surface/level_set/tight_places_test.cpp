@@ -1,5 +1,5 @@
-// Where normals turn fast, and what is near such places. Oracles: every edge by angles, every place
-// by cubes.
+// Places where normals turn fast, and their neighbourhoods. Oracles examine every edge by angles,
+// and every place by cubes.
 #include "surface/level_set/tight_places.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Vec3 random_point(double half, std::uint64_t seed, std::uint64_t i) {
                      test::random_in(-1, 1, seed, 3 * i + 2)};
 }
 
-// By the chord that belongs to the share of a full turn that the edge has of the length.
+// Compares the chord of each edge with the part of a full turn that the edge is of the length.
 std::set<std::uint32_t> sharp_by_edges(const Mesh& mesh, const NormalAttributes& normals,
                                        double length) {
   std::set<std::uint32_t> sharp;
@@ -51,7 +51,7 @@ TEST(sharp_vertices, are_those_of_edges_along_which_normals_turn_as_a_short_curv
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
       normals.set(v, normalized(normals[v] + random_point(noise, 1, v)));
     }
-    normals.set(7, {});  // not known: sharp, with all around it
+    normals.set(7, {});  // an unknown normal counts as sharp, with its neighbours
     for (const double length : {0.3, 1.0, 3.0, 10.0}) {
       const std::vector<std::uint32_t> found =
           sharp_vertices(mesh, normals, length, mesh.vertices.size(), {});

@@ -1,4 +1,5 @@
-// Trimming and dropping of pieces. Oracles: inspect() counts, circles on the sphere.
+// Trimming, and dropping of small components. Oracles are counts by inspect() and circles on the
+// sphere.
 #include "surface/level_set/trim.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,7 @@ Mesh sphere() {
   return extract_surface(grid).mesh;
 }
 
-// Edges that have a triangle on one side only.
+// Returns edges with a triangle on one side only.
 std::vector<std::pair<Vec3, Vec3>> border(const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
   for (const Triangle& t : mesh.triangles) {
@@ -58,8 +59,8 @@ TEST(Trim, border_of_a_cut_sphere_is_a_circle) {
     EXPECT_TRUE(found.manifold && found.oriented);
     EXPECT_EQ(found.isolated_vertices, 0U);
     EXPECT_EQ(found.degenerate_triangles, 0U);
-    // A tenth of an edge, of at most sqrt(3) steps, by the cut, and what smoothing does to z on a
-    // crooked mesh.
+    // The cut moves the border by a tenth of an edge, which has at most sqrt(3) steps. Smoothing
+    // then changes z on an irregular mesh.
     double length = 0;
     for (const auto& [a, b] : border(cut)) {
       EXPECT_NEAR(a.z, z, 0.4 * kStep);
@@ -100,7 +101,7 @@ TEST(Trim, attributes_are_interpolated) {
       std::count_if(support.begin(), support.end(), [](double s) { return s > 0; }));
   ASSERT_EQ(cut.attributes.size(), 1U);
   for (std::size_t v = 0; v < cut.vertices.size(); ++v) {
-    // The border is evened out after it is cut.
+    // The border is smoothed after the cut.
     EXPECT_NEAR(cut.attributes[0].values[v], cut.vertices[v].x, v < n_inner ? 1e-12 : kStep);
   }
 }

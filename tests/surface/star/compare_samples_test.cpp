@@ -43,12 +43,12 @@ void expect_same(const Comparison& a, const Comparison& b) {
   EXPECT_EQ(a.normal_mean_degrees, b.normal_mean_degrees);
 }
 
-// In memory, and in portions from one triangle to all of them, on one and more threads.
+// Compares in memory and in portions of one triangle up to all, on one and several threads.
 void expect_the_same_in_portions(const Mesh& a, const Mesh& b, const CompareOptions& options) {
   const Comparison expected = compare(a, b, options);
   const std::size_t all = std::max(a.triangles.size(), b.triangles.size());
   for (const std::size_t triangles : {std::size_t{1}, std::size_t{7}, all / 3 + 1, all}) {
-    if (all / triangles > 2000) continue;  // a second
+    if (all / triangles > 2000) continue;  // would take a second
     for (const int threads : {1, 3}) {
       SCOPED_TRACE(std::to_string(triangles) + " triangles, threads " + std::to_string(threads));
       expect_same(compare_in_portions({.mesh = view_of(a)}, {.mesh = view_of(b)}, triangles,
@@ -63,7 +63,7 @@ Mesh moved(Mesh mesh, double scale, const Vec3& offset) {
   return mesh;
 }
 
-// Triangles in an order that has nothing to do with where they are.
+// Returns triangles in an order unrelated to their positions.
 Mesh shuffled(Mesh mesh) {
   const std::size_t n = mesh.triangles.size();
   for (std::size_t t = 0; t < n; ++t) std::swap(mesh.triangles[t], mesh.triangles[t * 7919 % n]);
@@ -78,8 +78,8 @@ TEST(compare_in_portions, has_the_bits_of_a_comparison_in_memory) {
   expect_the_same_in_portions(a, moved(a, 1, {1e3, 0, 0}), {.samples = 50});
 }
 
-// On edges and faces of cubes whose triangles are there twice, closest triangles are equally near:
-// they differ in their normals, of which the median and the mean know.
+// On edges and faces of cubes whose triangles occur twice, two triangles are equally near. They
+// differ in their normals, which the median and the mean contain.
 TEST(compare_in_portions, ties_go_to_the_same_triangles) {
   Mesh a = box({2, 2, 2}, 4), b = moved(a, 0.7, {0.123, 0.456, 0.789});
   for (Mesh* mesh : {&a, &b}) {
@@ -96,8 +96,8 @@ TEST(compare_in_portions, ties_go_to_the_same_triangles) {
 TEST(compare_in_portions, takes_degenerate_triangles_and_any_scale) {
   Mesh mesh = bumpy_sphere(2, 0.5);
   for (std::size_t t = 0; t < 40; ++t) mesh.triangles[7 * t] = {0, 0, 1};
-  for (std::size_t t = 0; t < 9; ++t) mesh.triangles.push_back({2, 3, 3});  // the last ones
-  mesh.vertices.push_back({3, 3, 3});                                       // of no triangle
+  for (std::size_t t = 0; t < 9; ++t) mesh.triangles.push_back({2, 3, 3});  // the last faces
+  mesh.vertices.push_back({3, 3, 3});  // belongs to no triangle
   const Mesh other = icosphere(2);
   for (const double scale : {1.0, 1e-200, 1e200}) {
     expect_the_same_in_portions(moved(mesh, scale, {}), moved(other, scale, {}), {.samples = 500});
@@ -105,7 +105,7 @@ TEST(compare_in_portions, takes_degenerate_triangles_and_any_scale) {
   expect_the_same_in_portions(mesh, moved(other, 1e-12, {}), {.samples = 300});
 }
 
-// Rows of a file: floats with something before and behind.
+// Rows of a file: floats with other bytes before and after.
 TEST(compare_in_portions, takes_rows_of_any_kind_and_releases_them) {
   const Mesh a = bumpy_sphere(3, 0.4);
   std::vector<std::byte> vertices(31 * a.vertices.size() + 3), triangles(13 * a.triangles.size());
@@ -140,10 +140,10 @@ TEST(compare_in_portions, takes_rows_of_any_kind_and_releases_them) {
   const CompareOptions options{.samples = 900};
   expect_same(compare_in_portions(place, {.mesh = view_of(b)}, 100, options, {}),
               compare(rounded, b, options));
-  // Indices, areas, samples, scouts, and closest points.
+  // Passes for indices, areas, samples, scouts, and closest points.
   EXPECT_GE(*std::min_element(released.begin(), released.end()), 4);
   EXPECT_GE(vertices_released, 4 * a.vertices.size());
-  // All of it at once, and as little as can be.
+  // Once with everything in memory, once with as little as possible.
   for (const std::size_t memory : {std::size_t{0}, std::size_t{1} << 40}) {
     expect_same(compare(place, {.mesh = view_of(b)}, memory, options),
                 compare(rounded, b, options));
@@ -203,7 +203,7 @@ TEST(compare_in_portions, can_be_cancelled) {
   for (const int most : {1, all / 2, all}) EXPECT_THROW(run(most), Error) << most;
 }
 
-// Portions are as large as they may be, but never too small to be worth while.
+// Portions are as large as allowed, but never too small to be efficient.
 TEST(triangles_of_portion, follow_the_memory) {
   EXPECT_EQ(triangles_of_portion(0, 0), triangles_of_portion(1000, 1 << 20));
   EXPECT_LE(triangles_of_portion(0, 0) * 163, 3u << 20);

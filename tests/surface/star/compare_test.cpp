@@ -30,8 +30,8 @@ double triangle_area(const Mesh& mesh, const Triangle& t) {
 
 // --- Samples -------------------------------------------------------------------------------
 
-// A triangle that holds a of n shares has between a - 2 and a + 2 samples: only the shares at its
-// two ends are in doubt.
+// A triangle that has a of n shares of area gets between a - 2 and a + 2 samples: only the shares
+// at its two ends are uncertain.
 TEST(sample_by_area, gives_every_triangle_its_share) {
   const Mesh mesh = bumpy_sphere(2, 0.5);
   const std::size_t n = 20000;
@@ -46,8 +46,8 @@ TEST(sample_by_area, gives_every_triangle_its_share) {
   }
 }
 
-// In one triangle the samples are uniform: mean and mean products of the barycentric coordinates
-// are 1/3, 1/6 (squares), 1/12; their standard deviations are below 1/4: six of them.
+// In one triangle samples are uniform. Mean, squares and products of barycentric coordinates have
+// the means 1/3, 1/6 and 1/12, with deviations below 1/4. The bound is six deviations.
 TEST(sample_by_area, is_uniform_within_a_triangle) {
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -102,8 +102,8 @@ TEST(AreaSampling, gives_any_range_of_the_samples_by_itself) {
 
 // --- Comparison ----------------------------------------------------------------------------
 
-// Polyhedra between the spheres of radius inner R and R have distances between
-// 1.1 inner - 1 and 1.1 - inner from each other, whatever point one starts from.
+// Polyhedra between the spheres of radius inner R and R have distances between 1.1 inner - 1 and
+// 1.1 - inner from each other, from any point.
 TEST(compare, concentric_spheres_differ_by_their_radii) {
   const Mesh a = icosphere(5), b = moved(a, 1.1, {});
   double inner = 1;
@@ -120,16 +120,17 @@ TEST(compare, concentric_spheres_differ_by_their_radii) {
       EXPECT_LE(value, 1.1 - inner);
     }
   }
-  // A facet's normal is within acos(inner) of the radius at each of its points; three such angles
-  // lie between two normals: at the sample, at the closest point, and between their radii.
+  // A facet's normal is within acos(inner) of the radius at each of its points. Three angles of
+  // this size lie between two normals: at the sample, at the closest point, and between their
+  // radii.
   const double facet = std::acos(inner) * 180 / std::numbers::pi;
   EXPECT_LE(result.normal_mean_degrees, 3 * facet);
 }
 
-// A cube of edge 2 moved by s along x; of its six faces, x = 1 + s is at distance s; x = -1 + s is
-// at min(s, distance from the square's border), whose level sets are squares; the strips beyond
-// x = 1 of the other four are at x - 1; the rest touches. Sampling: 6 standard deviations, of
-// distances within 0 ... s at most s / 2.
+// A cube of edge 2 moved by s along x. Its face x = 1 + s is at distance s. Its face x = -1 + s is
+// at min(s, distance from the square's border), whose level sets are squares. The strips beyond x =
+// 1 of the other four faces are at x - 1; all other points touch. The bound is 6 standard
+// deviations of distances within 0 ... s, each at most s / 2.
 TEST(compare, shifted_cubes_have_the_distances_of_the_closed_form) {
   const double s = 0.2;
   const Mesh a = box({2, 2, 2}), b = moved(a, 1, {s, 0, 0});
@@ -157,8 +158,8 @@ TEST(compare, shifted_cubes_have_the_distances_of_the_closed_form) {
   EXPECT_EQ(result.normal_median_degrees, 0);
 }
 
-// A is two equal cubes, B one of them: all of B is found in A, half of A in B. Stratified samples
-// put all but one or two of each half where they belong.
+// A consists of two equal cubes, B of one of them: all of B is found in A, half of A in B.
+// Stratified samples fall on the right half, except for one or two.
 TEST(compare, precision_is_the_share_of_b_and_recall_that_of_a) {
   const Mesh b = box({2, 2, 2}), other = moved(b, 1, {10, 0, 0});
   Mesh a = b;
@@ -173,7 +174,7 @@ TEST(compare, precision_is_the_share_of_b_and_recall_that_of_a) {
   EXPECT_GT(result.a_to_b.max, 8);
 }
 
-// Samples lie on their triangle up to rounding: some 2^-53.
+// Samples lie on their triangle up to rounding of some 2^-53.
 TEST(compare, a_mesh_with_itself_has_no_distance) {
   const Mesh mesh = bumpy_sphere(4, 0.3);
   const Comparison result = compare(mesh, mesh, {.samples = 50000});
@@ -192,9 +193,10 @@ TEST(compare, a_flipped_mesh_has_opposite_normals_and_no_distance) {
   EXPECT_EQ(result.normal_median_degrees, 180);
 }
 
-// A cube whose top has a tent of height h on four squares of edge 1: its apex is h from the cube, a
-// sample within a distance d of the apex is at least h (1 - d) from it, and 200 000 samples on an
-// area near 24 lie closer than 0.05 together (a disc of that radius is 65 shares of area).
+// A cube whose top has a tent of height h on four squares of edge 1. The apex is h from the cube. A
+// sample within a distance d of the apex is at least h (1 - d) from the cube. There are 200 000
+// samples on an area near 24. They lie closer than 0.05 together (a disc of that radius is 65
+// shares of area).
 TEST(compare, finds_a_bump_from_the_side_that_has_it) {
   const double h = 0.5;
   const Mesh plain = box({2, 2, 2}, 2);
@@ -205,7 +207,7 @@ TEST(compare, finds_a_bump_from_the_side_that_has_it) {
   const Comparison result = compare(bumped, plain);
   EXPECT_GE(result.a_to_b.max, h * (1 - 0.05));
   EXPECT_LE(result.a_to_b.max, h);
-  EXPECT_LT(result.b_to_a.max, h * 0.9);  // the cube's points see the tent's slopes
+  EXPECT_LT(result.b_to_a.max, h * 0.9);  // points of the cube are near the tent's slopes
   EXPECT_EQ(result.hausdorff, result.a_to_b.max);
 }
 
@@ -229,7 +231,7 @@ TEST(compare, gives_the_same_bits_for_any_number_of_threads) {
   }
 }
 
-// By processes that have samples of their own of the same surfaces.
+// Other processes take their own samples of the same surfaces.
 TEST(compare, gives_the_same_bits_where_other_processes_measure_parts) {
   const Mesh a = bumpy_sphere(4), b = moved(icosphere(3), 1.05, {0.01, 0, 0});
   for (const std::size_t samples : {1u, 8192u, 20000u}) {
@@ -268,8 +270,8 @@ TEST(compare, scales_with_the_unit) {
   }
 }
 
-// Two independent estimates differ by sampling alone: 6 standard deviations of distances within
-// 0 ... max.
+// Two independent estimates differ by sampling only. The bound is 6 standard deviations of
+// distances within 0 ... max.
 TEST(compare, seeds_change_the_samples_and_little_else) {
   const Mesh a = bumpy_sphere(3, 0.3), b = bumpy_sphere(2, 0.3);
   const Comparison one = compare(a, b, {.samples = 20000, .seed = 1});

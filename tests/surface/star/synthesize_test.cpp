@@ -22,7 +22,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 const double kY00 = 1 / std::sqrt(4 * kPi);
 
-// r = a + (b - a) P_2-like terms: r(u) = 1 + 0.2 u_z^2, of degree 2 exactly.
+// r(u) = 1 + 0.2 u_z^2, which has degree 2 exactly.
 Expansion bulged_sphere() {
   Expansion e;
   e.coefficients = Coefficients(2);
@@ -140,13 +140,13 @@ TEST(measure, volume_and_centroid_of_a_limacon_are_exact) {
   EXPECT_NEAR(m.area.value(), area, 1e-12);
 }
 
-// A sphere about a point that is not its centre has a radius of infinite degree; its gauge too.
+// A sphere about a point off its centre has a radius, and a gauge, of infinite degree.
 TEST(measure, sphere_expanded_off_its_centre_keeps_volume_area_and_centroid) {
   const double shift = 0.3;
   constexpr int L = 40;  // the tail falls like shift^l
   const GaussRule rule = gauss_legendre(400);
   for (const RadialFunction function : {RadialFunction::kRadius, RadialFunction::kGauge}) {
-    // About (0, 0, shift): r = -shift z + sqrt(1 - shift^2 (1 - z^2)); zonal coefficients.
+    // About (0, 0, shift): r = -shift z + sqrt(1 - shift^2 (1 - z^2)); coefficients are zonal.
     Expansion e;
     e.function = function;
     e.center = {0, 0, shift};
@@ -169,7 +169,7 @@ TEST(measure, sphere_expanded_off_its_centre_keeps_volume_area_and_centroid) {
   }
 }
 
-// The ratio of Wadell (1935); it has no unit.
+// The sphericity of Wadell (1935) has no unit.
 TEST(descriptors, of_a_ball_are_the_known_ones_and_grow_by_their_power_of_the_unit) {
   const std::map<std::string, double> known = {
       {"volume", 4 * kPi / 3}, {"area", 4 * kPi}, {"sphericity", 1.0}};
@@ -200,7 +200,7 @@ TEST(measure, sphericity_is_that_of_wadell_whatever_the_scale) {
   EXPECT_EQ((SurfaceMeasures{.volume = 0, .area = 1, .centroid = {}}.sphericity()), 0);
 }
 
-// Scales far from 1, and a solid without mean.
+// Scales are far from 1; one solid has no mean radius.
 TEST(measure, scales_and_refuses_an_expansion_without_mean) {
   for (const double scale : {1e-90, 1e90}) {
     Expansion e = bulged_sphere();
@@ -211,7 +211,7 @@ TEST(measure, scales_and_refuses_an_expansion_without_mean) {
   EXPECT_THROW(measure(Expansion{}), Error);
 }
 
-// The graph of a signed sum is a surface, but not that of the body.
+// The graph of a signed sum is a surface, but not the surface of the body.
 TEST(measure, has_no_figures_of_a_signed_sum) {
   Expansion e = bulged_sphere();
   e.signed_sum = true;
@@ -223,8 +223,8 @@ TEST(measure, has_no_figures_of_a_signed_sum) {
   EXPECT_NO_THROW(inertia(e));
 }
 
-// r = 1 + b z: int r^5/5 z^2 dOmega = 4 pi/5 (1/3 + 10 b^2/5 + 5 b^4/7), and with 1 - z^2 for z^2
-// the same without the z^2.
+// r = 1 + b z: int r^5/5 z^2 dOmega = 4 pi/5 (1/3 + 10 b^2/5 + 5 b^4/7). The integral without z^2,
+// minus this one, has the factor 1 - z^2.
 TEST(inertia, of_a_limacon_is_exact) {
   const double b = 0.4, b2 = b * b;
   Expansion e;
@@ -244,7 +244,7 @@ TEST(inertia, of_a_limacon_is_exact) {
   EXPECT_LT(norm(rows[2] - Vec3{0, 0, along}), 1e-13);
 }
 
-// Of high degree against a grid of twice the rings, and the axes turn with the surface.
+// High degree is compared with a grid of twice the rings; the axes turn with the surface.
 TEST(inertia, is_exact_at_high_degree_and_turns_with_the_surface) {
   Expansion e;
   e.coefficients = test::random_coefficients(120, 3);
@@ -302,8 +302,8 @@ TEST(inertia, scales_and_refuses_what_has_none) {
   EXPECT_THROW(inertia(inside_out), Error);
 }
 
-// From a mesh to coefficients and back: the rms difference over directions, at 100 points of every
-// face weighted by solid angle, is that of (M7).
+// From a mesh to coefficients and back: the rms difference over directions equals the one of (M7).
+// It is measured at 100 points of every face, weighted by solid angle.
 TEST(synthesize, misses_the_mesh_by_the_truncation_error_known_from_its_norm) {
   const Mesh mesh = bumpy_sphere(3, 0.2);
   const StarChart chart = make_star_chart(mesh);

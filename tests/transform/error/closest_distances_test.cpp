@@ -44,7 +44,7 @@ TEST(surface_pieces, add_up_to_the_area_and_to_the_sphere) {
       angle += part * pieces.cosines[i] / (r * r);
     }
     EXPECT_NEAR(areas, area, 1e-12 * area);
-    // One point a piece: second order in sizes of 1/50.
+    // One point per piece: the error is of second order in sizes of 1/50.
     EXPECT_NEAR(angle, 4 * kPi, 0.01 * 4 * kPi);
     EXPECT_LT(pieces.size(), 10'000 + mesh.triangles.size());
   }
@@ -61,9 +61,10 @@ TEST(surface_pieces, of_more_faces_than_points_are_taken_by_chance) {
   EXPECT_NEAR(angle, 4 * kPi, 0.03 * 4 * kPi);
 }
 
-// A cube of edge 2 and the sphere of radius R about a centre off its own: from a point x of the
-// cube to the sphere |R - |x||; from a point of the sphere outside the cube's corners to its
-// faces. The largest is at the farthest corner.
+// A cube of edge 2, and the sphere of radius R about a centre off the cube's. A point x of the cube
+// is
+// R - |x|| from the sphere. Points of the sphere outside the cube are measured to its faces. The
+// largest distance is at the farthest corner.
 TEST(closest_distances, between_a_cube_and_a_sphere) {
   const Mesh cube = box({2, 2, 2});
   constexpr double kRadius = 1.3;
@@ -83,7 +84,7 @@ TEST(closest_distances, between_a_cube_and_a_sphere) {
                             Vec3{a, b, 1}, Vec3{a, b, -1}}) {
         there += std::pow(norm(x - center) - kRadius, 2) / (6 * n * n);
       }
-      // Equal areas of the sphere.
+      // Points have equal areas of the sphere.
       const double z = a, phi = kPi * b, s = std::sqrt(1 - z * z);
       const Vec3 y = center + kRadius * Vec3{s * std::cos(phi), s * std::sin(phi), z};
       const Vec3 over = {std::max(std::abs(y.x) - 1, 0.0), std::max(std::abs(y.y) - 1, 0.0),
@@ -96,7 +97,7 @@ TEST(closest_distances, between_a_cube_and_a_sphere) {
   EXPECT_NEAR(found.rms, expected, 2e-3 * expected);
 }
 
-// Seen from near a face, to first order the distance is far off; by closest points it is not.
+// Near a face seen at a small angle the first-order distance is far off; closest points are exact.
 TEST_OF_TWO_SIZES(truncation_errors, distances_of_steep_polyhedra_are_those_of_closest_points) {
   for (const std::uint64_t seed : nightly ? std::vector{1, 2, 3} : std::vector{2}) {
     const Mesh mesh = test::star_polyhedron(seed - 1, 0, 0.9, seed);
@@ -113,7 +114,7 @@ TEST_OF_TWO_SIZES(truncation_errors, distances_of_steep_polyhedra_are_those_of_c
   }
 }
 
-// So many faces that a sample is enough: bumps as high as half the radius, cut off at two degrees.
+// The mesh has enough faces for a sample: bumps of half the radius, truncated at two degrees.
 TEST_OF_TWO_SIZES(truncation_errors, distances_of_bumpy_meshes_are_those_of_closest_points) {
   const Mesh mesh = bumpy_sphere(4, 0.5, 3);
   const StarChart chart =
@@ -131,7 +132,7 @@ TEST_OF_TWO_SIZES(truncation_errors, distances_of_bumpy_meshes_are_those_of_clos
   }
 }
 
-// A model and a mesh of sizes that have nothing to do with each other: no work beyond first order.
+// The sizes of model and mesh are unrelated: no work is done beyond first order.
 TEST(truncation_errors, of_sizes_that_do_not_compare_come_at_once) {
   for (const double size : {1e-100, 1e100}) {
     Mesh mesh = box({2, 2, 2});

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// One face, with angles and cosines.
+// Computes the bound of one face with angles and cosines.
 double slow_bound(const std::array<Vec3, 3>& p, double bend) {
   double longest = 0, nearest = kInfinity, farthest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -34,8 +34,8 @@ TEST(corner_bounds, are_those_of_each_face) {
   Mesh mesh = bumpy_sphere(3);
   const Vec3 center = {0.02, -0.01, 0.03};
   mesh.vertices[5] = 3.0 * mesh.vertices[5];              // long, steep faces
-  mesh.triangles[7] = {1, 2, 2};                          // no area
-  std::swap(mesh.triangles[9][0], mesh.triangles[9][1]);  // turned away
+  mesh.triangles[7] = {1, 2, 2};                          // without area
+  std::swap(mesh.triangles[9][0], mesh.triangles[9][1]);  // faces inwards
   const MeshView view = view_of(mesh);
   std::size_t infinite = 0;
   for (const std::size_t n : {1UL, 3UL, 8UL, 13UL, 128UL, 131UL, mesh.triangles.size()}) {

@@ -13,7 +13,7 @@
 namespace rholm {
 namespace {
 
-// Energies 1, 3 * 4, 5 * 9: every coefficient of degree l is l + 1.
+// Energies are 1, 3 * 4, 5 * 9: every coefficient of degree l is l + 1.
 Coefficients three_degrees() {
   Coefficients c(2);
   for (int l = 0; l <= 2; ++l) {
@@ -42,7 +42,7 @@ TEST(rms_tails, say_which_degree_is_the_smallest_within_a_limit) {
   EXPECT_EQ(smallest_degree(tails, 0.1), 3);
 }
 
-// The error of the first degrees of coarse coefficients is what is measured of exact ones.
+// The error at low degrees of coarse coefficients equals the measured error of exact coefficients.
 TEST(error_of_degree, is_that_of_the_model_of_this_degree) {
   const Mesh mesh = test::rotated(bumpy_sphere(3, 0.3));
   const StarChart chart =
@@ -50,7 +50,8 @@ TEST(error_of_degree, is_that_of_the_model_of_this_degree) {
   const Analysis coarse = analyze(chart, {.degree = 40, .precision = 1e-4});
   for (const ErrorNorm norm : {ErrorNorm::kRms, ErrorNorm::kMax}) {
     for (const ErrorMeasure measure : {ErrorMeasure::kRadius, ErrorMeasure::kDistance}) {
-      if (norm == ErrorNorm::kRms && measure == ErrorMeasure::kRadius) continue;  // of energies
+      // The error of this case is computed from energies.
+      if (norm == ErrorNorm::kRms && measure == ErrorMeasure::kRadius) continue;
       const Tolerance tolerance{.error = 1e-3, .norm = norm, .measure = measure};
       const Context context;
       ErrorSites sites(view_of(mesh), {});
@@ -77,10 +78,10 @@ TEST(error_of_degree, is_taken_from_a_part_of_the_points_away_from_the_limit) {
   ErrorOfDegree error(tolerance, sites, 1, context);
   const auto of = [&](double limit) { return error.of(coarse.expansion, 4, limit); };
   const double near = of(1), part = of(2 * near), all = of(near);
-  // Interpolation to a thousandth of the limit at worst.
+  // Interpolation has an error of at most a thousandth of the limit.
   EXPECT_NEAR(of(0.5 * near), part, 1e-4 * part);
   EXPECT_NEAR(of(0.98 * near), all, 1e-4 * all);
-  // Root mean squares over 20 000 points and 100 000, a few on each face.
+  // Root mean squares over 20 000 and 100 000 points, with several points on each face.
   EXPECT_GT(std::abs(part - all), 3e-4 * all);
   EXPECT_NEAR(part, all, 0.03 * all);
 }

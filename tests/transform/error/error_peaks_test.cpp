@@ -17,7 +17,7 @@
 namespace rholm {
 namespace {
 
-// 320 faces, some of which are seen at a shallow angle.
+// Returns 320 faces, some of which are seen at a small angle.
 Mesh rougher_sphere() {
   Mesh mesh = icosphere(2);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -26,7 +26,7 @@ Mesh rougher_sphere() {
   return mesh;
 }
 
-// A box whose top has a pyramid pressed into it.
+// A box with a pyramid-shaped pit in its top.
 Mesh box_with_a_pit() {
   Mesh mesh;
   mesh.vertices = {{-.3, -.9, -.5}, {.3, -.9, -.5}, {.3, .9, -.5}, {-.3, .9, -.5},  {-.3, -.9, .5},
@@ -36,7 +36,7 @@ Mesh box_with_a_pit() {
   return mesh;
 }
 
-// A single wave's peak about a direction inside one face, from points that do not have it.
+// A single wave peaks in a direction inside one face, which is none of the points.
 TEST(highest_peaks, are_found_between_points) {
   const Mesh mesh = icosphere(1);
   for (const Vec3& peak : {normalized(Vec3{0.3, 0.4, 0.7}), normalized(Vec3{-0.8, 0.1, 0.2})}) {
@@ -63,8 +63,8 @@ StarChart chart_about_origin(const Mesh& mesh) {
   return make_star_chart(mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
 }
 
-// Against 400 points on each face and climbs from the worst: on faces that are short and long
-// against 1/L, and on faces seen at a shallow angle.
+// Compares with 400 points on each face and climbs from the worst points. Faces are short or long
+// compared with 1/L, or seen at a small angle.
 TEST(truncation_errors, measured_max_is_that_of_dense_points_nightly) {
   for (const Mesh& mesh :
        {test::rotated(bumpy_sphere(2, 0.3)), test::random_octahedron(4),
@@ -81,7 +81,7 @@ TEST(truncation_errors, measured_max_is_that_of_dense_points_nightly) {
   }
 }
 
-// Faces of 200/L: seven points on each and the climbs from there find too little.
+// Faces have lengths of 200/L: seven points on each, with climbs from there, find too little.
 TEST_OF_TWO_SIZES(truncation_errors, measured_max_is_that_of_dense_points_on_long_faces) {
   const Mesh mesh = test::rotated(box_with_a_pit());
   const StarChart chart = chart_about_origin(mesh);

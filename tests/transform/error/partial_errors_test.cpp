@@ -24,7 +24,7 @@ Coefficients random_coefficients() {
   return c;
 }
 
-// Against the sums of the first degrees one by one, at the poles as well.
+// Compares with separate sums up to each degree, also at the poles.
 TEST(largest_partial_errors, are_those_of_the_first_degrees) {
   const Coefficients c = random_coefficients();
   ErrorPoints points;
@@ -46,7 +46,7 @@ TEST(largest_partial_errors, are_those_of_the_first_degrees) {
   }
 }
 
-// Against the gradients of the first degrees one by one.
+// Compares with separate gradients up to each degree.
 TEST(largest_partial_distances, are_those_to_the_tangent_planes_of_the_first_degrees) {
   const Coefficients c = random_coefficients();
   ErrorPoints points;

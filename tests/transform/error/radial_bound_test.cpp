@@ -42,7 +42,7 @@ Expansion ball(double radius) {
   return expansion;
 }
 
-// Corners at distance 1 on the axes.
+// Corners are at distance 1 on the axes.
 Mesh octahedron() {
   Mesh mesh;
   mesh.triangles.reserve(8);
@@ -56,7 +56,8 @@ Mesh octahedron() {
   return mesh;
 }
 
-// Of a sphere's model of radius c: 1 - c at the vertices, c - 1/sqrt(3) in the middle of faces.
+// For a spherical model of radius c the errors are 1 - c at vertices and c - 1/sqrt(3) in the
+// middle of faces.
 TEST(radial_bound, of_an_octahedron_is_its_largest_error) {
   const Mesh mesh = test::rotated(octahedron());
   const double inner = 1 / std::sqrt(3.0);
@@ -69,7 +70,7 @@ TEST(radial_bound, of_an_octahedron_is_its_largest_error) {
   }
 }
 
-// 1 - d at the foot of the perpendicular of the nearest plane.
+// The error is 1 - d at the foot of the perpendicular to the nearest plane.
 TEST(radial_bound, of_a_fine_mesh_of_a_sphere_is_the_depth_of_its_faces) {
   const Mesh mesh = icosphere(4);
   double depth = 0;
@@ -81,13 +82,13 @@ TEST(radial_bound, of_a_fine_mesh_of_a_sphere_is_the_depth_of_its_faces) {
       bound_of(mesh, ball(1), {.seen = depth, .enough = 1.01 * depth, .most_cells = 2'000'000});
   EXPECT_GE(bound.value, depth);
   EXPECT_LE(bound.value, 1.0101 * depth);
-  // As many cells as the errors of a model take.
+  // Uses the number of cells of truncation_errors().
   const TruncationErrors errors = truncation_errors(view_of(mesh), ball(1));
   EXPECT_GE(*errors.max_bound, depth);
   EXPECT_LE(*errors.max_bound, 2.5 * depth);
 }
 
-// Against points of their own on all faces.
+// Compares with other points on all faces.
 TEST_OF_TWO_SIZES(radial_bound, no_error_of_random_meshes_is_above_it) {
   for (const Mesh& mesh :
        {test::random_octahedron(4), test::random_octahedron(11), test::rotated(box({2, 1.6, 0.3})),
@@ -101,7 +102,7 @@ TEST_OF_TWO_SIZES(radial_bound, no_error_of_random_meshes_is_above_it) {
       EXPECT_GE(*errors.max_bound, *errors.measured_max);
       EXPECT_LE(*errors.max_bound, (degree < 10 ? 2 : 8) * dense)
           << mesh.triangles.size() << ' ' << degree;
-      // However few cells may be looked at.
+      // The bound holds for any number of cells.
       for (const std::size_t most_cells : {0, 10, 1000}) {
         EXPECT_GE(bound_of(mesh, expansion, {.seen = dense, .most_cells = most_cells}).value, dense)
             << mesh.triangles.size() << ' ' << degree << ' ' << most_cells;
@@ -110,7 +111,7 @@ TEST_OF_TWO_SIZES(radial_bound, no_error_of_random_meshes_is_above_it) {
   }
 }
 
-// No error anywhere is more than 1 % above it, and some error is as large.
+// No error exceeds the measured maximum by more than 1 %, and some error reaches it.
 TEST_OF_TWO_SIZES(radial_bound, proves_measured_max_to_a_hundredth) {
   for (const Mesh& mesh :
        {test::random_octahedron(4), test::rotated(box({2, 1.6, 1.2})), test::rough_sphere(1)}) {
@@ -137,7 +138,7 @@ TEST(radial_bound, says_nothing_of_the_inverse_of_the_radius) {
 }
 
 TEST(radial_bound, has_the_same_bits_for_any_number_of_threads) {
-  const Mesh mesh = test::rotated(bumpy_sphere(5, 0.3));  // more faces than a task has
+  const Mesh mesh = test::rotated(bumpy_sphere(5, 0.3));  // more faces than one task
   const Expansion expansion = expansion_of(mesh, 20);
   const BoundOptions options{.seen = 0.01, .enough = 0.0101, .most_cells = 30'000};
   const RadialBound one = bound_of(mesh, expansion, options);

@@ -20,9 +20,9 @@ Expansion sphere_of_radius(double r) {
   return expansion;
 }
 
-// The unit sphere about (0, 0, a) and the sphere of radius R about the centre. From a point of the
-// first at height z over its centre to the second ||x| - R|; back likewise, ||y - (0, 0, a)| - 1|.
-// Heights are spread evenly over a sphere.
+// The unit sphere about (0, 0, a) and the sphere of radius R about the origin. A point of the first
+// at height z over its centre is ||x| - R| from the second; a point of the second is
+// |y - (0, 0, a)| - 1| from the first. Heights are uniform on a sphere.
 struct Spheres {
   double a, radius;
 
@@ -55,7 +55,7 @@ TEST(sampled_distances, between_two_spheres_are_those_of_the_closed_form) {
     const PointErrors errors = point_errors(points, model, true, {});
     const SampledDistances found =
         sampled_distances(view, {}, model, {points, errors}, {points, errors}, {});
-    // Flat faces are up to 3e-4 within the sphere.
+    // Flat faces lie up to 3e-4 inside the sphere.
     EXPECT_NEAR(found.rms, spheres.rms(), 2e-3 * spheres.rms());
     EXPECT_LT(found.rms_error, 2e-3);
     EXPECT_NEAR(found.max, spheres.max(), 1e-3 * spheres.max());
@@ -67,7 +67,8 @@ TEST(sampled_distances, between_two_spheres_are_those_of_the_closed_form) {
     EXPECT_NEAR(*said.distance_rms, spheres.rms(), 2e-3 * spheres.rms());
     EXPECT_NEAR(*said.measured_max_distance, spheres.max(), 1e-3 * spheres.max());
   }
-  // It measures to the planes of faces, which are not the faces: this is no test of it.
+  // First-order distances are measured to the planes of faces, not to the faces. The test only
+  // shows that they differ.
   EXPECT_GT(first_order_is_off, 0.02);
 }
 

@@ -25,7 +25,7 @@ StarChart chart_of(const Mesh& mesh, const Vec3& center = {}) {
                          {.center = {.kind = CenterKind::kGiven, .point = center, .rays = 0}});
 }
 
-// Root mean square of r - r_L over solid angle, by dense cubature.
+// Returns the root mean square of r - r_L over solid angle, by dense cubature.
 double dense_rms(const Mesh& mesh, const Coefficients& c, int n) {
   std::vector<Vec3> directions;
   std::vector<double> radii, weights;
@@ -64,14 +64,14 @@ TEST(truncation_errors, measured_rms_is_the_exact_one_to_a_hundredth) {
   const TruncationErrors exact =
       truncation_errors(view_of(mesh), analysis.expansion, {.precision = 1e-12});
   ASSERT_TRUE(exact.rms_is_exact);
-  // Coefficients that are said to be poor: Parseval's difference means nothing.
+  // If coefficients are declared inaccurate, Parseval's difference has no meaning.
   const TruncationErrors measured =
       truncation_errors(view_of(mesh), analysis.expansion, {.precision = 1e-3});
   EXPECT_FALSE(measured.rms_is_exact);
   EXPECT_NEAR(*measured.rms, *exact.rms, 0.01 * *exact.rms);
 }
 
-// The largest error of a box sits at a corner, which is one of the points.
+// The largest error of a box is at a corner, which is one of the points.
 TEST(truncation_errors, the_largest_is_that_of_the_worst_vertex) {
   const Mesh mesh = test::random_octahedron(3);
   const StarChart chart = chart_of(mesh);
@@ -140,7 +140,7 @@ TEST_OF_TWO_SIZES(analyze_to_a_tolerance, finds_the_smallest_degree_that_keeps_i
         cut.coefficients = cut.coefficients.resized(l);
         return error_of(c.tolerance, truncation_errors(view_of(mesh), cut, {.precision = 1e-9}));
       };
-      // Points between vertices lie closer for the higher degree that was searched in.
+      // Points between vertices are denser for the higher degree of the search.
       EXPECT_NEAR(measured(degree), found.reached, 0.03 * found.reached) << c.name;
       if (degree > 10) {
         EXPECT_GT(measured(degree - degree / 10), found.allowed) << c.name;

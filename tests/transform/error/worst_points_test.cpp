@@ -22,8 +22,8 @@ StarChart chart_about_origin(const Mesh& mesh) {
   return make_star_chart(mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
 }
 
-// Against exact values and slopes at all points: of smooth errors and of rough ones, on faces that
-// are short and long against 1/L, of the radius and of its inverse; whatever is known beforehand.
+// Compares with exact values and slopes at all points, for smooth and rough errors. Faces are short
+// or long compared with 1/L; functions are radius and gauge; prior knowledge varies.
 TEST_OF_TWO_SIZES(worst_points, have_the_largest_errors_of_all) {
   const Mesh smooth = test::rotated(bumpy_sphere(nightly ? 5 : 4, 0.3));
   Mesh rough = smooth;
@@ -60,8 +60,8 @@ TEST_OF_TWO_SIZES(worst_points, have_the_largest_errors_of_all) {
   }
 }
 
-// A vertex far off that belongs to no face is none of the surface, whatever the number of vertices
-// says, and however small the rest is beside it.
+// A distant vertex without a face is not part of the surface, whatever the number of vertices, and
+// however small the other coordinates are.
 TEST(worst_points, are_of_faces) {
   const Mesh mesh = bumpy_sphere(5, 0.3);
   const Expansion expansion =
@@ -81,7 +81,7 @@ TEST(worst_points, are_of_faces) {
   }
 }
 
-// Of a rod that is six times as long as thick: errors of 1/r count 36 times as much at its ends.
+// A rod is six times as long as thick: at its ends, errors of 1/r count 36 times as much.
 TEST(worst_points, of_a_long_gauge_are_at_its_ends_too) {
   Mesh mesh = icosphere(5);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -103,7 +103,7 @@ TEST(worst_points, of_a_long_gauge_are_at_its_ends_too) {
   EXPECT_NEAR(largest(worst.errors.radial), radial, 1e-8);
 }
 
-// The mean square of waves over the area, against many midpoints on each face.
+// Compares the mean square of waves over the area with many midpoints on each face.
 TEST(area_points, give_a_root_mean_square_to_three_in_a_thousand) {
   for (const int subdivisions : {1, 2, 3}) {
     const Mesh mesh = test::rotated(bumpy_sphere(subdivisions, 0.3));
@@ -139,7 +139,7 @@ TEST(area_points, give_a_root_mean_square_to_three_in_a_thousand) {
   }
 }
 
-// Twice the areas of faces and how wide the longest edges of a run look, face by face.
+// Compares twice the areas of faces, and angular widths of the longest edges of runs, face by face.
 TEST(face_sizes, are_what_the_faces_have) {
   for (const std::size_t n : {1, 3, 7, 127, 128, 130, 320}) {
     Mesh mesh = test::rotated(bumpy_sphere(2, 0.3));

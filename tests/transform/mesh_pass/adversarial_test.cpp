@@ -1,6 +1,6 @@
-// The promise of the mesh pass on meshes made to break it: the true error is within the wish, and
-// what is reported is no less than half of it, for the whole and for the degrees above 3L/4.
-// Against direct sums with quadrature of their own.
+// The mesh pass on difficult meshes. The true error is within the requested precision, and the
+// reported error is at least half of it, over all degrees and over the degrees above 3L/4. The
+// reference is direct sums with their own quadrature.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Bodies of many parts that are alike, in step with the grid, against direct sums. One pass alone,
-// without a second reading.
+// Bodies of many similar parts that match the period of the grid, compared with direct sums. There
+// is one pass only, without a second reading.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 using test::relative_error;
 
-// One direct sum of the highest degree, the last, has the coefficients of all.
+// A single direct sum of the last, highest degree gives the coefficients of all degrees.
 void check_error_of_pass(const Mesh& mesh, const std::vector<int>& degrees, double precision) {
   const StarChart chart{.mesh = mesh, .edges = pair_edges(mesh), .report = {}};
   const Coefficients exact =
@@ -33,8 +33,8 @@ void check_error_of_pass(const Mesh& mesh, const std::vector<int>& degrees, doub
   }
 }
 
-// Walls of 1e-4 rad seen edge on, as many as teeth. On a grid of n longitudes errors of order L add
-// up where n - L is a multiple of the teeth.
+// Walls of 1e-4 rad are seen edge-on, one per tooth. On a grid of n longitudes, errors of order L
+// add up where n - L is a multiple of the number of teeth.
 TEST_OF_TWO_SIZES(mesh_pass, keeps_the_precision_of_gears_with_walls_seen_edge_on) {
   struct Case {
     int teeth, layers;
@@ -56,7 +56,7 @@ TEST_OF_TWO_SIZES(mesh_pass, keeps_the_precision_of_a_thin_box_off_centre) {
   check_error_of_pass(thin, nightly ? std::vector{32, 64, 128} : std::vector{32}, 1e-6);
 }
 
-// Turned by a generic rotation it leaves as much; neither is zero to rounding.
+// Turned by a generic rotation, the body has the same error; neither error is zero to rounding.
 TEST(mesh_pass, leaves_orders_zero_that_a_body_of_revolution_does_not_have) {
   std::vector<std::vector<Vec3>> rings;
   for (int k = 0; k <= 20; ++k) {
@@ -75,8 +75,8 @@ TEST(mesh_pass, leaves_orders_zero_that_a_body_of_revolution_does_not_have) {
   }
 }
 
-// Rows about y of what is nearly a ball, too many faces for a second reading. All weights cancel,
-// and what windows leave of them does not.
+// A body that is nearly a ball, with rows about y and too many faces for a second reading. All
+// weights cancel, but their errors of windows do not.
 TEST(mesh_pass, keeps_the_precision_of_a_planet_of_rows_about_another_axis) {
   Mesh planet = latitude_longitude_sphere(224, 448);
   for (Vec3& x : planet.vertices) {

@@ -14,9 +14,10 @@
 namespace rholm {
 namespace {
 
-// int r dOmega of an equilateral triangle at the height d above its middle. In polar coordinates of
-// its plane d int dS / (rho^2 + d^2) is six times d/2 int_0^(pi/3) ln(1 + h^2 / (d cos phi)^2)
-// dphi, h the radius of the inscribed circle: smooth, by Simpson's rule.
+// Returns int r dOmega of an equilateral triangle at the height d above its middle. In polar
+// coordinates of its plane, d int dS / (rho^2 + d^2) is six times d/2 int_0^(pi/3) ln(1 + h^2 / (d
+// cos phi)^2) dphi. h is the radius of the inscribed circle. The function is smooth: Simpson's rule
+// is used.
 double radius_integral_above_the_middle(double d, double h) {
   constexpr int kSteps = 1000;
   double sum = 0;
@@ -28,7 +29,7 @@ double radius_integral_above_the_middle(double d, double h) {
   return 3 * d * sum * std::numbers::pi / 3 / kSteps / 3;
 }
 
-// As flat meshes have them, whose planes miss the centre by rounding only.
+// In flat meshes, planes miss the centre by rounding only.
 TEST(radius_integral, keeps_its_relative_error_at_any_height_above_the_triangle) {
   const double h = 0.5;
   for (const double d : {1.0, 1e-2, 1e-5, 1e-8, 1e-11, 1e-13}) {
@@ -41,14 +42,14 @@ TEST(radius_integral, keeps_its_relative_error_at_any_height_above_the_triangle)
   }
 }
 
-// The solid angle may come out as zero where the height does not: a part of nothing is no
-// allowance.
+// The computed solid angle may be zero where the height is not: a part of zero would allow no
+// error.
 TEST(radius_integral, of_triangles_whose_planes_miss_the_centre_by_rounding_is_that_small) {
   for (int k = 0; k < 300; ++k) {
     const double a = 0.1 * k, b = 0.37 * k;
     const Vec3 u = {std::cos(a), std::sin(a), 0};
     const Vec3 v = {-std::sin(a) * std::cos(b), std::cos(a) * std::cos(b), std::sin(b)};
-    // Half the size of their distance, at least 1.
+    // The triangle's size is half of its distance, which is at least 1.
     const std::array<Vec3, 3> corners = {u, 1.5 * u, 1.2 * u + 0.5 * v};
     EXPECT_LT(std::abs(radius_integral(corners, 1e-14)), 1e-16) << k;
   }
@@ -73,7 +74,7 @@ struct Written {
   Coefficients sum;  // without the constant
   double said = 0;
 };
-// The cap of a lattice around its pole, by direct sums.
+// Writes the cap of a lattice around its pole, by direct sums.
 Written write_cap(const Mesh& mesh, int degree, double allowed) {
   Collected nodes;
   const MeshView view = view_of(mesh);
@@ -92,7 +93,7 @@ Written write_cap(const Mesh& mesh, int degree, double allowed) {
   return {sum, std::sqrt(writer.error2())};
 }
 
-// All of its edges and faces are alike, and long against the rows they stand in.
+// All edges and faces of a row are alike, and long compared with their row.
 TEST(node_writer, says_what_its_rules_leave_around_the_pole_of_a_lattice) {
   const Mesh mesh = latitude_longitude_sphere(80, 160);
   constexpr int kDegree = 16;

@@ -100,7 +100,7 @@ TEST(division, ranges_from_a_part_on_hold_its_indices_and_those_behind_it) {
   }
 }
 
-// Subdivided bodies have the vertices of each level all over the sphere; rows follow each other.
+// Subdivided bodies have the vertices of each level all over the sphere; rows are consecutive.
 TEST(division, parts_overlap_where_their_vertices_lie_among_those_of_others) {
   const auto overlap = [](const Mesh& mesh, std::size_t parts) {
     const MeshView view = view_of(mesh);
@@ -151,7 +151,7 @@ TEST(common_lumps, are_the_sum_of_what_was_added_to_any_loan) {
   }
 }
 
-// Nothing is touched before it is borrowed.
+// Memory is not touched before it is borrowed.
 TEST(common_lumps, are_borrowed_by_no_more_than_a_gigabyte_holds_or_two) {
   const auto most = [](std::size_t n) { return CommonLumps<double>(n, 1).most_borrowed(); };
   EXPECT_EQ(most(std::size_t{1} << 22), 8u);
@@ -282,7 +282,7 @@ TEST(border_sums, are_exact_and_in_the_order_of_vertices) {
   }
 }
 
-// In one way, in many parts, and with the indices so scattered that each part is copied.
+// Processes a mesh in one part, in many parts, and with indices so scattered that parts are copied.
 TEST(mesh_parts, their_sum_is_the_whole_whatever_their_number) {
   const Mesh fine = test::rotated(bumpy_sphere(6)), rough = rough_sphere(5);
   for (const Mesh* mesh : {&fine, &rough}) {
@@ -295,7 +295,7 @@ TEST(mesh_parts, their_sum_is_the_whole_whatever_their_number) {
         EXPECT_LT(relative_error(sum.coefficients, whole.coefficients), 2 * precision) << parts;
         EXPECT_TRUE(sum.report.reached);
         EXPECT_TRUE(sum.closed);
-        // Whole vertices are spread, as ever: no more is left of them.
+        // Whole vertices are spread as before, so that the error does not grow.
         EXPECT_LT(sum.report.error, 2 * whole.report.error + precision / 10);
         EXPECT_EQ(sum.report.lumped_triangles, whole.report.lumped_triangles);
         EXPECT_EQ(sum.min_d, whole.min_d);
@@ -316,8 +316,8 @@ TEST(mesh_parts, give_the_same_bits_for_any_number_of_threads) {
   }
 }
 
-// Lumps in common, of which several threads have some of their own. With few nodes and many, with
-// and without Hessians, in either precision.
+// Lumps are shared, and several threads have some of their own. Cases have few and many nodes, with
+// and without Hessians, in both precisions.
 TEST(mesh_parts, whose_vertices_lie_scattered_are_the_same_on_any_number_of_threads) {
   const Mesh mesh = test::rotated(bumpy_sphere(6, 0.2));
   const MeshView view = view_of(mesh);
@@ -334,7 +334,7 @@ TEST(mesh_parts, whose_vertices_lie_scattered_are_the_same_on_any_number_of_thre
       EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << degree << " " << threads;
       EXPECT_EQ(one.report.error, many.report.error);
     }
-    // In parts with borders.
+    // The parts have borders.
     options.parts = 9;
     const MeshPassResult parts = mesh_pass(view, options, {});
     EXPECT_LT(relative_error(one.coefficients, parts.coefficients), 1.5 * precision);
@@ -392,7 +392,7 @@ TEST(mesh_parts, release_the_vertices_they_are_done_with) {
   EXPECT_GT(*std::min_element(released.begin(), released.end()), 0);
 }
 
-// As several processes do: each works some of the parts, which travel as bytes.
+// Simulates several processes: each handles some of the parts, which are sent as bytes.
 template <typename T>
 std::string bytes_of(const MeshPart<T>& part) {
   ByteWriter writer;

@@ -1,4 +1,4 @@
-// The promise of the fast engine on small meshes of all kinds. The oracle is cubature of r dOmega
+// The precision of the fast engine on small meshes of all kinds. The oracle is cubature of r dOmega
 // by direct sums: it shares neither nodes nor weights nor windows with the mesh pass.
 #include "transform/mesh_pass/pass.h"
 
@@ -28,8 +28,8 @@ namespace {
 using test::relative_error;
 using test::rough_sphere;
 
-// With flat triangles: each of the first n loses its first edge a -> b to a triangle a, b, m with m
-// in the middle of the edge, but for rounding.
+// Adds flat triangles. Each of the first n triangles loses its edge a -> b to a triangle a, b, m.
+// The vertex m is in the middle of the edge, except for rounding.
 Mesh with_flat_triangles(Mesh mesh, std::size_t n) {
   for (std::size_t t = 0; t < n; ++t) {
     const auto [a, b, c] = mesh.triangles[t];
@@ -38,13 +38,13 @@ Mesh with_flat_triangles(Mesh mesh, std::size_t n) {
     mesh.triangles[t] = {a, m, c};
     mesh.triangles.push_back({m, b, c});
     mesh.triangles.push_back({a, b, m});
-    mesh.triangles.push_back({a, c, a});  // no area at all, and closed in itself
+    mesh.triangles.push_back({a, c, a});  // without area, and closed in itself
     mesh.triangles.push_back({a, a, c});
   }
   return mesh;
 }
 
-// Also for surfaces that are not star-shaped.
+// Surfaces need not be star-shaped.
 StarChart chart_of(const Mesh& mesh, const Vec3& center) {
   return make_star_chart(mesh, {.center = {.kind = CenterKind::kGiven, .point = center, .rays = 0},
                                 .allow_signed = true});
@@ -67,7 +67,7 @@ struct Case {
   Mesh mesh;
   Vec3 center;
   int degree;
-  double slope;  // d_T / r of the face seen at the most grazing angle, at least 1 / (8 L)
+  double slope;  // smallest d_T / r of a face, at least 1 / (8 L)
 };
 
 std::vector<Case> cases() {
@@ -93,14 +93,14 @@ std::vector<Case> cases() {
 }
 
 struct Sweep {
-  int reports = 0, close = 0;  // of the estimated error: all, and from once to five times the true
+  int reports = 0, close = 0;  // estimated errors: all, and within one to five times the true one
 };
 
 void sweep(const Case& c, Sweep& totals) {
   const StarChart chart = chart_of(c.mesh, c.center);
   const Coefficients expected = oracle_of(chart, c.degree).expansion.coefficients;
   const double c00 = std::abs(expected.c(0, 0));
-  // See AnalyzeOptions::precision; 4 for that "about".
+  // AnalyzeOptions::precision says "about", which the factor 4 stands for.
   const double steepest = std::max(c.slope, 1.0 / (8 * c.degree));
   const double rounding = 4e-15 * c00 / norm_without_mean(expected) / steepest;
   double logarithm = 0;
@@ -122,8 +122,8 @@ void sweep(const Case& c, Sweep& totals) {
     ++totals.reports;
     totals.close += reported > 0.8 * error && reported < 5 * error;
   }
-  // A wave of L < 4 is as long as the body: that pieces of a face are not in step over it is left
-  // out of account, which wastes digits but hardly time.
+  // For L < 4 a wave is as long as the body. The estimate ignores that parts of a face differ in
+  // phase, which wastes digits but hardly time.
   EXPECT_LT(std::exp(logarithm / n), c.degree < 4 ? 120 : 30) << c.name << ", L " << c.degree;
 }
 
@@ -136,8 +136,8 @@ TEST_OF_TWO_SIZES(mesh_pass, keeps_wanted_precisions_and_wastes_no_more_than_a_f
   EXPECT_GT(totals.close, 0.5 * totals.reports);
 }
 
-// Creases leave no error to cancel: values and gradients alone will not do, with Hessians and a few
-// nodes between the vertices nearly all of the triangles are lumped.
+// At creases no errors cancel, so that values and gradients do not suffice. With Hessians and a few
+// nodes between vertices, nearly all triangles are lumped.
 TEST(mesh_pass, lumps_rough_meshes_with_hessians) {
   const Mesh mesh = rough_sphere(5);
   const StarChart chart = chart_of(mesh, {0.1, 0.1, 0});
@@ -153,7 +153,7 @@ TEST(mesh_pass, lumps_rough_meshes_with_hessians) {
   }
 }
 
-// The half-edges of each edge nearly cancel, so that no triangle has to be precise by itself.
+// The half-edges of each edge nearly cancel, so that no single triangle has to be precise.
 TEST(mesh_pass, lumps_all_of_a_smooth_mesh_where_edges_cancel) {
   const Mesh mesh = bumpy_sphere(6, 0.2);
   const MeshPassResult expected = mesh_pass(view_of(mesh), {.degree = 64, .precision = 1e-11}, {});
@@ -163,7 +163,7 @@ TEST(mesh_pass, lumps_all_of_a_smooth_mesh_where_edges_cancel) {
   EXPECT_EQ(found.report.passes, 1);
 }
 
-// The sample sees rows of a face, where edges cancel, and none of the creases between faces.
+// The sample contains rows of a face, where edges cancel, but no creases between faces.
 TEST(mesh_pass, creases_that_no_sample_has_seen_keep_the_precision) {
   const Mesh mesh = box({1, 1, 1}, 65);
   const MeshPassResult expected = mesh_pass(view_of(mesh), {.degree = 64, .precision = 1e-11}, {});
@@ -193,7 +193,7 @@ TEST_OF_TWO_SIZES(mesh_pass, lone_spikes_on_a_smooth_mesh_keep_the_precision) {
   }
 }
 
-// A ball has hardly more than its mean: the sample takes the rest for larger than it is.
+// A ball has little besides its mean: the sample overestimates the other coefficients.
 TEST(mesh_pass, reaches_what_rounding_allows_on_a_ball) {
   for (const int subdivisions : {3, 5}) {
     for (const int degree : {1, 2, 5}) {
@@ -205,8 +205,8 @@ TEST(mesh_pass, reaches_what_rounding_allows_on_a_ball) {
   }
 }
 
-// Nodes between the vertices take a part of the weights, so that those of the vertices alone do not
-// add up to nothing: that is no overflow, and no reason to begin again in double precision.
+// Nodes between vertices carry a part of the weights, so that weights of vertices do not add up to
+// zero. This is not an overflow, and no reason to restart in double precision.
 TEST_OF_TWO_SIZES(mesh_pass, single_precision_is_enough_where_nodes_take_a_part) {
   const Mesh mesh = bumpy_sphere(nightly ? 7 : 6, 0.2);
   const MeshPassOptions options{.degree = nightly ? 400 : 200, .precision = 1e-6};
@@ -219,7 +219,7 @@ TEST_OF_TWO_SIZES(mesh_pass, single_precision_is_enough_where_nodes_take_a_part)
   EXPECT_LT(relative_error(found.coefficients, expected.coefficients), 1e-6);
 }
 
-// The oracle is checked against another that shares no integrals with it either.
+// The oracle is compared with another one that shares no integrals with it.
 TEST(mesh_pass, agrees_with_the_curl_method) {
   const StarChart chart = chart_of(test::rotated(bumpy_sphere(2, 0.25)), {0.1, 0, -0.1});
   const Analysis expected =
@@ -252,7 +252,7 @@ void expect_same_bits(const MeshPassResult& a, const MeshPassResult& b) {
   EXPECT_EQ(a.report.nodes, b.report.nodes);
 }
 
-// Vertices in single precision and with several parts and grids; nodes kept and spread at once.
+// Vertices have single precision, parts and grids vary, and nodes are kept or spread at once.
 TEST(mesh_pass, gives_the_same_bits_for_any_number_of_threads) {
   const Mesh fine = bumpy_sphere(6), rough = rough_sphere(5);
   for (const Mesh* mesh : {&fine, &rough}) {
@@ -293,7 +293,7 @@ TEST(mesh_pass, the_order_of_triangles_changes_nothing_but_rounding) {
   }
 }
 
-// Sorted, neighbours are seen to cancel again, and no triangle needs nodes that did not before.
+// After sorting, neighbours cancel again, and no additional triangle needs nodes.
 TEST(mesh_pass, a_fine_mesh_in_random_order_is_as_good_as_in_order) {
   const Mesh mesh = test::rotated(bumpy_sphere(6));
   const MeshPassOptions options{.degree = 48, .precision = 1e-5, .center = {0.1, 0, 0}};
@@ -377,7 +377,7 @@ TEST(mesh_pass, works_on_a_single_triangle) {
   EXPECT_NEAR(one.volume, 1.0 / 6, 1e-15);
   EXPECT_NEAR(one.min_d, std::sqrt(1.0 / 3), 1e-15);
   for (const double value : one.coefficients.values()) EXPECT_TRUE(std::isfinite(value));
-  // d_T int dS/|x|^2 by the oracle's cubature.
+  // The oracle is cubature of d_T int dS/|x|^2.
   const Coefficients expected = test::oracle_coefficients(mesh, 0, RadialFunction::kRadius, 40);
   EXPECT_NEAR(one.coefficients.c(0, 0), expected.c(0, 0), 1e-10);
 }
@@ -408,7 +408,7 @@ TEST(mesh_pass, refuses_meshes_without_triangles_numbers_or_area) {
 
 TEST(mesh_pass, refuses_a_surface_through_the_centre) {
   const Mesh mesh = box({2, 2, 2}, 2);
-  // A vertex, an edge, a face.
+  // The centre is at a vertex, on an edge, and on a face.
   for (const Vec3& center : {Vec3{1, 1, 1}, Vec3{1, 0.3, 1}, Vec3{1, 0.3, 0.2}}) {
     EXPECT_EQ(code_of(view_of(mesh), {.degree = 8, .center = center}), ErrorCode::kInvalidInput);
   }
@@ -445,7 +445,7 @@ TEST(mesh_pass, asks_the_hooks_about_every_triangle_and_stops_when_one_is_none) 
 
 TEST(mesh_pass, can_be_cancelled_at_every_report_of_progress) {
   for (const double precision : {1e-2, 1e-8}) {
-    // Lumped, or with nodes for all.
+    // One case is lumped, the other has nodes for all triangles.
     const Mesh mesh = rough_sphere(precision > 1e-5 ? 6 : 5);
     const MeshPassOptions options{.degree = 20, .precision = precision};
     int calls = 0;

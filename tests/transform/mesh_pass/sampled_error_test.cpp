@@ -1,4 +1,4 @@
-// What a sample says of rules and windows, against direct sums.
+// Errors of rules and windows, estimated from a sample and compared with direct sums.
 #include "transform/mesh_pass/sampled_error.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ double distance(Coefficients a, const Coefficients& b) {
   return norm_of_degrees(a, 1, a.degree());
 }
 
-// A cylinder whose radius changes between 1 and `depth` less, `teeth` times around.
+// Returns a cylinder with `teeth` teeth, whose radius changes between 1 and 1 - `depth`.
 Mesh gear(int n, int layers, int teeth, double depth) {
   std::vector<std::vector<Vec3>> rings;
   for (int k = 0; k <= layers; ++k) {
@@ -50,7 +50,7 @@ Mesh gear(int n, int layers, int teeth, double depth) {
   return of_rings(rings, 1, -1);
 }
 
-// Along no axis.
+// Turns a mesh so that it is aligned with no axis.
 Mesh oblique(Mesh mesh) {
   const RotationMatrix rows = matrix_of({.w = 0.5, .x = 0.7, .y = 0.1, .z = 0.5});
   for (Vec3& v : mesh.vertices) v = {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
@@ -67,7 +67,7 @@ Mesh elongated(int n, int layers, double length) {
 }
 
 struct Sampled {
-  double truth = 0, beside = 0;  // what the pass leaves, and of it all but rules, by the model
+  double truth = 0, beside = 0;  // error of the pass, and the model's error without rules
   std::vector<SampledError> said;
 };
 
@@ -90,7 +90,7 @@ Sampled sample(const Mesh& mesh, const Coefficients& exact, double precision,
   return sampled;
 }
 
-// Lumps with gradients, with Hessians, and nodes of their own, of triangles seen edge-on, too.
+// Lumps with gradients, with Hessians, and separate nodes, also for triangles seen edge-on.
 TEST(sampled_error, of_all_triangles_are_what_the_pass_leaves) {
   struct Case {
     Mesh mesh;
@@ -110,7 +110,8 @@ TEST(sampled_error, of_all_triangles_are_what_the_pass_leaves) {
     EXPECT_NEAR(rules.rules, sampled.truth, 0.5 * sampled.beside + 0.05 * sampled.truth);
     EXPECT_LT(rules.windows, 0.3 * sampled.truth);
     EXPECT_EQ(rules.share, 1);
-    // Windows that leave as much as rules, and most. What is not divided has windows of its own.
+    // Windows leave as much error as rules, or most of the error. Undivided sums have their own
+    // windows.
     for (const double windows : {1.0, 30.0}) {
       SCOPED_TRACE(windows);
       const Sampled both = sample(mesh, exact, precision, {1.0}, windows);
@@ -121,9 +122,9 @@ TEST(sampled_error, of_all_triangles_are_what_the_pass_leaves) {
   }
 }
 
-// Nearly all vertices lie in two directions, a part of the grid's step wide: what windows leave of
-// them adds up, to 12 times what random signs would leave. Before it was looked for, this left 1.45
-// times the wish and reported .34.
+// Nearly all vertices lie in two directions, within a part of the grid's step. Their window errors
+// add up, to 12 times the value for random signs. Before this was estimated, the error was 1.45
+// times the requested precision, and .34 was reported.
 TEST(sampled_error, of_windows_where_vertices_crowd) {
   Mesh mesh = box({2, 2, 2}, 140);
   for (Vec3& v : mesh.vertices) {
@@ -151,7 +152,7 @@ TEST(sampled_error, of_windows_where_vertices_crowd) {
         .windows;
   };
   EXPECT_NEAR(windows_of(1), windows, 0.01 * windows);
-  // A sample may miss it: not more than one of these five.
+  // A sample may miss it, in at most one of these five cases.
   int seen = 0;
   for (const double share : {0.07, 0.074, 0.078, 0.082, 0.086}) {
     const double said = windows_of(share);
@@ -189,19 +190,19 @@ TEST_OF_TWO_SIZES(sampled_error, of_some_triangles_are_right_within_their_doubt)
       mean2 += said.rules * said.rules / static_cast<double>(sampled.said.size());
     }
     EXPECT_GT(std::sqrt(mean2), 0.5 * sampled.truth - 0.5 * sampled.beside);
-    // What cancels between neighbours, as on the last body, is not seen to do so.
+    // Cancellation between neighbours, as on the last body, is not detected.
     EXPECT_LT(std::sqrt(mean2), 3 * sampled.truth + sampled.beside);
   }
 }
 
-// Above kMostVerified the model's figure alone was kept: such bodies left up to 4.5 times the wish.
+// Above kMostVerified only the model's estimate was used: errors reached 4.5 times the request.
 TEST_OF_TWO_SIZES(sampled_error, of_large_meshes_keep_the_wish) {
   std::vector<Mesh> meshes = {oblique(gear(480, 105, 24, 0.2))};
   if (nightly) meshes.push_back(elongated(320, 160, 100));
   for (const Mesh& mesh : meshes) {
     SCOPED_TRACE(mesh.triangles.size());
     ASSERT_GT(mesh.triangles.size(), kMostVerified);
-    const Coefficients exact = exact_of(mesh, 8, 1e-8);  // a hundredth of the smaller wish
+    const Coefficients exact = exact_of(mesh, 8, 1e-8);  // a hundredth of the smaller precision
     for (const double wish : {1e-4, 1e-6}) {
       const MeshPassOptions options{.degree = 8, .precision = wish};
       const MeshPassResult found = mesh_pass(view_of(mesh), options, {});
@@ -218,8 +219,8 @@ TEST_OF_TWO_SIZES(sampled_error, of_large_meshes_keep_the_wish) {
   }
 }
 
-// All of their nodes have one sign and many lie in step, which windows in single precision, or of
-// errors that random signs would leave, do not keep.
+// All nodes have one sign and many have one phase. Windows in single precision, or windows chosen
+// for random signs, would exceed the requested precision.
 TEST_OF_TWO_SIZES(sampled_error, windows_of_faces_seen_edge_on_keep_the_wish) {
   const Mesh mesh = gear(480, 60, 48, 0.2);
   for (const int degree : nightly ? std::vector{8, 32} : std::vector{8}) {

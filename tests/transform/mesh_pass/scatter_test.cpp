@@ -1,4 +1,4 @@
-// What blocks of triangles hand on to their vertices.
+// Contributions of blocks of triangles to their vertices.
 #include "transform/mesh_pass/scatter.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace rholm {
 namespace {
 
-// Everything lumped that can be, in quanta of 2^-26, edges and faces without nodes between.
+// All triangles that can be lumped are lumped, in quanta of 2^-26, without nodes between corners.
 BlockParameters parameters_for(const Mesh& mesh) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   BlockParameters parameters;
@@ -29,7 +29,7 @@ BlockParameters parameters_for(const Mesh& mesh) {
   return parameters;
 }
 
-// Vertex sums of lumps, the blocks taken forwards or backwards.
+// Returns sums of lumps at vertices, with blocks taken forwards or backwards.
 template <typename T>
 std::vector<VertexLump<T>> scattered(const Mesh& mesh, const BlockParameters& parameters,
                                      bool backwards) {
@@ -63,7 +63,7 @@ void expect_exact_sums(bool hessians) {
     for (int k = 0; k < 4; ++k) EXPECT_EQ(forwards[i].value[k], backwards[i].value[k]);
     if (i % lumps_per_vertex(hessians) == 0) sum += static_cast<double>(forwards[i].value[0]);
   }
-  // Each of the three corners of each triangle is rounded by half a quantum at most.
+  // Each corner of each triangle is rounded by half a quantum at most.
   EXPECT_LT(std::abs(sum), 1.5 * static_cast<double>(mesh.triangles.size()));
 }
 

@@ -1,5 +1,5 @@
-// Parts of a mesh pass worked by several processes: here by helpers that have the mesh each, and
-// know of a pass what the jobs say.
+// Parts of a mesh pass handled by several processes. Here they are objects with their own mesh that
+// know of the pass only what jobs contain.
 #include "transform/mesh_pass/shared_parts.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ namespace {
 
 using test::rough_sphere;
 
-// A process besides the one that runs the pass.
+// A process that helps the process that runs the pass.
 struct Other {
   explicit Other(const Mesh& m) : mesh(m), view(view_of(mesh)), helper(view, hooks) {}
   Mesh mesh;
@@ -36,7 +36,7 @@ struct Other {
   PassHelper helper;
 };
 
-// Does the tasks of all of them, one after the other.
+// Runs the tasks of all processes one after the other.
 class Processes {
  public:
   Processes(const Mesh& mesh, std::size_t n) {
@@ -55,7 +55,7 @@ class Processes {
     ++rounds;
     std::vector<std::string> results(parts.count);
     for (std::size_t i = 0; i < parts.count; ++i) {
-      const std::size_t part = parts.count - 1 - i;  // any order is good
+      const std::size_t part = parts.count - 1 - i;  // any order is allowed
       const std::size_t who = (7 * part + rounds) % work.size();
       results[part] = work[who](part, 1);
       bytes += who == 0 ? 0 : results[part].size();
@@ -83,7 +83,7 @@ void expect_same_bits(const MeshPassResult& a, const MeshPassResult& b) {
   EXPECT_EQ(a.report.passes, b.report.passes);
 }
 
-// Vertices in rows, those of a part side by side.
+// Returns vertices in rows; vertices of a part are neighbours.
 Mesh rows_of_vertices() {
   Mesh mesh = latitude_longitude_sphere(200, 400);
   for (Vec3& v : mesh.vertices) {
@@ -92,10 +92,10 @@ Mesh rows_of_vertices() {
   return mesh;
 }
 
-// With lumps of both precisions and with Hessians, in common or not; as many parts as pay, up to
-// eight grids, and one that all are added to; a mesh of one part is not shared.
-// Without `nightly` each mesh meets each precision and each number of parts, and these meet each
-// other on some mesh.
+// Cases have lumps of both precisions and with Hessians, shared or not. There are as many parts as
+// useful, up to eight grids, or one common grid. A mesh of one part is not shared. Without
+// `nightly` each mesh meets each precision and each number of parts, and each precision meets each
+// number of parts on some mesh.
 TEST_OF_TWO_SIZES(shared_parts, give_the_bits_of_one_process) {
   const Mesh fine = bumpy_sphere(7), rough = rough_sphere(5), rows = rows_of_vertices(),
              small = bumpy_sphere(4);
@@ -130,7 +130,7 @@ TEST_OF_TWO_SIZES(shared_parts, give_the_bits_of_one_process) {
   EXPECT_EQ(rounds, (std::set<std::size_t>{0, 2}));
 }
 
-// Others do not know the order that they are brought into.
+// Other processes do not know the order into which triangles are sorted.
 TEST(shared_parts, triangles_in_random_order_are_not_shared) {
   Mesh mesh = bumpy_sphere(6);
   test::shuffle(mesh.triangles, 3);
@@ -142,7 +142,7 @@ TEST(shared_parts, triangles_in_random_order_are_not_shared) {
   EXPECT_EQ(processes.rounds, 0u);
 }
 
-// A part of a mesh in order covers a small part of the sphere, and leaves as much of a grid.
+// A part of an ordered mesh covers a small part of the sphere, and of a grid.
 TEST(shared_parts, send_what_is_in_a_grid) {
   const Mesh mesh = latitude_longitude_sphere(256, 512);
   MeshPassOptions options{.degree = 100, .precision = 1e-4, .parts = 64};
@@ -150,7 +150,7 @@ TEST(shared_parts, send_what_is_in_a_grid) {
   options.executor = processes.executor();
   const MeshPassResult result = mesh_pass(view_of(mesh), options, {});
   const auto passes = static_cast<std::size_t>(result.report.passes);
-  const std::size_t whole = std::size_t{4} * 100 * 2 * 100 * sizeof(double);  // or more
+  const std::size_t whole = std::size_t{4} * 100 * 2 * 100 * sizeof(double);  // lower bound
   EXPECT_GT(result.report.oversampling, 2);
   EXPECT_LT(processes.bytes / (32 * passes), whole / 3);
 }
@@ -159,7 +159,7 @@ TEST(shared_parts, bytes_that_are_no_input_are_refused) {
   Other other(icosphere(2));
   EXPECT_THROW(other.helper.work_of(""), Error);
   EXPECT_THROW(other.helper.work_of("nonsense"), Error);
-  EXPECT_THROW(other.helper.work_of(parts_job({}, false)), Error);  // before that of its ranges
+  EXPECT_THROW(other.helper.work_of(parts_job({}, false)), Error);  // ranges must come first
   const NonuniformPlan transform = plan_nonuniform({.degree = 4});
   const std::string input =
       ranges_job({}, transform, divide_triangles(other.mesh.triangles.size(), 2));

@@ -1,4 +1,4 @@
-// Expected values: what was put in.
+// Expected values are the values that were added.
 #include "transform/mesh_pass/twin_cache.h"
 
 #include <gtest/gtest.h>
@@ -55,8 +55,8 @@ TEST(twin_cache, twins_that_do_not_join_are_worked_apart) {
   EXPECT_EQ(worked.sides.size(), 2U);
 }
 
-// Two rounds over many more edges than wait: each is worked at least once and at most twice, and
-// nothing is lost.
+// Two rounds over many more edges than fit: each edge is handled at least once and at most twice,
+// and nothing is lost.
 TEST(twin_cache, what_is_driven_out_is_worked_alone) {
   constexpr std::uint32_t n = 100000;
   Worked worked;

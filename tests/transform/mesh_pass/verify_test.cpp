@@ -1,4 +1,4 @@
-// The measured error of a pass against direct sums, on bodies whose errors add up.
+// The measured error of a pass compared with direct sums, on bodies whose errors add up.
 #include "transform/mesh_pass/verify.h"
 
 #include <gtest/gtest.h>
@@ -23,10 +23,10 @@ namespace {
 
 struct Judged {
   FastReport report;
-  double true_error = 0;  // relative, as FastReport::error
+  double true_error = 0;  // relative, like FastReport::error
 };
 
-// Seen from the origin.
+// The centre is the origin.
 Judged judge(const Mesh& mesh, int degree, double precision, Method oracle = Method::kEdge) {
   const MeshPassOptions options{.degree = degree, .precision = precision};
   MeshPassResult found = mesh_pass(view_of(mesh), options, {});
@@ -51,8 +51,8 @@ void expect_is_kept(const Judged& judged, double precision) {
   EXPECT_LT(judged.report.error, 3 * judged.true_error);
 }
 
-// The needles of its sides leave errors in step, 1.5 to 6.5 times the wish, of which the model sees
-// a quarter and less.
+// Errors of the needles of its side add up to 1.5 to 6.5 times the requested precision. The model
+// estimates at most a quarter of them.
 TEST(verify_pass, of_a_rod_keeps_the_wish) {
   std::vector<std::vector<Vec3>> rings;
   for (const double z : {1.0, -1.0}) rings.push_back(test::random_bodies::ring(200, 0.02, z));
@@ -70,8 +70,8 @@ TEST_OF_TWO_SIZES(verify_pass, of_a_cube_seen_from_before_a_face_keeps_the_wish)
   expect_is_kept(judge(cube, nightly ? 64 : 24, 1e-8), 1e-8);
 }
 
-// The largest faces nearly pass through the centre. Their weights are 1e8 times their sum, and the
-// rounding of these weights is the same in every reading. The oracle has no terms that cancel.
+// The planes of the largest faces nearly contain the centre. Their weights are 1e8 times their sum,
+// and have the same rounding in every reading. The oracle has no terms that cancel.
 TEST_OF_TWO_SIZES(verify_pass, of_a_prism_seen_from_beside_a_corner_keeps_the_wish) {
   std::vector<std::vector<Vec3>> rings;
   for (int k = 0; k <= 5; ++k) {
@@ -90,8 +90,8 @@ TEST_OF_TWO_SIZES(verify_pass, of_a_prism_seen_from_beside_a_corner_keeps_the_wi
   }
 }
 
-// All faces at the tip are large and near, and none is seen at a grazing angle. Direct sums have
-// the same weights, so they are judged, too.
+// All faces at the tip are large and near, and none is seen at a grazing angle. Direct sums use the
+// same weights, so that they are tested, too.
 TEST_OF_TWO_SIZES(verify_pass, of_a_flat_cone_seen_from_below_its_tip_keeps_the_wish) {
   const Rotation rotation = rotation_of(EulerAngles{1, 2, 3});
   for (const int sides : nightly ? std::vector{3, 5, 60} : std::vector{5}) {
@@ -117,7 +117,7 @@ TEST_OF_TWO_SIZES(verify_pass, of_a_flat_cone_seen_from_below_its_tip_keeps_the_
   }
 }
 
-// The error is measured, too: of 98 in 100 to within these times.
+// The measured error is tested, too: for 98 of 100 bodies it is within these factors.
 TEST(verify_pass, keeps_the_wish_on_random_bodies) {
   std::vector<double> ratios;
   double worst = 0;
@@ -143,8 +143,8 @@ TEST(verify_pass, keeps_the_wish_on_random_bodies) {
   EXPECT_LT(percentile(0.99), 3);
 }
 
-// Degrees 1 and 2 of a tetrahedron are zero, and 1 to 3 of a cube: both readings have nothing but
-// rounding there, by which they differ as much as they are.
+// Degrees 1 and 2 of a tetrahedron are zero, and 1 to 3 of a cube. Both readings have only rounding
+// there, so that their difference is as large as their values.
 TEST_OF_TWO_SIZES(verify_pass, of_degrees_that_are_zero_by_symmetry_leaves_what_rounding_does) {
   Mesh tetrahedron;
   tetrahedron.vertices = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};

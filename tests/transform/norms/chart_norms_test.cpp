@@ -1,4 +1,4 @@
-// What is predicted of the error from the edges alone, against the error itself.
+// The error predicted from the edges alone, compared with the true error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// A cube of edge 2 about 0: s_e = sqrt(2) on its twelve edges and 0 on the diagonals of its faces,
-// r^2 = 3 at a vertex, seen along its axis.
+// A cube of edge 2 about 0: s_e = sqrt(2) on its twelve edges and 0 on the diagonals of its faces.
+// At a vertex, seen along its axis, r^2 = 3.
 TEST(vertex_error_strength, of_a_cube_is_the_sum_of_three_edges) {
   const StarChart chart = test::chart_about(box({2, 2, 2}), {});
   EXPECT_NEAR(vertex_error_strength(chart, RadialFunction::kRadius), 9 * std::sqrt(2.0), 1e-13);
@@ -26,7 +26,7 @@ TEST(vertex_error_strength, of_a_cube_is_the_sum_of_three_edges) {
   EXPECT_NEAR(vertex_error_strengths(view_of(chart.mesh), {}).distance, 9 * std::sqrt(2.0), 1e-13);
 }
 
-// int r^4 ds over an edge, x = (1, 1, z): int (2 + z^2) sqrt(2) dz = 14/3 sqrt(2).
+// int r^4 ds over an edge, x = (1, 1, z), is int (2 + z^2) sqrt(2) dz = 14/3 sqrt(2).
 TEST(tail_strength, of_a_cube_is_that_of_its_twelve_edges) {
   const StarChart chart = test::chart_about(box({2, 2, 2}), {});
   const double expected = 12 * 2 * 14 / 3.0 * std::sqrt(2.0);
@@ -84,7 +84,7 @@ double largest_error_at_vertices(const StarChart& chart, const Expansion& expans
   return largest;
 }
 
-// Measured: 0.96 ... 1.08 at L = 64, 0.99 ... 1.04 at 256.
+// Measured ratios: 0.96 ... 1.08 at L = 64, 0.99 ... 1.04 at 256.
 TEST_OF_TWO_SIZES(vertex_error_strength, predicts_the_largest_error_at_vertices) {
   for (const Shape& shape : coarse_shapes()) {
     const StarChart chart = test::chart_about(shape.mesh, shape.center);
@@ -100,7 +100,7 @@ TEST_OF_TWO_SIZES(vertex_error_strength, predicts_the_largest_error_at_vertices)
   }
 }
 
-// The truncation error is exact from Parseval; measured: 0.98 ... 1.10.
+// The truncation error is exact by Parseval; measured ratios: 0.98 ... 1.10.
 TEST(tail_strength, predicts_the_truncation_error_of_coarse_meshes) {
   for (const Shape& shape : coarse_shapes()) {
     const StarChart chart = test::chart_about(shape.mesh, shape.center);

@@ -37,7 +37,7 @@ struct LongNorms {
   Long radius_squared = 0, solid_angle = 0, volume = 0;
 };
 
-// (M7) in extended precision, triangle by triangle; no cubature.
+// Evaluates (M7) in extended precision, triangle by triangle, without cubature.
 LongNorms oracle(const MeshView& mesh, const Vec3& center) {
   LongNorms sum;
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
@@ -73,7 +73,7 @@ double relative(double value, Long exact) { return static_cast<double>((value - 
 void expect_exact(const MeshView& mesh, const Vec3& center, const char* name) {
   const LongNorms exact = oracle(mesh, center);
   const ExactNorms norms = exact_norms(mesh, center);
-  // Rounding of sums and of corners: about 2e-16 is measured.
+  // Rounding of sums and of corners is measured as about 2e-16.
   EXPECT_LT(std::abs(relative(norms.radius_squared, exact.radius_squared)), 1e-15) << name;
   EXPECT_LT(std::abs(relative(norms.solid_angle, exact.solid_angle)), 1e-15) << name;
   EXPECT_LT(std::abs(relative(norms.volume, exact.volume)), 1e-15) << name;
@@ -101,7 +101,7 @@ std::vector<Shape> shapes(bool nightly) {
 TEST_OF_TWO_SIZES(exact_norms, agree_with_closed_forms_in_extended_precision) {
   for (const Shape& shape : shapes(nightly)) {
     expect_exact(test::packed<float>(shape.mesh).view, shape.center, shape.name);
-    if (shape.mesh.triangles.size() > 50000) continue;  // the oracle takes its time
+    if (shape.mesh.triangles.size() > 50000) continue;  // the oracle is slow
     expect_exact(test::packed<double>(shape.mesh, 4).view, shape.center, shape.name);
   }
 }
@@ -114,8 +114,8 @@ TEST(exact_norms, are_as_good_with_every_instruction_set) {
   });
 }
 
-// Vectors that are not full repeat their last triangle: here one whose own centre is the mesh's,
-// where 1/|x| is infinite. It adds nothing: its plane passes through the centre.
+// Partial vectors repeat their last triangle. Here the centre of this triangle is the mesh's, where
+// 1/|x| is infinite. It adds nothing, because its plane passes through the centre.
 TEST(exact_norms, are_numbers_for_any_number_of_triangles_whatever_the_last_one_is) {
   Mesh mesh = bumpy_sphere(1, 0.3);
   const std::vector<Triangle> triangles = mesh.triangles;
@@ -149,7 +149,7 @@ TEST(exact_norms, have_the_same_bits_for_any_number_of_threads) {
   }
 }
 
-// A corner twice makes an area of rounding only, in whatever direction the face lies.
+// A repeated corner makes an area that is only rounding, in any direction.
 TEST(exact_norms, know_runs_with_faces_without_area) {
   Mesh mesh = test::rotated(bumpy_sphere(4, 0.3));
   const std::size_t n = mesh.triangles.size();
@@ -177,7 +177,7 @@ TEST(exact_norms, know_runs_with_faces_without_area) {
   });
 }
 
-// By another process that has the mesh and knows what the job says.
+// Another process has the mesh and knows only what the job contains.
 TEST(exact_norms, have_the_same_bits_where_another_process_sums_ranges) {
   const auto file = test::packed<float>(bumpy_sphere(8), 9);  // more than a million triangles
   const Vec3 center = {0.05, 0.02, 0.01};
@@ -210,14 +210,14 @@ TEST(exact_norms, have_the_same_bits_where_another_process_sums_ranges) {
   EXPECT_THROW(norms_work(file.view, "nonsense"), Error);
 }
 
-// <1/|x|> and <1/|x|^3> of single triangles at distance 1: every rule up to its reach, and the
-// closed form and the pieces beyond. The ratio to the volume leaves the rounding of d2 out.
+// <1/|x|> and <1/|x|^3> of single triangles at distance 1: every rule up to its reach, then the
+// closed form and pieces. The ratio to the volume excludes the rounding of d2.
 TEST(exact_norms, mean_powers_of_a_triangle_of_any_size_shape_and_tilt) {
   const double heights[] = {0.866, 0.1, 0.003};
   std::uint64_t seed = 0;
   for (double size = 1e-3; size < 3; size *= 1.13) {
     for (const double height : heights) {
-      for (const double foot : {0.5, 0.02}) {  // of the apex, along the longest edge
+      for (const double foot : {0.5, 0.02}) {  // position of the apex along the longest edge
         for (const double cosine : {1.0, 0.6, 0.15}) {
           const Vec3 u = test::random_direction(1, ++seed);
           const Vec3 side = normalized(cross(u, test::random_direction(2, seed)));
@@ -233,8 +233,8 @@ TEST(exact_norms, mean_powers_of_a_triangle_of_any_size_shape_and_tilt) {
                                                           exact.radius_squared / exact.volume)),
                                         std::abs(relative(norms.solid_angle / norms.volume,
                                                           exact.solid_angle / exact.volume)));
-          // That of the oracle comes to it, 2^-64 of the distance against the triangle's height;
-          // needles of more than 256 pieces keep the closed form, which loses 1/height.
+          // The oracle's error is added: 2^-64 of the distance over the triangle's height. Needles
+          // of more than 256 pieces keep the closed form, which loses 1/height.
           const double limit = 1e-14 + 1e-19 / (size * height) + (size > 1.2 ? 2e-16 / height : 0);
           EXPECT_LT(error, limit) << size << " " << height << " " << foot << " " << cosine;
         }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSphere = 4 * std::numbers::pi;
 
-// 3 in c_00, 4 over the others, and 0.5 beyond them.
+// Norms: 3 in c_00, 4 in the other coefficients, and 0.5 beyond them.
 Coefficients known() {
   Coefficients c(2);
   c.c(0, 0) = 3;
@@ -34,8 +34,9 @@ TEST(parseval_rest, is_what_the_coefficients_leave_of_the_norm) {
   EXPECT_NEAR(*rms_of(rest, kBelieved), std::sqrt(kBeyond / kSphere), 1e-14);
 }
 
-// The worst errors lie along the coefficients themselves: then the doubt is what the rest is off,
-// up to twice the square of the error, which the size that is found has instead of the true one.
+// The worst errors are parallel to the coefficients: then the uncertainty equals the error of the
+// remainder. It may differ by twice the squared error, because it is computed from the inexact
+// norm.
 TEST(parseval_rest, is_off_by_its_doubt_where_errors_are_worst) {
   for (const double relative : {-1e-2, -1e-6, 1e-6, 1e-2}) {
     Coefficients c = known();
@@ -63,8 +64,8 @@ TEST(rms_of, is_none_where_the_doubt_is_above_a_quarter) {
   EXPECT_NEAR(rms_doubt(rest), (1 - std::sqrt(0.75)) / std::sqrt(kSphere), 1e-15);
 }
 
-// Degree 1 has 4, degree 2 has 12, and 0.5 lie beyond, which may be off by `doubt`: by an exact
-// error, or one that was measured and differs so much.
+// Degree 1 has 4, degree 2 has 12, and 0.5 lie beyond. The remainder is uncertain by `doubt`,
+// through an exact error or through a measured error that differs by this amount.
 Expansion known_expansion() {
   Expansion e;
   e.coefficients = known();
@@ -91,15 +92,15 @@ TEST(rms_beyond, is_by_parseval_where_the_rest_is_four_times_its_doubt) {
   EXPECT_NEAR(some.bound().value(), std::sqrt(5 * 0.3 * kBeyond / kSphere), 1e-14);
 }
 
-// Without measured errors the doubt is that of the default precision: 2 |c| |dc|.
+// Without measured errors the uncertainty follows from the default precision: 2 |c| |dc|.
 TEST(rms_beyond, has_the_doubt_of_the_default_precision_or_of_an_exact_error) {
   Expansion e = known_expansion();
   const double varying = std::sqrt(16 + kBeyond);
   EXPECT_NEAR(rms_beyond(e).doubt.value(), 2e-8 * (9 + 4 * varying), 1e-11);
-  e.norm_squared = 25 + 1e-7;  // 4 doubts are 2e-6
+  e.norm_squared = 25 + 1e-7;  // four times the uncertainty is 2e-6
   EXPECT_FALSE(rms_beyond(e).rms[2].has_value());
   e.errors.emplace().rms = std::sqrt(1e-7 / kSphere);
-  e.errors->rms_is_exact = true;  // of finer coefficients
+  e.errors->rms_is_exact = true;  // from more accurate coefficients
   EXPECT_NEAR(rms_beyond(e).rms[2].value(), std::sqrt(1e-7 / kSphere), 1e-11);
 }
 
@@ -132,7 +133,7 @@ TEST(rms_beyond, is_not_known_without_a_norm_but_within_the_expansion) {
   EXPECT_EQ(none.rms_within[2], 0);
 }
 
-// A tolerance is kept by what is known, or by the bound, and by nothing else.
+// A tolerance counts as met by a known error or by the bound, and by nothing else.
 TEST(rms_beyond, degree_within_a_tolerance_rests_on_what_is_known) {
   const double of_one = std::sqrt((12 + kBeyond) / kSphere);
   const RmsBeyond some = rms_beyond(measured_expansion(0.7 * kBeyond));
@@ -142,7 +143,7 @@ TEST(rms_beyond, degree_within_a_tolerance_rests_on_what_is_known) {
   EXPECT_FALSE(some.degree_within(0.99 * *some.bound()).has_value());
 }
 
-// Of any precision: nothing, or within the doubt of what exact coefficients have.
+// For any precision: no error is given, or it is within its uncertainty of the exact one.
 TEST(truncation_rms, is_none_or_within_its_doubt) {
   int given = 0;
   for (const Mesh& mesh : {box({2, 1.6, 1.2}), test::rotated(bumpy_sphere(2, 0.3)),
@@ -167,7 +168,7 @@ TEST(truncation_rms, is_none_or_within_its_doubt) {
       }
     }
   }
-  EXPECT_GT(given, 30);  // of 120
+  EXPECT_GT(given, 30);  // out of 120
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Hermite's rules: what they are exact for, and that they leave what their constants say.
+// Hermite's rules: their degree of exactness, and their errors compared with their constants.
 #include "transform/rules/hermite_rules.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kPi = std::numbers::pi;
 
-// sum of a function and its derivatives along the edge at 0 and z, and of values between.
+// Sums a function and its derivatives along the edge at 0 and z, and values in between.
 template <typename F>
 Complex hermite_edge_mean(const HermiteEdge& rule, double z, const F& derivative) {
   Complex sum = rule.value * (derivative(0, 0.0) + derivative(0, z)) +
@@ -43,7 +43,7 @@ TEST(hermite_rules, on_edges_are_exact_below_their_power_and_no_further) {
   }
 }
 
-// Plane waves of wave number 1 in all directions on an edge of length z.
+// Plane waves of wave number 1 in all directions, on an edge of length z.
 TEST(hermite_rules, on_edges_leave_what_their_constants_say) {
   constexpr int kWaves = 400;
   for (const HermiteEdge& rule : kHermiteEdges) {
@@ -58,13 +58,13 @@ TEST(hermite_rules, on_edges_leave_what_their_constants_say) {
         square += std::norm(mean - exact) / kWaves;
       }
       const double error = std::sqrt(square) / (rule.constant * std::pow(z, rule.power));
-      EXPECT_LT(error, 1.02);  // rounded
-      EXPECT_GT(error, 0.6);   // waves are not short against the edge
+      EXPECT_LT(error, 1.02);  // constants are rounded
+      EXPECT_GT(error, 0.6);   // waves are not short compared with the edge
     }
   }
 }
 
-// On an equilateral triangle of edge z, against 28^2 Gauss nodes.
+// Compares with 28^2 Gauss nodes on an equilateral triangle of edge z.
 TEST(hermite_rules, on_faces_leave_no_more_than_their_constants_say) {
   constexpr int kWaves = 60;
   const std::array<std::array<double, 2>, 3> p = {{{0, 0}, {1, 0}, {0.5, std::sqrt(0.75)}}};

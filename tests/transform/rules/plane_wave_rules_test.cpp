@@ -1,4 +1,4 @@
-// Node rules: what they are exact for, and that they leave what the plan is told they leave.
+// Quadrature rules: their degree of exactness, and their errors compared with the plan's values.
 #include "transform/rules/plane_wave_rules.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kPi = std::numbers::pi;
 
-// All rules from the smallest on: those chosen as the allowed error falls.
+// Returns all rules from the smallest on, as they are chosen while the allowed error falls.
 std::vector<EdgeRule> all_edge_rules() {
   std::vector<EdgeRule> rules;
   for (double error = 10; error > 1e-90; error /= 1.2) {
@@ -36,7 +36,7 @@ std::vector<std::span<const FaceNode>> all_face_rules() {
   return rules;
 }
 
-// Mean over a triangle of a^i b^j c^k in barycentric coordinates: 2 i! j! k! / (i + j + k + 2)!.
+// Returns the mean of a^i b^j c^k over a triangle: 2 i! j! k! / (i + j + k + 2)!.
 double mean_of_monomial(int i, int j, int k) {
   return 2 * std::exp(std::lgamma(i + 1) + std::lgamma(j + 1) + std::lgamma(k + 1) -
                       std::lgamma(i + j + k + 3));
@@ -75,7 +75,8 @@ TEST(plane_wave_rules, rules_of_n_nodes_on_edges_are_exact_to_degree_2n_minus_1)
 
 TEST(plane_wave_rules, rules_on_faces_are_exact_to_their_degree_and_no_further) {
   const auto rules = all_face_rules();
-  // Nodes and degree: those with names, then n x (n + 1) nodes for 2n - 1, n = 7 ... 14.
+  // Numbers of nodes and degrees: named rules, then n x (n + 1) nodes of degree 2n - 1, n = 7 ...
+  // 14.
   const std::vector<std::pair<std::size_t, int>> known = {
       {1, 1}, {3, 2}, {6, 4}, {7, 5}, {12, 6}, {12, 7}, {16, 8}, {19, 9}, {25, 10}, {33, 12}};
   ASSERT_EQ(rules.size(), 18u);
@@ -100,17 +101,18 @@ TEST(plane_wave_rules, rules_on_faces_are_exact_to_their_degree_and_no_further) 
   }
 }
 
-// A face or edge in the plane, its longest edge 1, as points of its rule and of one that is as good
-// as exact.
+// A face or edge in the plane with longest edge 1, as nodes of its rule and of a practically exact
+// rule.
 struct Element {
-  std::vector<double> x, y, weight;  // of the rule and, with the opposite sign, of the exact mean
+  // Nodes of the rule and, with negative weights, of the exact mean.
+  std::vector<double> x, y, weight;
   void add(double px, double py, double w) {
     x.push_back(px);
     y.push_back(py);
     weight.push_back(w);
   }
 };
-constexpr int kExactNodes = 26;  // a wave of length z = 20 to 1e-15
+constexpr int kExactNodes = 26;  // exact to 1e-15 for a wave of length z = 20
 constexpr int kDirections = 12;
 
 Element edge_element(const EdgeRule& rule) {
@@ -136,7 +138,7 @@ Element face_element(std::span<const FaceNode> rule, const Corners& p) {
   const GaussRule gauss = gauss_legendre(kExactNodes);
   for (int i = 0; i < kExactNodes; ++i) {
     for (int k = 0; k < kExactNodes; ++k) {
-      // Collapsed at another corner than the product rules are.
+      // These nodes are collapsed at another corner than the product rules.
       const double s = (1 + gauss.nodes[i]) / 2, v = (1 + gauss.nodes[k]) / 2;
       add(s * (1 - v), 1 - s, s * v, -s * gauss.weights[i] * gauss.weights[k] / 2);
     }
@@ -144,7 +146,7 @@ Element face_element(std::span<const FaceNode> rule, const Corners& p) {
   return element;
 }
 
-// Mean over directions of |error|^2 for plane waves of that wave number.
+// Returns the mean over directions of |error|^2 for plane waves of that wave number.
 double wave_error2(const Element& element, double wave_number) {
   double sum = 0;
   for (int k = 0; k < kDirections; ++k) {
@@ -159,8 +161,8 @@ double wave_error2(const Element& element, double wave_number) {
   return sum / kDirections;
 }
 
-// What the rule leaves of the coefficients 1 <= l <= L, l2: by the addition theorem the sum over m
-// of |error of Y_lm|^2 is (2l + 1)/(4 pi) times the mean over plane waves.
+// Returns the l2 error of the coefficients 1 <= l <= L. By the addition theorem, the sum over m of
+// error of Y_lm|^2 is (2l + 1)/(4 pi) times the mean over plane waves.
 double error_left(const Element& element, double z, int degree, bool divided) {
   double sum = 0;
   for (int l = 1; l <= degree; ++l) {
@@ -170,13 +172,13 @@ double error_left(const Element& element, double z, int degree, bool divided) {
   return std::sqrt(sum);
 }
 
-// Rounding of waves, relative to the whole weight.
+// Rounding of waves, relative to the total weight.
 double rounding(int degree, bool divided) { return 1e-16 * (divided ? 1 : degree); }
 
 constexpr int kDegree = 10;
-// The constants of faces are those of the equilateral triangle, sums over degrees are taken for
-// integrals: 1.62 is the most that was found, for a needle. What is left in the mean is a third of
-// what is allowed, so that this does not show.
+// The constants of faces are for the equilateral triangle, and sums over degrees are replaced by
+// integrals. The largest ratio found is 1.62, for a needle. The mean error is a third of the
+// allowed error, so that the ratio has no effect.
 constexpr double kOtherShapes = 1.7;
 
 TEST(plane_wave_rules, edges_get_rules_that_leave_no_more_than_allowed) {

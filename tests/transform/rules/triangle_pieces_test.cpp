@@ -18,7 +18,7 @@ struct Pieces {
   double share = 0, largest_share_error = 0;
 };
 
-// Down to pieces that are short against their distance.
+// Cuts until pieces are short compared with their distance.
 void cut_all(const std::array<Vec3, 3>& p, double share, double whole, Pieces& pieces) {
   constexpr double kLongest = 0.5;
   const std::size_t k = longest_side(p);
@@ -49,8 +49,8 @@ TEST(cut_triangle, has_pieces_whose_shares_are_their_areas_and_add_up_to_one) {
   }
 }
 
-// A needle along x past the centre at distance 1. Halves of its longest edge would be as many as
-// its length.
+// A needle along x passes the centre at distance 1. Halving its longest edge would make a number of
+// pieces proportional to its length.
 TEST(cut_triangle, makes_as_many_pieces_of_a_needle_as_its_length_has_digits) {
   for (int digits = 1; digits <= 12; ++digits) {
     const double length = std::pow(10, digits);

@@ -14,7 +14,7 @@ ErrorOfDegree power_law(double p) {
   return [p](int degree) { return std::pow(degree + 1.0, -p); };
 }
 
-// The degree found between a bad one, if any, and a good one, and how many were tried.
+// The degree found between a bad degree, if any, and a good one, and the number of tries.
 struct Found {
   int degree = 0, tries = 0;
 };
@@ -60,7 +60,7 @@ TEST(degree_bracket, needs_two_tries_between_degrees_of_one_power) {
   }
 }
 
-// Constant, then steep: the power between both ends is wrong everywhere.
+// The error is constant, then falls: the power law between both ends is wrong everywhere.
 TEST(degree_bracket, halves_where_the_error_follows_no_power) {
   for (const int edge : {150, 200, 350}) {
     const auto error = [edge](int degree) { return degree < edge ? 2.0 : 0.1; };

@@ -33,7 +33,7 @@ std::vector<Tolerance> tolerances() {
   return all;
 }
 
-// What was computed: degrees, each twice the one before, until one is good; then the one found.
+// Degrees are doubled until one is good; then the final degree is computed.
 TEST_OF_TWO_SIZES(search_tolerance, doubles_the_degree_until_it_is_good) {
   std::vector<Mesh> meshes = {test::rotated(bumpy_sphere(3, 0.3))};
   if (nightly) meshes.push_back(box({2, 1.6, 1.2}));
@@ -49,11 +49,11 @@ TEST_OF_TWO_SIZES(search_tolerance, doubles_the_degree_until_it_is_good) {
       };
       const auto last = std::adjacent_find(degrees.begin(), degrees.end(),
                                            [&](int a, int b) { return !is_next(a, b); });
-      // All that follows are final ones: the first may have to be a little higher.
+      // All later degrees are final ones: the first of them may have to be raised slightly.
       ASSERT_NE(last, degrees.end());
       EXPECT_LE(degrees.end() - last, 3);
       for (auto it = last + 1; it != degrees.end(); ++it) EXPECT_LE(*it, 1.03 * *last + 1);
-      // And the degree before the last was not enough.
+      // The last degree before the good one was not sufficient.
       if (last != degrees.begin() && found.met) {
         EXPECT_GT(*(last + 1), *(last - 1));
       }
@@ -61,7 +61,7 @@ TEST_OF_TWO_SIZES(search_tolerance, doubles_the_degree_until_it_is_good) {
   }
 }
 
-// By Parseval with coefficients that are far more precise than the tolerance.
+// The oracle is Parseval with coefficients far more precise than the tolerance.
 TEST(search_tolerance, finds_the_smallest_degree_exactly_for_the_rms_radius) {
   for (const Mesh& mesh : {box({2, 1.6, 1.2}), test::rotated(bumpy_sphere(3, 0.3))}) {
     const StarChart chart = chart_of(mesh);
@@ -85,8 +85,8 @@ TEST(search_tolerance, finds_the_smallest_degree_exactly_for_the_rms_radius) {
   }
 }
 
-// Largest errors need not fall with every degree: each lower one is looked at, in dense points and,
-// where these are within the tolerance, uphill of them.
+// Largest errors need not fall with every degree. Each lower degree is measured in dense points
+// and, where these are within the tolerance, uphill of them.
 TEST_OF_TWO_SIZES(search_tolerance, finds_the_smallest_degree_for_the_largest_radial_error) {
   std::vector<Mesh> meshes = {test::random_octahedron(4)};
   if (nightly) {
@@ -120,8 +120,8 @@ TEST_OF_TWO_SIZES(search_tolerance, finds_the_smallest_degree_for_the_largest_ra
   }
 }
 
-// Distances of a thin box do not fall with every degree: each lower one errs more, as it is
-// measured of the model of that degree, whatever the largest degree is.
+// Distances of a thin box do not fall with every degree. Each lower degree must have a larger
+// error, as measured for the model of that degree, whatever the largest degree is.
 struct DistanceCase {
   Mesh mesh;
   double largest, rms;
@@ -134,7 +134,7 @@ TEST_OF_TWO_SIZES(search_tolerance, finds_the_smallest_degree_for_distances) {
   }
   for (const DistanceCase& shape : shapes) {
     const StarChart chart = chart_of(shape.mesh);
-    // Of models of the degrees 0, 1, ...: one measurement has the errors of all norms.
+    // Models of the degrees 0, 1, ...: one measurement gives the errors of all norms.
     std::vector<TruncationErrors> errors;
     const auto errors_of = [&](int degree) {
       while (std::ssize(errors) <= degree) {

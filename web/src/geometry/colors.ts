@@ -1,10 +1,10 @@
-// Colours in linear light with sRGB's primaries, and the colour maps of the pictures that the program
-// renders: equal steps of a value are equal steps in Oklab (src/report/picture/color.cpp has the choices).
+// Colours in linear light with sRGB's primaries, and the colour maps of the program's pictures.
+// Equal steps of a value are equal steps in Oklab (src/report/picture/color.cpp has the choices).
 
 export type Rgb = [r: number, g: number, b: number]; // 0 ... 1, linear
 
-// From Oklab's lightness (0 ... 1), chroma and hue (degrees): Ottosson 2020, "A perceptual color
-// space for image processing". Clipped to 0 ... 1.
+// Converts from Oklab's lightness (0 ... 1), chroma and hue (degrees): Ottosson
+// 2020, "A perceptual color space for image processing". Clipped to 0 ... 1.
 export function fromOklch(lightness: number, chroma: number, hue: number): Rgb {
   const angle = (hue * Math.PI) / 180;
   const a = chroma * Math.cos(angle);
@@ -20,7 +20,7 @@ export function fromOklch(lightness: number, chroma: number, hue: number): Rgb {
   ];
 }
 
-// The sRGB encoding (IEC 61966-2-1) of a linear component and back, 0 ... 1.
+// Convert between a linear component and its sRGB encoding (IEC 61966-2-1), 0 ... 1.
 export function toSrgb(linear: number): number {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * linear ** (1 / 2.4) - 0.055;
 }
@@ -32,12 +32,12 @@ export function cssColor(color: Rgb): string {
   return `rgb(${color.map((x) => Math.round(255 * toSrgb(x))).join(" ")})`;
 }
 
-// 0 ... 1: from violet through teal to yellow, at one speed in Oklab.
+// Maps 0 ... 1 to colours from violet through teal to yellow, at constant speed in Oklab.
 export function sequential(t: number): Rgb {
   return fromOklch(0.34 + 0.58 * t, 0.095, 300 - 195 * t);
 }
 
-// -1 ... 1: straight lines in Oklab from a near-white to blue and to red.
+// Maps -1 ... 1 to straight lines in Oklab from a near-white to blue and to red.
 export function diverging(t: number): Rgb {
   const a = Math.abs(t);
   return fromOklch(0.95 - 0.45 * a, 0.155 * a, t < 0 ? 255 : 28);
@@ -48,7 +48,7 @@ export interface Range {
   max: number;
 }
 
-// The range of finite values; of none 0 ... 0.
+// Returns the range of the finite values; 0 ... 0 if there are none.
 export function rangeOf(values: Iterable<number>): Range {
   let min = Infinity;
   let max = -Infinity;
@@ -60,12 +60,12 @@ export function rangeOf(values: Iterable<number>): Range {
   return min <= max ? { min, max } : { min: 0, max: 0 };
 }
 
-// A range with 0 inside is shown by the diverging map, 0 in its middle.
+// Returns true if the range has 0 inside; its diverging map has 0 in the middle.
 export function isDiverging(range: Range): boolean {
   return range.min < 0 && range.max > 0;
 }
 
-// The colour of a value; those outside the range have the colour of its end.
+// Returns the colour of a value; values outside the range have the colour of its end.
 export function mapColor(range: Range, value: number): Rgb {
   const x = Math.min(range.max, Math.max(range.min, value));
   if (isDiverging(range)) return diverging(x / Math.max(-range.min, range.max));
@@ -74,7 +74,7 @@ export function mapColor(range: Range, value: number): Rgb {
 
 const steps = 256; // chosen: below a step of 8-bit colours
 
-// Colours [n, 3] of values, by a table of `steps` colours.
+// Computes colours [n, 3] of values, by a table of `steps` colours.
 export function mapColors(range: Range, values: ArrayLike<number>, out: Float32Array): void {
   const span = range.max - range.min || 1;
   const table = new Float32Array(3 * (steps + 1));
@@ -88,12 +88,12 @@ export function mapColors(range: Range, values: ArrayLike<number>, out: Float32A
   }
 }
 
-// The colour of a cap: neighbours in number are far apart in hue.
+// Returns the colour of a cap: consecutive numbers have very different hues.
 export function labelColor(label: number): Rgb {
   return fromOklch(0.74, 0.11, (label * 137.50776405) % 360); // the golden angle
 }
 
-// Colours of points by their normals: as if lit from above, a little. `up`: the axis, 0 ... 2.
+// Computes colours of points from their normals, slightly lit from above. `up`: the axis, 0 ... 2.
 export function shadePoints(normals: Float32Array, up: number, out: Float32Array): void {
   for (let i = 0; i < normals.length; i += 3) {
     const light = 0.75 + 0.25 * (normals[i + up] ?? 0);
@@ -102,9 +102,9 @@ export function shadePoints(normals: Float32Array, up: number, out: Float32Array
 }
 
 export const plain = fromOklch(0.78, 0.03, 80); // a warm stone
-export const dotted = fromOklch(0.6, 0.07, 60); // points, which have no shade of their own
+export const dotted = fromOklch(0.6, 0.07, 60); // points without a shade of their own
 export const second = fromOklch(0.7, 0.1, 245); // the other shape of two
 export const marked = fromOklch(0.62, 0.24, 350); // faces not seen from the centre
 export const painted = fromOklch(0.72, 0.16, 55); // under the brush
 export const ringed = fromOklch(0.38, 0.11, 45); // the brush's rim
-export const placed = fromOklch(0.68, 0.14, 160); // where a texture is laid
+export const placed = fromOklch(0.68, 0.14, 160); // the target of a texture

@@ -1,16 +1,16 @@
-// Normals of vertices, area weighted, as the studio has them.
+// Normals of vertices, weighted by area, as in the studio.
 
-// Triangles whose corners are the first vertices of all at the same place: what a seam of the file
-// cuts is one surface. The same array where no two are.
+// Returns triangles whose corners are the first of all vertices at the same place, so that a
+// surface cut by a seam of the file is joined. Returns the same array if all places differ.
 export function joinedTriangles(positions: Float32Array, triangles: Uint32Array): Uint32Array {
   const first = firstAtPlace(positions);
   return first ? triangles.map((v) => first[v] ?? v) : triangles;
 }
 
-// For each vertex the first one with the same coordinates; null if all differ.
+// Returns for each vertex the first one with the same coordinates; null if all differ.
 function firstAtPlace(positions: Float32Array): Uint32Array | null {
   const count = positions.length / 3;
-  const bits = new Uint32Array(positions.map((x) => x + 0).buffer); // -0 is 0
+  const bits = new Uint32Array(positions.map((x) => x + 0).buffer); // maps -0 to 0
   const first = new Uint32Array(count);
   let size = 4;
   while (size < 2 * count) size *= 2;
@@ -18,7 +18,7 @@ function firstAtPlace(positions: Float32Array): Uint32Array | null {
   let different = true;
   for (let v = 0; v < count; ++v) {
     const [x = 0, y = 0, z = 0] = [bits[3 * v], bits[3 * v + 1], bits[3 * v + 2]];
-    // Chosen: the multipliers of Teschner and others' spatial hash, mixed once more.
+    // Chosen: the multipliers of the spatial hash by Teschner and others, mixed once more.
     const mixed = Math.imul(x, 73856093) ^ Math.imul(y, 19349663) ^ Math.imul(z, 83492791);
     let slot = Math.imul(mixed ^ (mixed >>> 15), 0x9e3779b1) & (size - 1);
     first[v] = v;
@@ -35,8 +35,8 @@ function firstAtPlace(positions: Float32Array): Uint32Array | null {
   return different ? null : first;
 }
 
-// Writes unit normals [n, 3] of all vertices, or of those that `touched` (1 of [n]) names. `joined`
-// are joinedTriangles(): a vertex that is in none of these has the normal of the first in its place.
+// Writes unit normals [n, 3] of all vertices, or of the vertices flagged in `touched` [n]. `joined` is
+// joinedTriangles(); a vertex outside these triangles has the normal of the first one at its place.
 export function vertexNormals(
   positions: Float32Array,
   triangles: Uint32Array,
@@ -106,7 +106,7 @@ function addFace(
   }
 }
 
-// The vertices whose normals change when those of `moved` move: of all faces at them. [n], 0 or 1.
+// Flags the vertices whose normals change when the vertices `moved` move: all corners of their faces. [n], 0 or 1.
 export function aroundVertices(
   count: number,
   triangles: Uint32Array,
@@ -129,7 +129,7 @@ interface Ball {
   radius: number;
 }
 
-// A ball around one or two others; the unit ball around none.
+// Returns a ball around one or two others; the unit ball if there are none.
 export function ballAround([a, b]: readonly Ball[]): Ball {
   if (!a || !b) return a ?? { center: [0, 0, 0], radius: 1 };
   const way = a.center.map((x, k) => (b.center[k] ?? 0) - x);
@@ -142,7 +142,7 @@ export function ballAround([a, b]: readonly Ball[]): Ball {
   return { center: [at(0), at(1), at(2)], radius };
 }
 
-// A ball around all points, about the middle of their box.
+// Returns a ball around all points, centred at the middle of their box.
 export function ballOf(positions: Float32Array): Ball {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];

@@ -1,20 +1,20 @@
-// Regions of a surface with smooth borders: labels of vertices alone would make every border follow the edges of
-// the mesh, in teeth.
+// Regions of a surface with smooth borders. With labels of vertices
+// alone, each border would follow the edges of the mesh in a zigzag.
 
-// Pieces of triangles, each of one label: corners as weights of the corners of their triangle.
+// Pieces of triangles with one label each; their corners are given as weights of the triangle's corners.
 export interface Seams {
-  labels: Uint32Array; // [n], of vertices, where lone ones have gone to those around
-  faces: Uint32Array; // [3 k], the corners of the mesh's triangle that piece k is of
-  weights: Float32Array; // [9 k], of these corners at each corner of the piece
-  pieceLabels: Uint32Array; // [k]
+  labels: Uint32Array; // [n], of vertices; isolated labels are replaced by labels around
+  faces: Uint32Array; // [3 k], corners of the mesh's triangle that contains piece k
+  weights: Float32Array; // [9 k], weights of these corners at each corner of the piece
+  pieceLabels: Uint32Array; // label of each piece, [k]
 }
 
-type Shares = Map<number, number>; // how much of a label there is at a vertex; all together 1
+type Shares = Map<number, number>; // share of each label at a vertex; the sum is 1
 type Point = readonly [number, number, number]; // weights of a triangle's corners
 
-const rounds = 8; // chosen: a border moves by less than two edges, and teeth of one edge are gone
+const rounds = 8; // chosen: a border moves by less than two edges, and zigzags of one edge disappear
 
-// How much of each label is around each vertex that is near a border; none far away.
+// Returns the shares of labels around each vertex near a border; undefined for other vertices.
 function sharesOf(triangles: Uint32Array, labels: Uint32Array): (Shares | undefined)[] {
   const near = new Uint8Array(labels.length);
   const corners = (t: number) => [triangles[t] ?? 0, triangles[t + 1] ?? 0, triangles[t + 2] ?? 0] as const;
@@ -66,7 +66,7 @@ function most(shares: Shares): number {
   return best;
 }
 
-// The part of a polygon where a function that is linear on the triangle is not negative.
+// Returns the part of a polygon where a function that is linear on the triangle is not negative.
 function cut(polygon: readonly Point[], value: (p: Point) => number): Point[] {
   const kept: Point[] = [];
   polygon.forEach((p, i) => {
@@ -120,7 +120,7 @@ export function seamsOf(triangles: Uint32Array, labels: Uint32Array): Seams {
   };
 }
 
-// Vectors of vertices, [n, 3], at the corners of the pieces.
+// Interpolates vectors of vertices, [n, 3], at the corners of the pieces.
 export function atPieces(seams: Seams, vectors: ArrayLike<number>): Float32Array {
   const out = new Float32Array(seams.weights.length);
   for (let i = 0; i < seams.pieceLabels.length; ++i) {

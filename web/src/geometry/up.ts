@@ -1,4 +1,4 @@
-// Which way is up: files do not say it.
+// Guesses the upward axis, which files do not contain.
 export const ups = ["x", "y", "z"] as const;
 export type Up = (typeof ups)[number];
 
@@ -18,13 +18,13 @@ export function boxOf(positions: ArrayLike<number>): Box {
   return box;
 }
 
-const onGround = 0.01; // of the height; chosen: a shape that was put on the plane through 0 ends there
-const aboutMiddle = 0.1; // of an extent; chosen: how far the middle of what was put there by hand is from 0
-const flat = 0.25; // of the other two extents; chosen: plates and landscapes, not discs
-const tall = 1.15; // of the other two; chosen: figures that stand, not shapes as good as round
+const onGround = 0.01; // share of the height; chosen: a shape placed on the plane through 0 ends within it
+const aboutMiddle = 0.1; // share of an extent; chosen: distance of the middle from 0 after placing by hand
+const flat = 0.25; // share of the other extents; chosen: plates and landscapes, not discs
+const tall = 1.15; // ratio to the other extents; chosen: standing figures, not nearly round shapes
 
-// z, as for machines and maps, unless the box speaks for y, as in animation and of scanned figures: a shape stands on
-// the plane y = 0, is flat along y, or is tallest along y.
+// Returns z, as used for machines and maps, unless the box indicates y, as in animation and for scanned
+// figures. The box indicates y if the shape stands on the plane y = 0, is flat along y, or is tallest along y.
 export function guessUp({ min, max }: Box): Up {
   const size = max.map((high, k) => high - (min[k] ?? 0));
   const extent = (k: number) => size[k] ?? 0;
@@ -41,8 +41,7 @@ export function guessUp({ min, max }: Box): Up {
   return isTall(1) ? "y" : "z";
 }
 
-// Directions from which shapes are looked at: angles about the axis that is up, from the front, and from that axis,
-// radians.
+// Directions of views, in radians: the angle about the upward axis from the front, and the angle from that axis.
 export const views = [
   ["front", "Front", 0, Math.PI / 2],
   ["right", "Right", Math.PI / 2, Math.PI / 2],
@@ -53,7 +52,7 @@ export const views = [
 ] as const;
 export type ViewName = (typeof views)[number][0];
 
-// The largest of 1, 2, 5 times a power of ten that is at most so long; 0 of nothing.
+// Returns the largest of 1, 2, 5 times a power of ten that is at most `most`; 0 if there is none.
 export function roundLength(most: number): number {
   if (!(most > 0) || !Number.isFinite(most)) return 0;
   const power = 10 ** Math.floor(Math.log10(most));

@@ -1,6 +1,6 @@
-// Gains of degrees 0 ... L: what is made of those of a low-pass filter, and an equaliser's bands.
+// Gains of degrees 0 ... L: derived from a low-pass filter, and the bands of an equaliser.
 
-// Of the low-pass filter of the degree below; degree 0 is kept, so that a surface stays.
+// Takes the low-pass filter of the degree below; degree 0 is kept, so that a surface stays.
 export function highPass(low: readonly number[]): number[] {
   return low.map((g, l) => (l === 0 ? 1 : 1 - g));
 }
@@ -12,10 +12,10 @@ export function sharpen(low: readonly number[], amount: number): number[] {
 
 export interface Band {
   from: number;
-  to: number; // both are in it
+  to: number; // inclusive
 }
 
-// Degrees 1 ... L in octaves: 1, 2, 3-4, 5-8, ... Degree 0 is the size and in no band.
+// Returns degrees 1 ... L in octaves: 1, 2, 3-4, 5-8, ... Degree 0 is the size and in no band.
 export function octaves(degree: number): Band[] {
   const bands: Band[] = [];
   for (let from = 1, to = 1; from <= degree; from = to + 1, to = 2 * to) {
@@ -30,7 +30,7 @@ export function bandGains(bands: readonly Band[], values: readonly number[], deg
   return gains;
 }
 
-// The mean gain of each band.
+// Returns the mean gain of each band.
 export function bandMeans(bands: readonly Band[], gains: readonly number[]): number[] {
   return bands.map(({ from, to }) => {
     const within = gains.slice(from, to + 1);
@@ -38,7 +38,7 @@ export function bandMeans(bands: readonly Band[], gains: readonly number[]): num
   });
 }
 
-// Without the zeros at the end: what degree they reach.
+// Removes the zeros at the end, and returns the degree of the last nonzero gain.
 export function trimmed(gains: readonly number[]): { degree: number; gains: number[] } {
   const degree = Math.max(0, gains.findLastIndex((g) => g !== 0));
   return { degree, gains: gains.slice(0, degree + 1) };

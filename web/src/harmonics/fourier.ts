@@ -1,11 +1,11 @@
-// Sums over orders on a ring: f_j = sum_m A_m cos(m phi_j) + B_m sin(m phi_j), phi_j = 2 pi j / n, by
-// a transform of length n, a power of 2 (Cooley and Tukey 1965, radix 2, in place).
+// Sums over orders on a ring: f_j = sum_m A_m cos(m phi_j) + B_m sin(m phi_j), phi_j = 2 pi j
+// / n. Uses a transform of length n, a power of 2 (Cooley and Tukey 1965, radix 2, in place).
 
 export interface Plan {
   size: number;
   cos: Float64Array; // [size / 2], of 2 pi k / size
   sin: Float64Array;
-  reversed: Uint32Array; // [size], the bits of each index in reverse
+  reversed: Uint32Array; // [size], the reversed bits of each index
   re: Float64Array; // [size], work space and result
   im: Float64Array;
 }
@@ -30,7 +30,7 @@ export function fourierPlan(size: number): Plan {
   };
 }
 
-// Leaves f in plan.re. Orders from size on are left out: no ring is so coarse.
+// Leaves f in plan.re. Orders from `size` on are ignored: no ring is so coarse.
 export function ringSums(plan: Plan, a: Float64Array, b: Float64Array): void {
   const { size, reversed, re, im } = plan;
   re.fill(0);

@@ -1,7 +1,7 @@
-// The grid of a synthesis as a surface: x = center + r u.
+// Surface on the grid of a synthesis: x = center + r u.
 import type { Grid } from "./synthesis";
 
-// Unit directions [rings * meridians + 2, 3] of the grid, the poles last.
+// Returns unit directions [rings * meridians + 2, 3] of the grid, the poles last.
 export function gridDirections({ rings, meridians }: Grid): Float32Array {
   const directions = new Float32Array(3 * (rings * meridians + 2));
   for (let j = 0; j < rings; ++j) {
@@ -19,7 +19,7 @@ export function gridDirections({ rings, meridians }: Grid): Float32Array {
   return directions;
 }
 
-// Triangles [m, 3], counter-clockwise seen from outside, closed at the poles.
+// Returns triangles [m, 3], counter-clockwise seen from outside, closed at the poles.
 export function gridTriangles({ rings, meridians }: Grid): Uint32Array {
   const triangles = new Uint32Array(6 * rings * meridians);
   const north = rings * meridians;
@@ -44,7 +44,7 @@ export function gridTriangles({ rings, meridians }: Grid): Uint32Array {
   return triangles;
 }
 
-// Radii from the values of the function that is expanded.
+// Returns the function that converts values of the expanded function to radii.
 export function radiusOf(name: string): (value: number) => number {
   if (name === "gauge") return (q) => 1 / q;
   return name === "log radius" ? Math.exp : (r) => r;

@@ -1,5 +1,5 @@
-// A function on the sphere from its coefficients, on a grid of rings; going on from a degree to a
-// higher one costs the degrees between them.
+// Evaluates a function on the sphere from its coefficients, on a grid of rings.
+// Going from one degree to a higher one costs only the degrees between them.
 import { factors, nextDegree, startColumn, type Column, type Factors } from "./legendre";
 import { fourierPlan, ringSums, type Plan } from "./fourier";
 
@@ -13,15 +13,15 @@ export interface Grid {
   meridians: number; // a power of 2; longitudes 2 pi k / meridians
 }
 
-// Rings half as many as meridians, which resolve degree L as far as `most` meridians do.
+// Returns a grid with rings = meridians / 2, which resolves degree L up to `most` meridians.
 export function gridFor(degree: number, most = 1024): Grid {
-  // Four vertices a wave at least; 256 so that low degrees look smooth.
+  // At least four vertices per wave, and 256, so that low degrees look smooth.
   const meridians = Math.min(most, Math.max(256, 2 ** Math.ceil(Math.log2(4 * (degree + 1)))));
   return { rings: meridians / 2, meridians };
 }
 
-// Sums over degrees of one ring and its mirror image: those of even and odd l + m apart, as
-// P_lm(-x) = (-1)^(l+m) P_lm(x).
+// Sums over degrees of one ring and its mirror image. Sums of even
+// and odd l + m are separate, because P_lm(-x) = (-1)^(l+m) P_lm(x).
 interface RingPair {
   column: Column;
   evenCos: Float64Array; // [L+1], by order
@@ -33,10 +33,10 @@ interface RingPair {
 export interface Synthesis {
   coefficients: Coefficients;
   grid: Grid;
-  degree: number; // that is summed
+  degree: number; // highest summed degree
   pairs: RingPair[];
   plan: Plan;
-  // [rings][meridians] values, then those at the poles, north and south.
+  // [rings][meridians] values, then the values at the poles, north and south.
   values: Float64Array;
   poles: [north: number, south: number];
 }
@@ -129,7 +129,7 @@ export function sumTo(synthesis: Synthesis, degree: number): Float64Array {
   return values;
 }
 
-// Energy of degrees 0 ... L: sum over orders of the squares.
+// Returns the energy of degrees 0 ... L: the sum of the squares over orders.
 export function powerOf({ degree, values }: Coefficients): number[] {
   const side = degree + 1;
   return Array.from({ length: side }, (_, l) => {

@@ -9,7 +9,7 @@ import { item, items, nameOf, selected } from "../state";
 import * as tool from "../tools/blend";
 import { Hint, Select } from "../widgets";
 
-// Both shapes at one place while this panel is open; the second alone while it is blended.
+// Shows both shapes at one place while this panel is open, and only the blend while one is previewed.
 function useBoth(): void {
   const other = tool.partner.value;
   const alone = tool.previewed.value;
@@ -20,7 +20,7 @@ function useBoth(): void {
   useEffect(() => tool.stop, []);
 }
 
-// The colour that a shape has on the screen.
+// Shows the colour of a shape on the screen.
 function Swatch({ color }: { color: Rgb }) {
   return <span class="swatch" style={{ background: cssColor(color) }} aria-hidden="true" />;
 }

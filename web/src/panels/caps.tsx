@@ -12,7 +12,7 @@ import { Check, Facts, Hint, Slider } from "../widgets";
 const tolerance = new Option<number>("compress", "tolerance");
 const maxDegree = new Option<number>("compress", "max_degree");
 
-// What a mesh costs as 32-bit floats and indices.
+// Size of a mesh with 32-bit floats and indices.
 const meshBytes = computed(() => 12 * (item.value?.vertices ?? 0) + 12 * (item.value?.faces ?? 0));
 
 function Compress({ one }: { one: Item }) {
@@ -44,7 +44,7 @@ function Compress({ one }: { one: Item }) {
   );
 }
 
-// The degree that the slider is at, until the surface is there.
+// Degree of the slider until the surface arrives.
 const moved = signal<{ id: number; limit: number } | null>(null);
 
 function Atlas({ one, atlas }: { one: Item; atlas: ItemAtlas }) {

@@ -16,7 +16,7 @@ import { Check, Hint, Select, Slider } from "../widgets";
 
 const wanted = new Option<number>("analyze", "degree");
 
-// Why there are no degrees of it, where that is known beforehand, and what can be done.
+// Explains why the item has no degrees, if this is known beforehand, and offers other steps.
 function NoDegrees({ one }: { one: Item }) {
   if (one.faces === 0) {
     return (
@@ -126,7 +126,7 @@ function changeMode(mode: tool.Mode): void {
     );
     tool.bandValues.value = bandMeans(tool.bands.value, all);
   } else if (mode !== "cut" && tool.degree.value === tool.top.value) {
-    tool.degree.value = Math.max(1, Math.round(tool.top.value / 4)); // chosen: something to be seen
+    tool.degree.value = Math.max(1, Math.round(tool.top.value / 4)); // chosen: a visible change
   }
   tool.mode.value = mode;
   tool.showLook(performance.now());
@@ -182,7 +182,7 @@ function Comparison({ one }: { one: Item }) {
     },
     [one.id],
   );
-  // Coefficients that came without their shape have nothing to be compared with.
+  // Coefficients without their shape cannot be compared.
   if (one.kind !== "mesh") return null;
   return (
     <div class="checks">

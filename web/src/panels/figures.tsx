@@ -8,7 +8,7 @@ import type { Item } from "../protocol";
 import { TableColumns, UnreadTable } from "./table";
 import { Check, Facts, Hint, Select, TextField } from "../widgets";
 
-// Shapes with known answers, to begin with.
+// Shapes with known answers, for a start.
 const made = ["bumpy", "sphere", "ellipsoid", "torus", "box", "points"] as const;
 
 export function FileButton() {
@@ -79,9 +79,9 @@ function StarFacts() {
   );
 }
 
-const units = ["µm", "mm", "cm", "m", "km"]; // of many; others are typed
+const units = ["µm", "mm", "cm", "m", "km"]; // a selection; others can be typed
 
-// Files hardly ever say what their numbers are.
+// Files rarely contain the unit of their numbers.
 function Unit({ one }: { one: Item }) {
   return (
     <TextField

@@ -7,10 +7,10 @@ import { theView } from "../show";
 import { item, studio } from "../state";
 import { Copy, Hint, Select, Slider } from "../widgets";
 
-const format = signal(""); // as chosen; else the first one that the item has
+const format = signal(""); // the chosen format; if empty, the item's first one
 const width = signal(1600);
 const height = signal(1200);
-const mostPixels = 16_384; // chosen: what browsers take as a canvas
+const mostPixels = 16_384; // chosen: the largest canvas of browsers
 
 function SaveShape({ one }: { one: Item }) {
   const formats = one.saved_as;

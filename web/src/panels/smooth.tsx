@@ -9,7 +9,7 @@ import { withUnit } from "../format";
 import type { Item } from "../protocol";
 import { Check, Hint, Select, Slider } from "../widgets";
 
-// While this panel is open the pointer paints.
+// The pointer paints while this panel is open.
 function usePointer(): void {
   useLayoutEffect(() => {
     const view = theView();

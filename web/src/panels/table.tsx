@@ -1,10 +1,10 @@
-// Text tables of points: what their columns were taken for, and what people say they are.
+// Text tables of points: the assumed columns, and the columns that people enter.
 import { openTable, step } from "../actions";
 import type { Item } from "../protocol";
 import { unread } from "../state";
 import { Facts, Hint, TextField } from "../widgets";
 
-const words = "x,y,z,nx,ny,nz,r,g,b,a"; // of the program's --columns
+const words = "x,y,z,nx,ny,nz,r,g,b,a"; // words of the program's --columns
 
 function Words() {
   return (
@@ -15,7 +15,7 @@ function Words() {
   );
 }
 
-// Shown under the shape that was read.
+// Columns of the table that was read, below the shape.
 export function TableColumns({ one }: { one: Item }) {
   const { table } = one;
   if (!table) return null;
@@ -43,7 +43,7 @@ export function TableColumns({ one }: { one: Item }) {
   );
 }
 
-// Shown where a file was refused that may be a table.
+// Shown if a refused file may be a table.
 export function UnreadTable() {
   const file = unread.value;
   if (!file) return null;

@@ -14,7 +14,7 @@ const picks = [
   ["none", "Turns the shape"],
 ] as const;
 
-// The radius of a disc, as a part of the diagonal of its shape.
+// Slider for the radius of a disc, as a part of the diagonal of its shape.
 function Radius({ label, value, of }: { label: string; value: Signal<number>; of: Item }) {
   return (
     <Slider
@@ -49,8 +49,8 @@ function Turn() {
   );
 }
 
-// Whether the target's faces are too large for the detail that is laid on it: their edges, as far as the mean tells,
-// are much longer. Chosen: twice.
+// Returns true if the target's faces are too large for the detail laid on it:
+// their estimated edges are much longer than the source's. Chosen: twice.
 function isCoarse(source: Item, target: Item): boolean {
   const edge = ({ diagonal, faces }: Item) => diagonal / Math.sqrt(faces);
   return tool.ready.value && !tool.refine.value && edge(target) > 2 * tool.scale.value * edge(source);

@@ -1,4 +1,4 @@
-// The window of a filter and its parameters, as the studio describes them.
+// The window of a filter and its parameters, as described by the studio.
 import { NumberField } from "../controls";
 import { percent } from "../format";
 import type { WindowParameter } from "../protocol";
@@ -14,7 +14,7 @@ function setParameter(name: string, value: number | undefined, since: number): v
   tool.showLook(since);
 }
 
-// A slider; a field where the degree of the filter decides unless something is typed.
+// Shows a slider, or a field if the degree of the filter determines the default.
 function Parameter({ one }: { one: WindowParameter }) {
   const { name, min, max } = one;
   if (one.default === null) {

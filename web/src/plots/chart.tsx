@@ -1,5 +1,5 @@
-// A plot of positive values over many powers of ten, by uPlot, as a component: made once for a set of
-// curves, then given data.
+// Component with a plot of positive values over many powers of ten,
+// by uPlot. It is made once for a set of curves, then given data.
 import { useEffect, useRef, useState } from "preact/hooks";
 import uPlot from "uplot";
 import { number } from "../format";
@@ -12,13 +12,13 @@ export interface Curve {
 }
 
 interface ChartProps {
-  label: string; // what is shown, for those who do not see it
+  label: string; // description of the plot for screen readers
   x: number[];
   curves: Curve[];
   xLabel: string;
   yLabel: string;
   logX?: boolean;
-  mark?: number | null; // a line across at this x
+  mark?: number | null; // a vertical line at this x
 }
 
 const height = 170; // px
@@ -66,7 +66,7 @@ function options(
       },
     ],
     cursor: { y: false },
-    legend: { show: false }, // the page's own: it has values only where the pointer is
+    legend: { show: false }, // the page has its own; uPlot's has values only at the pointer
     series: [
       {},
       ...props.curves.map((curve) => ({
@@ -81,10 +81,10 @@ function options(
   };
 }
 
-// The vertical scale is linear in the power of ten: uPlot's own logarithmic one does not end where
-// values are as small as rounding leaves them.
-const decades = 24; // chosen: what lies further below the largest value is rounding
-const mostLabels = 9; // chosen: what fits
+// The vertical scale is linear in the power of ten. uPlot's logarithmic
+// scale has no lower end where values are as small as rounding errors.
+const decades = 24; // chosen: values further below the largest one are rounding errors
+const mostLabels = 9; // chosen: the number that fits
 
 function powersBetween(low: number, high: number): number[] {
   const step = Math.max(1, Math.ceil((high - low) / mostLabels));

@@ -1,8 +1,8 @@
-// The colour scale of what is painted on the shape.
+// The colour scale of values painted on the shape.
 import { cssColor, mapColor, type Range } from "../geometry/colors";
 import { number, withUnit } from "../format";
 
-const stops = 16; // chosen: straight between them to the eye
+const stops = 16; // chosen: gradients between the stops look exact
 
 export function ColorScale({ range, label, unit }: { range: Range; label: string; unit: string }) {
   const at = (k: number) => range.min + ((range.max - range.min) * k) / stops;

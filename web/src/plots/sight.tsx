@@ -1,11 +1,11 @@
-// How the screen looks at the shape: the axes, and a bar of a known length.
+// Orientation of the view: the axes, and a bar of a known length.
 import { number, withUnit } from "../format";
 import { roundLength, ups, type Up } from "../geometry/up";
 
 const size = 64; // px
 const arm = 22; // px
 
-// Those that point away from who looks are drawn first, and fainter.
+// Axes that point away from the viewer are drawn first, and fainter.
 export function Axes({ axes }: { axes: Record<Up, readonly [number, number, number]> }) {
   const middle = size / 2;
   const order = [...ups].sort((a, b) => axes[a][2] - axes[b][2]);
@@ -31,7 +31,7 @@ export function Axes({ axes }: { axes: Record<Up, readonly [number, number, numb
 
 const longest = 120; // px
 
-// Of the distance where the camera turns about.
+// The scale holds at the distance of the camera's target.
 export function ScaleBar({ perPixel, unit }: { perPixel: number; unit: string }) {
   const length = roundLength(longest * perPixel);
   if (length === 0) return null;

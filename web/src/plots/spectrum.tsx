@@ -8,11 +8,11 @@ interface SpectrumProps {
   degree: number | null;
 }
 
-const further = 2; // chosen: the tail is drawn to so many times the degree
+const further = 2; // chosen: the tail is drawn up to this multiple of the degree
 export const measuredColor = "#2f7fd0";
 export const predictedColor = "#d0662f";
 
-// Curves of degrees 1 to the end; zeros have no place on a logarithmic scale.
+// Returns curves from degree 1 on; zeros cannot be shown on a logarithmic scale.
 export function spectrumCurves(
   power: readonly number[],
   tail: { strength: number } | null,
@@ -25,7 +25,7 @@ export function spectrumCurves(
     { label: "measured", color: measuredColor, values: x.map((l) => positive(power[l])) },
   ];
   if (tail) {
-    const from = Math.max(1, Math.floor(top / 4)); // chosen: where it can be compared
+    const from = Math.max(1, Math.floor(top / 4)); // chosen: where both curves can be compared
     const law = (l: number) => (l < from ? null : positive(tail.strength / (Math.PI * l ** 4)));
     curves.push({ label: "expected of the mesh's edges", color: predictedColor, dash: [6, 4], values: x.map(law) });
   }

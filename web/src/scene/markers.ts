@@ -1,4 +1,4 @@
-// Rings on the surface: where the brush is, where a texture comes from and where it goes.
+// Rings on the surface: at the brush, at the source of a texture, and at its target.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -15,16 +15,16 @@ import type { Rgb } from "../geometry/colors";
 
 export interface Ring {
   center: [number, number, number];
-  normal: [number, number, number]; // of the surface there
+  normal: [number, number, number]; // normal of the surface there
   radius: number;
   color: Rgb;
-  handle?: number; // a ball on the ring to take hold of, at this angle from its own first direction, radians
+  handle?: number; // a ball on the ring to drag, at this angle from the ring's first direction, radians
 }
 
 const up = new Vector3(0, 0, 1);
-const segments = 96; // chosen: a circle to the eye
+const segments = 96; // chosen: looks like a circle
 
-// From the plane of the ring to space.
+// Returns the rotation from the plane of the ring to space.
 export function ringFrame(ring: Ring): Quaternion {
   return new Quaternion().setFromUnitVectors(up, new Vector3(...ring.normal).normalize());
 }
@@ -46,8 +46,8 @@ function circle(): BufferGeometry {
   return new BufferGeometry().setAttribute("position", new BufferAttribute(points, 3));
 }
 
-// A line and a ball that serve one ring after the other: a material that is thrown away takes its
-// compiled program with it.
+// A line and a ball that are reused for all rings, because
+// disposing of a material also disposes of its compiled program.
 class Marker {
   readonly line: LineLoop<BufferGeometry, LineBasicMaterial>;
   readonly ball: Mesh<BufferGeometry, MeshBasicMaterial>;

@@ -1,9 +1,9 @@
-// Pictures of any size: what is too large for one drawing buffer is drawn in tiles.
+// Makes pictures of any size; pictures larger than a drawing buffer are drawn in tiles.
 import { Vector2, type PerspectiveCamera, type WebGLRenderer } from "three";
 
 const tile = 2048; // pixels; every WebGL 2 has it
 
-// Columns of a picture, of the screen or saved; show() makes visible what is drawn in them.
+// Columns of a picture, on the screen or saved; show() makes the shapes of these columns visible.
 export interface Part {
   left: number; // pixels
   width: number;
@@ -19,8 +19,8 @@ interface Wish {
   draw: () => void;
 }
 
-// A PNG of width times height pixels with a transparent ground. Size and camera are afterwards what
-// they were; what was on the canvas is to be drawn again.
+// Returns a PNG of width times height pixels with a transparent
+// background. Restores size and camera; the canvas must be drawn again.
 export async function takePicture({ renderer, camera, width, height, parts, draw }: Wish): Promise<Blob> {
   const page = document.createElement("canvas");
   page.width = width;

@@ -1,9 +1,9 @@
-// The pointer on the canvas: for the tool of a panel, or for the camera.
+// Forwards the pointer on the canvas to the tool of a panel, or to the camera.
 import type { Touch } from "./shape";
 
 export type PointerKind = "down" | "move" | "up" | "leave";
-// Says whether the pointer is taken, so that the camera stays. Where it touches the shape is looked for
-// if it is asked.
+// Returns true if the tool uses the pointer, so that the camera does not
+// move. `touch` searches the touched point of the shape only when called.
 export type PointerTool = (kind: PointerKind, touch: () => Touch | null, event: PointerEvent) => boolean;
 
 interface Canvas {
@@ -35,6 +35,6 @@ export function listenToPointer(canvas: HTMLCanvasElement, { tool, touch, camera
   canvas.addEventListener("pointerup", tell("up"));
   canvas.addEventListener("pointercancel", tell("up"));
   canvas.addEventListener("pointerleave", tell("leave"));
-  // Alt and the wheel are the brush's.
+  // The wheel with Alt changes the brush.
   canvas.addEventListener("wheel", (event) => event.altKey && event.stopImmediatePropagation());
 }

@@ -18,7 +18,7 @@ import { atPieces, seamsOf } from "../geometry/seams";
 import type { Surface } from "../protocol";
 
 export interface Touch {
-  vertex: number; // the nearest corner of the face that is hit
+  vertex: number; // the nearest corner of the hit face
   point: [number, number, number];
   normal: [number, number, number];
   distance: number;
@@ -26,17 +26,17 @@ export interface Touch {
 
 export interface Shape {
   group: Group;
-  surface: Surface; // as it came; what is drawn may have moved since
+  surface: Surface; // as received; the drawn one may have moved since
   ball: { center: [number, number, number]; radius: number };
   positions: BufferAttribute;
   normals: BufferAttribute | null;
   colors: BufferAttribute;
   material: MeshLambertMaterial | PointsMaterial;
   index: BufferAttribute | null;
-  joined: Uint32Array | null; // joinedTriangles(), once they are wanted
-  moved: Uint32Array | null; // vertices that are not where the surface has them; null: unknown, or none
+  joined: Uint32Array | null; // joinedTriangles(), computed when needed
+  moved: Uint32Array | null; // vertices that differ from the surface's; null: unknown, or none
   marks: Mesh | null;
-  seams: Mesh | null; // pieces of faces that are of several caps
+  seams: Mesh | null; // pieces of faces that belong to several caps
   bvh: MeshBVH | null;
   bvhMoved: boolean;
 }
@@ -52,7 +52,7 @@ export function makeShape(surface: Surface): Shape {
   const none = { marks: null, seams: null, joined: null, moved: null, bvh: null, bvhMoved: false };
   const shape = { group, surface, ball, positions, colors, ...none };
   if (!surface.triangles) {
-    // Chosen: on a sphere they would cover half of it, and in a ball's picture are never lost.
+    // Chosen: on a sphere the points would cover half of it, and in a ball's picture they never disappear.
     const covering = Math.sqrt(8 / Math.max(1, positions.count));
     const size = ball.radius * Math.min(0.05, Math.max(1 / 400, covering));
     const material = new PointsMaterial({ vertexColors: true, size });
@@ -63,7 +63,7 @@ export function makeShape(surface: Surface): Shape {
   const joined = surface.normals ? null : joinedTriangles(surface.positions, surface.triangles);
   if (joined) vertexNormals(surface.positions, surface.triangles, joined, given);
   const normals = new BufferAttribute(given, 3);
-  // Its own copy: the tree of faces sorts it.
+  // A copy, because the tree of faces sorts it.
   const index = new BufferAttribute(surface.triangles.slice(), 1);
   geometry.setAttribute("normal", normals);
   geometry.setIndex(index);
@@ -75,21 +75,20 @@ export function makeShape(surface: Surface): Shape {
   return paintOne({ ...shape, normals, index, material }, plain);
 }
 
-// Shapes move within themselves: no culling by a ball that would have to be kept up.
+// Vertices move, so culling by a ball is off; the ball would have to be updated.
 function keep<T extends Mesh | Points>(object: T): T {
   object.frustumCulled = false;
   return object;
 }
 
-// Puts all vertices elsewhere.
+// Moves all vertices.
 export function moveShape(shape: Shape, positions: Float32Array, normals: Float32Array | null): void {
   (shape.positions.array as Float32Array).set(positions);
   shape.moved = null;
   hasMoved(shape, normals, undefined);
 }
 
-// Puts these vertices elsewhere, and those that the call before put elsewhere, and this one does not
-// name, back to their places.
+// Moves these vertices. Vertices that the previous call moved and this one does not name return to their places.
 export function moveSome(shape: Shape, indices: Uint32Array, positions: Float32Array): void {
   const array = shape.positions.array as Float32Array;
   const before = shape.moved ?? new Uint32Array();
@@ -131,7 +130,7 @@ export function paintOne(shape: Shape, color: Rgb): Shape {
   return shape;
 }
 
-// Each cap in a colour, with borders that do not follow the edges of the mesh.
+// Paints each cap in one colour, with borders that do not follow the edges of the mesh.
 export function paintLabels(shape: Shape, labels: Uint32Array): void {
   const { triangles } = shape.surface;
   const seams = triangles && shape.normals ? seamsOf(triangles, labels) : null;
@@ -147,7 +146,7 @@ export function paintLabels(shape: Shape, labels: Uint32Array): void {
   add("normal", atPieces(seams, shape.normals.array));
   add("color", colors);
   const material = new MeshLambertMaterial({ vertexColors: true, side: DoubleSide, polygonOffset: true });
-  material.polygonOffsetUnits = -2; // before the faces that they are of
+  material.polygonOffsetUnits = -2; // in front of their faces
   shape.seams = keep(new Mesh(geometry, material));
   shape.group.add(shape.seams);
 }
@@ -160,7 +159,7 @@ export function dropSeams(shape: Shape): void {
   shape.seams = null;
 }
 
-// Faces of these numbers in a colour of their own; null: none.
+// Shows the faces of these numbers in another colour; null: none.
 export function markFaces(shape: Shape, faces: Uint32Array | null): void {
   if (shape.marks) {
     shape.group.remove(shape.marks);
@@ -178,7 +177,7 @@ export function markFaces(shape: Shape, faces: Uint32Array | null): void {
   geometry.setIndex(new BufferAttribute(index, 1));
   const material = new MeshLambertMaterial({ side: DoubleSide, polygonOffset: true });
   material.color.setRGB(...marked);
-  material.polygonOffsetUnits = -4; // before the same faces of the shape, and no others
+  material.polygonOffsetUnits = -4; // in front of the same faces of the shape, and no others
   shape.marks = keep(new Mesh(geometry, material));
   shape.group.add(shape.marks);
 }
@@ -190,7 +189,7 @@ export function setOpacity(shape: Shape, opacity: number): void {
   shape.material.needsUpdate = true;
 }
 
-// Where a ray meets the surface first; null for points.
+// Returns the first intersection of a ray with the surface; null for points.
 export function touchShape(shape: Shape, ray: Ray): Touch | null {
   if (!shape.index) return null;
   const geometry = (shape.group.children[0] as Mesh).geometry;

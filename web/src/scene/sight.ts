@@ -1,4 +1,4 @@
-// How the screen looks at space.
+// Orientation and scale of the view.
 import { Vector3, type Camera } from "three";
 import type { Up } from "../geometry/up";
 
@@ -6,7 +6,7 @@ type Seen = [right: number, up: number, nearer: number];
 
 export interface Sight {
   axes: Record<Up, Seen>; // unit vectors x, y, z on the screen
-  perPixel: number; // length of a pixel where the camera turns about
+  perPixel: number; // length of a pixel at the distance of the camera's target
 }
 
 export function axisOf(up: Up): Vector3 {

@@ -1,4 +1,4 @@
-// The canvas: one shape or two, light, camera, rings. Everything of three.js is below this folder.
+// The canvas: one or two shapes, light, camera, rings. Only this folder uses three.js.
 import { signal } from "@preact/signals";
 import CameraControls from "camera-controls";
 import {
@@ -59,8 +59,8 @@ CameraControls.install({
 export type Which = "main" | "other";
 export type Layout = "one" | "side" | "over"; // "side": other left, main right; "over": both at one place
 
-const fieldOfView = 32; // degrees; chosen: little perspective
-// From a little above the equator, as pictures of the program.
+const fieldOfView = 32; // degrees; chosen: weak perspective
+// Slightly above the equator, as in pictures of the program.
 const firstLook = { azimuth: Math.PI / 6, polar: 0.4 * Math.PI };
 
 export class NoWebGlError extends Error {}
@@ -82,7 +82,7 @@ export class View {
   private waiting: (() => void)[] = [];
   private last = performance.now();
 
-  // Throws NoWebGlError where the browser has no WebGL 2.
+  // Throws NoWebGlError if the browser has no WebGL 2.
   constructor(private readonly host: HTMLElement) {
     try {
       this.renderer = new WebGLRenderer({ antialias: true, alpha: true });
@@ -98,7 +98,7 @@ export class View {
     key.position.set(-0.6, 0.9, 1);
     this.camera.add(key);
     this.scene.add(this.camera, new AmbientLight(0xffffff, 1), this.markers.group);
-    // Before the camera listens to the same events.
+    // Added before the camera listens to the same events.
     listenToPointer(canvas, {
       tool: () => this.pointer,
       touch: (event) => this.touch(event),
@@ -116,7 +116,7 @@ export class View {
     requestAnimationFrame(() => this.frame());
   }
 
-  // Shows a surface, or takes it away. The first one is brought into view.
+  // Shows a surface, or removes it. The camera does not move.
   show(which: Which, surface: Surface | null): void {
     const before = this.shapes[which];
     if (before) {
@@ -141,7 +141,7 @@ export class View {
     this.change("main", (shape) => moveShape(shape, positions, normals));
   }
 
-  // Only these vertices are not where the surface has them.
+  // Moves these vertices; all others are where the surface has them.
   moveSome(indices: Uint32Array, positions: Float32Array): void {
     this.change("main", (shape) => moveSome(shape, indices, positions));
   }
@@ -150,17 +150,17 @@ export class View {
     this.recolor(which, (shape) => paintOne(shape, color));
   }
 
-  // Colours by numbers of vertices.
+  // Colours the vertices by values.
   paintValues(range: Range, values: ArrayLike<number>): void {
     this.recolor("main", (shape) => mapColors(range, values, shape.colors.array as Float32Array));
   }
 
-  // Writes colours [n, 3] by `fill`.
+  // Lets `fill` write colours [n, 3].
   paintBy(which: Which, fill: (colors: Float32Array) => void): void {
     this.recolor(which, (shape) => fill(shape.colors.array as Float32Array));
   }
 
-  // A colour for each label of vertices.
+  // Paints one colour per label of vertices.
   paintLabels(labels: Uint32Array): void {
     this.recolor("main", (shape) => paintLabels(shape, labels));
   }
@@ -180,7 +180,7 @@ export class View {
     this.dirty = true;
   }
 
-  // All of what is shown, from where the camera looks.
+  // Brings all shapes into view, without turning the camera.
   fit(smoothly = true): void {
     const { main, other } = this.shapes;
     const balls = [main, this.layout === "over" ? other : null].flatMap((shape) => shape?.ball ?? []);
@@ -194,7 +194,7 @@ export class View {
     this.dirty = true;
   }
 
-  // The axis that points up on the screen; the camera is again where it was at first.
+  // Sets the axis that points up on the screen, and resets the direction of the camera.
   setUp(up: Up): void {
     this.camera.up.copy(axisOf(up));
     this.controls.updateCameraUp();
@@ -202,7 +202,7 @@ export class View {
     this.dirty = true;
   }
 
-  // From the front, from above and so on.
+  // Looks from the front, from above and so on.
   lookFrom(wanted: ViewName): void {
     const found = views.find(([name]) => name === wanted);
     if (!found) return;
@@ -222,12 +222,12 @@ export class View {
     this.renderer.domElement.setAttribute("aria-label", text);
   }
 
-  // Whether the camera moves, or what is shown is not yet drawn.
+  // True while the camera moves, or the current state is not drawn yet.
   get busy(): boolean {
     return this.dirty || this.waiting.length > 0 || this.moving;
   }
 
-  // Until the next frame is on its way to the screen.
+  // Resolves when the next frame is on its way to the screen.
   drawn(): Promise<void> {
     this.dirty = true;
     return new Promise((done) => this.waiting.push(done));
@@ -241,7 +241,7 @@ export class View {
     return takePicture({ renderer, camera, width, height, parts, draw });
   }
 
-  // Angle (radians) and distance from the ring's centre of where the pointer is in its plane.
+  // Returns the pointer's angle (radians) and distance from the ring's centre, in the ring's plane.
   inPlane(ring: Ring, event: PointerEvent): { angle: number; distance: number } | null {
     const normal = new Vector3(...ring.normal).normalize();
     const plane = new Plane().setFromNormalAndCoplanarPoint(normal, new Vector3(...ring.center));
@@ -311,7 +311,7 @@ export class View {
     requestAnimationFrame(() => this.frame());
   }
 
-  // What of a picture that wide shows which shape.
+  // Returns the columns of a picture of this width, with the shapes that each shows.
   private parts(width: number): Part[] {
     const { main, other } = this.shapes;
     const showing = (showMain: boolean, showOther: boolean) => () => {

@@ -1,4 +1,4 @@
-// Two shapes: one brought onto the other, and what lies between them.
+// Two shapes: aligning one with the other, and blends between them.
 import { computed, signal } from "@preact/signals";
 import { step } from "../actions";
 import { arrayOf, needArray, surfaceOf } from "../binary";
@@ -38,7 +38,7 @@ export function preview(since: number): void {
 }
 
 export async function play(): Promise<void> {
-  const seconds = 3; // chosen: there and back without haste
+  const seconds = 3; // chosen: a slow motion there and back
   playing.value = true;
   const begin = performance.now();
   for (;;) {

@@ -1,4 +1,4 @@
-// A region painted on the surface: discs about vertices, one radius for all.
+// Region painted on the surface: discs about vertices, with one radius for all.
 import { computed, effect, signal } from "@preact/signals";
 import { needArray } from "../binary";
 import { painted, plain, ringed } from "../geometry/colors";
@@ -13,30 +13,30 @@ export interface Dab {
   point: [number, number, number];
 }
 
-export const painting = signal(true); // else the pointer turns the shape
+export const painting = signal(true); // false: the pointer turns the shape
 export const dabs = signal<Dab[]>([]);
-export const radiusShare = signal(0.06); // of the diagonal
-export const leastRadius = 0.005; // of the diagonal; chosen
+export const radiusShare = signal(0.06); // share of the diagonal
+export const leastRadius = 0.005; // share of the diagonal; chosen
 export const mostRadius = 0.5;
 export const radius = computed(() => radiusShare.value * (item.value?.diagonal ?? 1));
 export const regions = computed(() =>
   dabs.value.map(({ vertex }) => `vertex:${vertex},${Number(radius.value.toPrecision(6))}`),
 );
 
-// How far the region fades, in the unit; null: half the radius.
+// Width of the region's transition, in the unit; null: half the radius.
 export const transition = signal<number | null>(null);
 
-const spacing = 0.35; // of the radius; chosen: dabs overlap by far
+const spacing = 0.35; // share of the radius; chosen: dabs overlap strongly
 
-// Of the colour at weight 1; chosen: while it is painted, and after that what becomes of the surface is seen.
+// Share of the brush's colour at weight 1, during and after painting; chosen: afterwards the surface is visible.
 const coverPainting = 0.6;
 const cover = 0.3;
 
 let held = false;
-let strokes: number[] = []; // how many dabs there were before each
+let strokes: number[] = []; // number of dabs before each stroke
 let cursor: Touch | null = null;
 
-// Weights shown as a blend from stone to the brush's colour.
+// Shows weights as a blend from stone to the brush's colour.
 const weigh = liveChannel("brush", (answer, fields) => {
   if (fields.item !== shown.value?.id) return;
   const indices = needArray(answer, "indices", Uint32Array);
@@ -65,7 +65,7 @@ export function showWeights(since: number): void {
   weigh({ fields: { item: one.id, points, radius: radius.value, ...wavelength }, since });
 }
 
-// Takes back what was painted last; false if nothing is.
+// Removes the last stroke; returns false if there is none.
 export function takeBackStroke(): boolean {
   const last = strokes.pop();
   if (last === undefined || dabs.value.length === 0) return false;
@@ -88,7 +88,7 @@ export function setRadius(share: number, since: number): void {
 
 function showCursor(): void {
   const ring = cursor && { center: cursor.point, normal: cursor.normal, radius: radius.value, color: ringed };
-  // The brush, and how far it fades.
+  // One ring shows the brush, the other one its transition.
   const fades = transition.value ?? radius.value / 2;
   theView()?.rings(ring ? [ring, { ...ring, radius: radius.value + fades, color: painted }] : []);
 }
@@ -101,7 +101,7 @@ function dab(touch: Touch, since: number): void {
   showWeights(since);
 }
 
-// `painted` is told when a stroke ends.
+// `strokeEnded` is called when a stroke ends.
 export function brushPointer(strokeEnded: () => void): PointerTool {
   return (kind: PointerKind, find: () => Touch | null, event: PointerEvent) => {
     const touch = find();
@@ -122,7 +122,7 @@ export function brushPointer(strokeEnded: () => void): PointerTool {
   };
 }
 
-// Vertices have other numbers in another shape; where there is another tab the region is gone.
+// Another shape has other vertex numbers, and other tabs do not use the region, so it is removed.
 export function forgetWithItem(): void {
   let faces = 0;
   effect(() => {

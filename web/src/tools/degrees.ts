@@ -1,4 +1,4 @@
-// The look of an expansion: its degree, gains of degrees, error; live, and kept when let go.
+// The look of an expansion: its degree, gains of degrees, error; live, and kept when the slider is released.
 import { computed, effect, signal } from "@preact/signals";
 import { ask, fail, step } from "../actions";
 import { arrayOf, needArray, type Binary } from "../binary";
@@ -23,12 +23,12 @@ export type Mode = (typeof modes)[number][0];
 export const mode = signal<Mode>("cut");
 export const degree = signal(0);
 const chosenWindow = signal<string | null>(null);
-export const parameters = signal<Readonly<Record<string, number>>>({}); // of windows, where they were given
+export const parameters = signal<Readonly<Record<string, number>>>({}); // given parameters of windows
 export const amount = signal(1);
 export const bandValues = signal<number[]>([]);
 export const tolerance = signal(1e-2); // parts of the mean radius
 
-// The mean radius over the sphere, which is the coefficient of degree 0: it is the same whatever degrees are shown.
+// Returns the mean radius over the sphere, from the coefficient of degree 0. It does not depend on the shown degrees.
 export function meanRadius(one: Item): number {
   return Math.sqrt((one.expansion?.power[0] ?? 0) / (4 * Math.PI));
 }
@@ -45,7 +45,7 @@ export function chooseWindow(name: string): void {
   chosenWindow.value = name;
 }
 
-// The parameters that were given of the window in use.
+// Given parameters of the current window.
 const given = computed(() => {
   const own = (window.value?.parameters ?? []).flatMap(({ name }) => {
     const value = parameters.value[name];
@@ -54,7 +54,7 @@ const given = computed(() => {
   return Object.fromEntries(own);
 });
 
-// Whether a parameter is given that stands in for the degree of the filter.
+// True if a given parameter replaces the degree of the filter.
 export const degreeIsReplaced = computed(
   () =>
     usesWindow.value &&
@@ -63,7 +63,7 @@ export const degreeIsReplaced = computed(
 
 export const usesWindow = computed(() => mode.value !== "cut" && mode.value !== "bands");
 
-// The low pass that gains are made of; null where none is needed.
+// The low-pass filter from which gains are made; null if none is needed.
 const lowPass = computed<LowPass | null>(() => {
   if (!usesWindow.value || !window.value) return null;
   const at = Math.min(degree.value, top.value);
@@ -71,7 +71,7 @@ const lowPass = computed<LowPass | null>(() => {
   return { window: window.value.name, cutoff, degree: top.value, parameters: given.value };
 });
 
-// What is asked for: null gains where the series is only cut off. Null as long as the gains are not known.
+// The wanted look; its gains are null if the series is only cut off. Null while the gains are unknown.
 export const wish = computed<{ degree: number; gains: number[] | null } | null>(() => {
   const last = top.value;
   if (mode.value === "cut") return { degree: Math.min(degree.value, last), gains: null };
@@ -87,7 +87,7 @@ async function needWish(): Promise<void> {
   if (low) await needGains(low);
 }
 
-// What of its degrees is on the screen, for people: "degree 8 of 32".
+// Returns the shown degrees as text: "degree 8 of 32".
 export function shownDegree(one: Item): string {
   const all = one.expansion?.degree ?? 0;
   const look = one.id === item.value?.id ? (wish.value ?? one.look) : one.look;
@@ -103,8 +103,8 @@ const live = liveChannel("degree", (answer: Binary, fields: Fields) => {
   if (error && coloring.value === "error") paintError(error);
 });
 
-// One scale for all degrees would show nothing at high ones: it follows the error, symmetric if
-// the error has both signs.
+// The scale follows the error, because one scale for all degrees would
+// show nothing at high ones. It is symmetric if the error has both signs.
 function paintError(error: Float32Array): void {
   const range = rangeOf(error);
   const size = Math.max(-range.min, range.max);
@@ -126,7 +126,7 @@ export function showLook(since: number): void {
 
 type Look = { degree: number; gains: number[] | null } | null;
 const textOf = (look: Look) => JSON.stringify([look?.degree, look?.gains ?? null]);
-let sent = ""; // the look that was asked for last: sliders do not follow its coming back
+let sent = ""; // the last look sent; sliders ignore its echo
 
 const keeper = latestWins<null>(async () => {
   await shower.idle();
@@ -139,7 +139,7 @@ const keeper = latestWins<null>(async () => {
   await step({ op: "look", item: one.id, ...look }, "Keeping");
 }, fail);
 
-// Keeps what is shown, as a step.
+// Keeps the shown look, as a step.
 export function keepLook(): Promise<void> {
   keeper(null);
   return keeper.idle();
@@ -150,7 +150,7 @@ export function setErrorMap(on: boolean): void {
   if (on) showLook(performance.now());
 }
 
-// Moves the slider to the degree that keeps the tolerance.
+// Moves the slider to the least degree within the tolerance.
 export async function degreeForTolerance(one: Item): Promise<void> {
   const fields = { op: "degree_for", item: one.id, tolerance: tolerance.value * meanRadius(one) };
   const answer = await ask<{ degree: number; met: boolean }>(fields, "Looking for the degree");
@@ -166,8 +166,7 @@ export async function degreeForTolerance(one: Item): Promise<void> {
 
 let followed = -1;
 
-// Sliders follow the item and what undo does to it; a new surface
-// gets its error map, or what sliders are ahead of it.
+// Sliders follow the item and its undo steps. A new surface gets its error map, or the newer look of the sliders.
 export function followItem(): void {
   effect(() => {
     const one = item.value;

@@ -17,11 +17,11 @@ export type Action = (typeof actions)[number][0];
 
 export const action = signal<Action>("smooth");
 export const strength = new Option<number>("smooth", "strength");
-export const wavelengthShare = new Option<number>("smooth", "wavelength"); // of the diagonal
+export const wavelengthShare = new Option<number>("smooth", "wavelength"); // share of the diagonal
 export const wavelength = computed(() => wavelengthShare.value * (item.value?.diagonal ?? 1));
 export const previewed = signal(false);
 
-// A bridge spans up to half a wavelength: it is as long as four radii.
+// A bridge spans up to half a wavelength, so its wavelength is four radii.
 const bridgeRadii = 4;
 
 function fields(): Record<string, unknown> {
@@ -44,7 +44,7 @@ const live = liveChannel("smooth", (answer, asked) => {
   previewed.value = true;
 });
 
-// The region fades over a wavelength; a bridge has no use for that.
+// The region fades over a wavelength; a bridge does not need this.
 export function followWavelength(): void {
   effect(() => {
     transition.value = action.value === "bridge" ? null : wavelength.value;
@@ -58,7 +58,7 @@ export function preview(since: number, weights = true): void {
   if (weights) showWeights(since);
 }
 
-// Undoing begins with what is painted and not kept.
+// Undoing first removes strokes that are not kept.
 export function undoStroke(): boolean {
   if (tab.value !== "smooth" || !takeBackStroke()) return false;
   if (regions.value.length > 0) preview(performance.now());

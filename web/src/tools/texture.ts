@@ -1,4 +1,4 @@
-// The detail of one place laid on another: two discs on the surface, turned and scaled by a handle.
+// Transfers detail between two places: two discs on the surface, turned and scaled by a handle.
 import { computed, effect, signal, untracked } from "@preact/signals";
 import { step } from "../actions";
 import { arrayOf, needArray, surfaceOf, type Binary } from "../binary";
@@ -12,8 +12,8 @@ import { repaint, restoreSurface, shown, theView } from "../show";
 import { item, tab } from "../state";
 
 interface Disc {
-  item: number; // its id
-  diagonal: number; // of the item
+  item: number; // id of the item
+  diagonal: number; // diagonal of the item
   vertex: number;
   point: [number, number, number];
   normal: [number, number, number];
@@ -23,11 +23,11 @@ export type Picking = "from" | "to" | "none";
 export const picking = signal<Picking>("from");
 export const from = signal<Disc | null>(null);
 export const to = signal<Disc | null>(null);
-export const radiusShare = signal(0.12); // of the diagonal, of the source
-export const targetShare = signal(0.12); // of the target
+export const radiusShare = signal(0.12); // share of the diagonal, of the source
+export const targetShare = signal(0.12); // share of the diagonal, of the target
 export const scale = new Option<number>("transfer", "scale");
 export const height = new Option<number>("transfer", "height");
-export const angle = new Option<number | null>("transfer", "angle"); // null: where it is most like what is there
+export const angle = new Option<number | null>("transfer", "angle"); // null: the angle most similar to existing detail
 export const repeat = new Option<boolean>("transfer", "repeat");
 export const removeOwn = new Option<boolean>("transfer", "remove_own");
 export const refine = new Option<boolean>("transfer", "refine");
@@ -69,7 +69,7 @@ const live = liveChannel("transfer", (answer: Binary, asked) => {
   showRings();
 });
 
-// Rings and what is laid in them come together, in one picture.
+// Rings appear together with the texture, in one picture.
 export function preview(since: number): void {
   if (ready.value) live({ fields: fields(), since });
   else showRings();
@@ -81,7 +81,7 @@ function targetRing(disc: Disc): Ring {
   return { center: disc.point, normal: disc.normal, radius: size, color: placed, handle: turn };
 }
 
-// Rings are of the shape that is seen.
+// Rings belong to the visible shape.
 export function followShape(): void {
   effect(() => {
     if (shown.value && tab.value === "texture") untracked(showRings);
@@ -100,10 +100,10 @@ export function showRings(): void {
   theView()?.rings(rings);
 }
 
-const handleReach = 0.3; // of the ring's radius; chosen: twice the ball
+const handleReach = 0.3; // share of the ring's radius; chosen: twice the ball
 let dragging = false;
 
-// Where the pointer is on the target's plane, if it has hold of the handle.
+// Returns true if the pointer holds the handle, in the target's plane.
 function atHandle(event: PointerEvent): boolean {
   if (to.value?.item !== item.peek()?.id || !to.value) return false;
   const ring = targetRing(to.value);

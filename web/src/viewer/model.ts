@@ -9,11 +9,11 @@ import { coefficientsOf, type ViewData } from "../viewdata";
 export interface Model {
   data: ViewData;
   synthesis: Synthesis;
-  surface: Surface; // its arrays are written anew for each degree
+  surface: Surface; // its arrays are overwritten for each degree
   normals: Float32Array;
   directions: Float32Array;
-  radii: Float64Array; // of the degree that is shown
-  full: Float64Array; // of all degrees
+  radii: Float64Array; // radii of the shown degree
+  full: Float64Array; // radii of all degrees
   original: Surface | null;
 }
 
@@ -43,7 +43,7 @@ export function setDegree(model: Model, degree: number): void {
 
 export type Coloring = "plain" | "radius" | "difference";
 
-// Values of vertices, and the range of colours; null for none.
+// Returns values of vertices, with the range of colours; null for one colour.
 export function valuesFor(
   model: Model,
   coloring: Coloring,

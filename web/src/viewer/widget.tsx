@@ -1,4 +1,4 @@
-// The viewer: shape, degree slider, colours, spectrum. All of it is summed in the page itself.
+// The viewer: shape, degree slider, colours, spectrum. The page itself computes all sums.
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { number, withUnit } from "../format";
 import { plain } from "../geometry/colors";

@@ -20,20 +20,20 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Sums over lanes. The extremes are the same in all lanes.
+// Sums over lanes. The extremes have the same value in all lanes.
 struct LaneSums {
   V volume6, mean, face_error2, min_d2, min_cos2, max_edge2, probe;
 };
 
-// One vector of triangles.
+// One vector of faces.
 struct Elements {
   V d2, nn;                      // n . p_0, n . n
   V q0, q1, q2;                  // 1 / r^2
-  V nearest, farthest, longest;  // squares
+  V nearest, farthest, longest;  // squares of lengths
   M clear, lumped;
 };
 
-// 24 times the mean of 1/|x|^2 over the faces, by six nodes.
+// Returns 24 times the mean of 1/|x|^2 over the faces, by six nodes.
 HWY_INLINE V mean_by_nodes(D d, const V3& p0, const V3& p1, const V3& p2) {
   const V one = hn::Set(d, 1.0);
   V sum = hn::Zero(d);
@@ -53,8 +53,8 @@ HWY_INLINE V mean_by_nodes(D d, const V3& p0, const V3& p1, const V3& p2) {
   return sum;
 }
 
-// What is out of the ordinary: triangles that are not lumped, new extremes, lanes at and beyond n,
-// which repeat others. Leaves them out of the terms of the sums.
+// Treats unusual lanes: faces that are not lumped, new extremes, and lanes at and beyond n, which
+// repeat others. Leaves these out of the terms of the sums.
 template <typename T>
 HWY_INLINE void sort_out(D d, const V3 (&p)[3], const Elements& e, size_t at, size_t n,
                          const BlockParameters& parameters, TriangleBlock<T>& b, V& volume6,
@@ -75,7 +75,7 @@ HWY_INLINE void sort_out(D d, const V3 (&p)[3], const Elements& e, size_t at, si
   volume6 = hn::IfThenElseZero(seen, volume6);
   mean = hn::IfThenElseZero(hn::AndNot(coarse, inside), mean);
   face_error2 = hn::IfThenElseZero(lumped, face_error2);
-  // Zero times infinity is not a number.
+  // Zero times infinity is not a number, so the probe shows coordinates that are not finite.
   sums.probe = hn::MulAdd(zero, e.nn, sums.probe);
   const V signed_dd = hn::Mul(e.d2, hn::Abs(e.d2));
   const V dist2 = hn::Div(signed_dd, hn::IfThenElse(e.clear, e.nn, one));
@@ -87,7 +87,7 @@ HWY_INLINE void sort_out(D d, const V3 (&p)[3], const Elements& e, size_t at, si
   sums.min_d2 = least(dist2, sums.min_d2);
   sums.min_cos2 = least(cos2, sums.min_cos2);
   sums.max_edge2 = hn::MaxOfLanes(d, hn::Max(sums.max_edge2, hn::IfThenElseZero(inside, edge2)));
-  // The sign of d_T means nothing below 16 2^-53 of the radius, as in the star check.
+  // Below 16 2^-53 of the radius the sign of d_T means nothing, as in the star check.
   const M bad = hn::And(
       seen, hn::Not(hn::Gt(signed_dd, hn::Mul(hn::Set(d, 0x1p-98), hn::Mul(e.nn, e.nearest)))));
   counts.bad += hn::CountTrue(d, bad);
@@ -100,7 +100,7 @@ HWY_INLINE void sort_out(D d, const V3 (&p)[3], const Elements& e, size_t at, si
   for (size_t i = 0; i < kLanes; ++i) b.flag[at + i] = static_cast<uint8_t>(values[i]);
 }
 
-// One vector of triangles. Lanes at and beyond n repeat others and are left out of the sums.
+// Processes one vector of faces. Lanes at and beyond n repeat others and are left out of the sums.
 template <bool kHessians, typename T>
 HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& parameters,
                             TriangleBlock<T>& b, LaneSums& sums, BlockSums& counts) {
@@ -113,7 +113,7 @@ HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& par
   const V3 e01 = Minus(p1, p0), e12 = Minus(p2, p1), e20 = Minus(p0, p2);
   const V3 n3 = Cross(e20, e01), across = Cross(n3, p0);
   const V d2 = Dot(n3, p0), nn = Dot(n3, n3);
-  const V r0 = Dot(p0, p0), r1 = Dot(p1, p1), r2 = Dot(p2, p2);  // squares
+  const V r0 = Dot(p0, p0), r1 = Dot(p1, p1), r2 = Dot(p2, p2);  // squares of radii
   const V l01 = Dot(e01, e01), l12 = Dot(e12, e12), l20 = Dot(e20, e20);
   Elements e;
   e.d2 = d2;
@@ -122,7 +122,7 @@ HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& par
   e.farthest = hn::Max(r0, hn::Max(r1, r2));
   e.longest = hn::Max(l01, hn::Max(l12, l20));
 
-  // 1 / d2 and 1 / r^2 by one division; where d2 vanishes nothing of it is used.
+  // One division gives 1 / d2 and 1 / r^2. Where d2 vanishes, their values are not used.
   const V r01 = hn::Mul(r0, r1), r012 = hn::Mul(r01, r2);
   const V dn = hn::IfThenElse(hn::Eq(d2, zero), one, d2);
   const V inverse = hn::Div(one, hn::Mul(r012, dn));
@@ -133,13 +133,13 @@ HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& par
   e.q1 = q1;
   e.q2 = q2;
 
-  // n . (p_i x p_j) = (n x p_i) . e_ij, and all weights add up to nothing.
+  // n . (p_i x p_j) = (n x p_i) . e_ij, and all weights add up to zero.
   const V over_f = hn::Mul(nn, over_d), face = hn::Neg(over_f);
   const V w01 = hn::Mul(Dot(across, e01), over_d), w20 = hn::Mul(Dot(across, e20), over_d);
   const V w12 = hn::Sub(over_f, hn::Add(w01, w20));
 
-  // Error of lumping: z = L theta with a part for the bending of x/|x| along the edge; the same
-  // seen from both sides of an edge. |p_i x p_j|^2 = r_i^2 e^2 - (p_i . e)^2.
+  // Error of lumping: z = L theta with a term for the bending of x/|x| along the edge. Both faces
+  // of an edge have the same z. |p_i x p_j|^2 = r_i^2 e^2 - (p_i . e)^2.
   const V quarter = hn::Set(d, 0.25 * parameters.degree * parameters.degree);
   const V bend = hn::Set(d, kHessians ? kHermiteBend : 16.0);
   const auto phase2 = [&](V ri, V rj, V length, V over) HWY_ATTR {
@@ -162,8 +162,9 @@ HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& par
   const V error2 = squares(f), weight2 = squares(w);
   hn::Store(error2, d, b.error2 + at);
 
-  // The mean of 1/|x|^2 over the face by the same rule; its derivative along e is -2 (p . e)/r^4,
-  // and p_0 . (both edges) = (r_1 + r_2 - 2 r_0 - l_01 - l_20) / 2: the terms of corner i are
+  // Takes the mean of 1/|x|^2 over the face by the same rule. Its derivative along e is -2
+  // (p . e)/r^4, and p_0 . (both edges) = (r_1 + r_2 - 2 r_0 - l_01 - l_20) / 2. So the terms of
+  // corner i are
   //   1/3 q - 1/12 q^2 p . (both edges) = q/24 (11 - q (sum of r - sum of l + l opposite)).
   const V rest = hn::Sub(hn::Add(r0, hn::Add(r1, r2)), hn::Add(l01, hn::Add(l12, l20)));
   const V eleven = hn::Set(d, 11.0);
@@ -173,16 +174,16 @@ HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& par
       hn::MulAdd(q0, term(q0, l12), hn::MulAdd(q1, term(q1, l20), hn::Mul(q2, term(q2, l01))));
   V volume6 = d2, mean = hn::Mul(d2, mean24);
 
-  // Rounding of a normal: corners are exact to 2^-53 r, so n to about 2^-52 r |e|.
+  // Rounding of a normal: corners are exact to 2^-53 r, so n is exact to about 2^-52 r |e|.
   e.clear = hn::Gt(nn, hn::Mul(hn::Set(d, 0x1p-90), hn::Mul(e.farthest, e.longest)));
-  // Grazing, where the terms of (M6) are large and cancel.
+  // At grazing angles the terms of (M6) are large and cancel.
   const V cap = hn::Set(d, parameters.largest / parameters.per_weight);
   e.lumped = hn::And(
       hn::And(e.clear, hn::Gt(hn::Mul(d2, d2),
                               hn::Mul(hn::Set(d, parameters.grazing2), hn::Mul(nn, e.nearest)))),
       hn::And(hn::Le(error2, hn::Set(d, parameters.tolerance2)),
               hn::Le(weight2, hn::Mul(cap, cap))));
-  // Not a new extreme, up to rounding, and not bad.
+  // True where no value is a new extreme, up to rounding, and the face is not bad.
   const V more = hn::Set(d, 1 + 0x1p-40);
   const V least_cos2 = hn::Max(sums.min_cos2, hn::Set(d, 0x1p-98));
   const V far_enough = hn::Mul(hn::Max(sums.min_d2, hn::Mul(least_cos2, e.farthest)), more);
@@ -199,7 +200,7 @@ HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& par
   sums.face_error2 = hn::Add(sums.face_error2, face_error2);
 }
 
-// Corners are scaled by a power of two, so that one rounding is left.
+// Scales corners by a power of two, so that one rounding is left.
 struct Frame {
   V scale, x, y, z;  // the centre, scaled
 };
@@ -214,7 +215,7 @@ HWY_INLINE void store_corner(D d, const Frame& f, const V3& v, size_t at,
   hn::Store(hn::MulSub(v.z, f.scale, f.z), d, to[2] + at);
 }
 
-// Corners relative to the centre, scaled, and the hashes of the corners as they are in the file.
+// Loads corners relative to the centre, scaled, and hashes of the corners as in the file.
 template <typename T>
 HWY_INLINE void load_corners(const MeshView& mesh, size_t first, size_t n,
                              const BlockParameters& parameters, TriangleBlock<T>& block, double) {
@@ -240,7 +241,7 @@ HWY_INLINE void load_corners(const MeshView& mesh, size_t first, size_t n,
   constexpr size_t kLanes = hn::MaxLanes(DF());
   const Frame frame = frame_of(d, parameters);
   const std::byte* indices = mesh.triangles + first * mesh.triangle_stride;
-  // Rows of floats are read with 4 bytes more: only from a block that does without the last vertex.
+  // A row of floats is read with 4 bytes beyond it: only in a block without the last vertex.
   const bool whole = kWholeVectors && parameters.largest_index + 1 < mesh.n_vertices;
   for (size_t at = 0; at < n; at += kLanes, indices += kLanes * mesh.triangle_stride) {
     for (size_t i = 0; i < 3; ++i) {
@@ -301,8 +302,8 @@ HWY_INLINE void work_any(const MeshView& mesh, size_t first, size_t n,
   work_loaded<false>(n, parameters, block, sums);
 }
 
-// Records are read with 4 bytes more, but for the last. Corners are asked for, so that they are in
-// the cache when the block is worked.
+// Each record but the last is read with 4 bytes beyond it. Prefetches corners, so that they are in
+// the cache when the block is processed.
 uint32_t LargestIndex(const MeshView& mesh, size_t first, size_t n) {
   const size_t stride = mesh.triangle_stride;
   const std::byte* record = mesh.triangles + first * stride;

@@ -1,4 +1,4 @@
-// Hashes of corners and of half-edges: tell in the pass whether a surface is closed, and name
+// Hashes of corners and half-edges, which show in the pass whether a surface is closed, and name
 // edges. Inner loops of block.cpp, compiled for each target.
 #include <cstddef>
 #include <cstdint>
@@ -22,9 +22,9 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The 32 bits of a float; of a double those of the same number as a float, if it is one: the last
-// 29 bits, which a float does not have, are mixed in. Exponents differ by 896. Minus zero counts as
-// zero.
+// Returns the 32 bits of a float. For a double, returns the bits of the same number as a float, if
+// there is one: the last 29 bits, which a float does not have, are mixed in. Exponents differ by
+// 896. Minus zero counts as zero.
 constexpr uint64_t kExponents = uint64_t{896} << 23, kLastBits = (uint64_t{1} << 29) - 1;
 constexpr uint32_t kLastFactor = 0x27D4EB2FU;
 HWY_INLINE hn::Vec<hn::RebindToUnsigned<DF>> words_of(hn::Vec<DF> v) {
@@ -54,18 +54,18 @@ HWY_INLINE hn::Vec<hn::Rebind<uint32_t, D>> words_of(D d, V v) {
 }
 #endif
 
-// Three words to one (multiplicative hashing, Knuth; the constants are odd random numbers).
+// Combines three words (multiplicative hashing, Knuth; the constants are odd random numbers).
 template <class DU, class U = hn::Vec<DU>>
 HWY_INLINE void store_hash(DU d, U x, U y, U z, uint32_t* to) {
   const auto times = [&](U a, uint32_t factor) HWY_ATTR { return hn::Mul(a, hn::Set(d, factor)); };
-  // Turned apart, for round numbers end with zeros.
+  // The words are rotated differently, because round numbers end with zeros.
   U h = hn::Add(times(x, 0x9E3779B1U), hn::Add(hn::RotateRight<16>(times(y, 0x85EBCA77U)),
                                                hn::RotateRight<24>(times(z, 0xC2B2AE3DU))));
   h = times(hn::Xor(h, hn::ShiftRight<15>(h)), 0x2C1B3C6DU);
   hn::StoreU(hn::Xor(h, hn::ShiftRight<13>(h)), d, to);
 }
 
-// Sums over half-edges, and which of them are of the sample; 32-bit lanes.
+// Adds sums over half-edges, and marks the half-edges of the sample; 32-bit lanes.
 template <typename T>
 HWY_INLINE void add_hashes(size_t n, uint32_t sampled_names, TriangleBlock<T>& block,
                            BlockSums& sums) {
@@ -94,7 +94,7 @@ HWY_INLINE void add_hashes(size_t n, uint32_t sampled_names, TriangleBlock<T>& b
       }
     }
   }
-  // Modulo 2^32, lane by lane: GCC's own sum of lanes is one of signed integers.
+  // Sums modulo 2^32, lane by lane: GCC's own sum of lanes is for signed integers.
   alignas(64) uint32_t lanes1[kLanes], lanes2[kLanes];
   hn::Store(sum1, d, lanes1);
   hn::Store(sum2, d, lanes2);

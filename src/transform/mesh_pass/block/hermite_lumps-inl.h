@@ -1,5 +1,5 @@
-// Lumps of triangles at their corners, by Hermite's rules with gradients (VG) or Hessians as well
-// (VGH, hermite_rules.h), in whole quanta. Inner loops of block.cpp, compiled for each target.
+// Lumps faces at their corners, by Hermite's rules with gradients (VG) or Hessians as well (VGH,
+// hermite_rules.h), in whole quanta. Inner loops of block.cpp, compiled for each target.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -25,15 +25,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 using M = hn::Mask<D>;
 using V3 = Vector3;
 
-// Weight and gradient of lanes, in quanta but not yet whole.
+// Weight and gradient of lanes, in quanta but not yet rounded.
 struct Lump {
   V weight;
   V3 gradient;
 };
 
-// Weights and gradients of a triangle add up to nothing, or together with its nodes to nothing;
-// rounded ones as well, for in a lattice the rounding of all triangles is the same and would add
-// up: the third corner has what the others leave.
+// Weights and gradients of a face add up to zero, if need be together with its nodes. Rounded
+// values must, too: in a lattice all faces have the same rounding, which would add up. So the third
+// corner has the negative sum of the others.
 template <bool kNodes>
 HWY_INLINE void store_lumps(D d, const Lump& first, const Lump& second, V nodes, size_t at,
                             TriangleBlock<double>& b) {
@@ -86,11 +86,11 @@ HWY_INLINE void store_four(D, const Lump& l, size_t at, VertexLump<int32_t>* to)
   }
 }
 #else
-// Numbers of even and of odd triangles, four each.
+// Lumps of even and of odd faces, four numbers each.
 struct PackedLump {
   hn::Vec<hn::Repartition<uint32_t, D> > even, odd;
 };
-// Adding 1.5 2^52 leaves the nearest whole number in the lower half of a double, modulo 2^32.
+// Adding 1.5 2^52 puts the nearest whole number, modulo 2^32, into the lower half of a double.
 HWY_INLINE PackedLump packed(D d, const Lump& l) {
   const hn::Repartition<uint32_t, D> du;
   const hn::Repartition<uint64_t, D> d64;
@@ -130,7 +130,7 @@ HWY_INLINE void store_lumps(D d, const Lump& first, const Lump& second, V nodes,
 }
 #endif
 
-// Of the half-edges 0 -> 1, 1 -> 2, 2 -> 0 and of the face.
+// Values for the half-edges 0 -> 1, 1 -> 2, 2 -> 0 and for the face.
 struct Weights {
   V e01, e12, e20, face;
 };
@@ -142,15 +142,15 @@ HWY_INLINE void store_weights(D d, const Weights& w, double (*edges)[kTrianglesP
   hn::Store(w.face, d, faces + at);
 }
 
-// The gradient of a corner, `out` and `in` those of the edges that leave and reach it per edge
-// vector.
+// Returns the gradient of a corner; `out` and `in` are the gradients, per edge vector, of the edges
+// that leave it and reach it.
 HWY_INLINE V3 gradient_at(V out, const V3& e_out, V in, const V3& e_in) {
   return {hn::NegMulAdd(in, e_in.x, hn::Mul(out, e_out.x)),
           hn::NegMulAdd(in, e_in.y, hn::Mul(out, e_out.y)),
           hn::NegMulAdd(in, e_in.z, hn::Mul(out, e_out.z))};
 }
 
-// VG: lumps at the corners. z2: squares of the extents of the edges. Returns the errors.
+// VG: lumps at the corners. `z2` are squares of the edges' extents. Returns the errors.
 template <typename T>
 HWY_INLINE Weights lump_gradients(D d, size_t at, const BlockParameters& parameters,
                                   const Weights& w, const Weights& z2, const V3& e01, const V3& e12,
@@ -161,7 +161,7 @@ HWY_INLINE Weights lump_gradients(D d, size_t at, const BlockParameters& paramet
   const V of_face = hn::Mul(w.face, hn::Set(d, parameters.per_gradient / 24));
   const V g01 = hn::MulAdd(w.e01, twelfth, of_face), g12 = hn::MulAdd(w.e12, twelfth, of_face);
   const V g20 = hn::MulAdd(w.e20, twelfth, of_face);
-  // 1/2 (W of both edges at the corner) + F/3 = -F/6 - 1/2 (W of the other).
+  // 1/2 (W of both edges at the corner) + F/3 = -F/6 - 1/2 (W of the other edge).
   const auto lump = [&](V opposite, V g_out, const V3& e_out, V g_in, const V3& e_in) HWY_ATTR {
     return Lump{hn::NegMulAdd(half, opposite, sixth), gradient_at(g_out, e_out, g_in, e_in)};
   };
@@ -172,7 +172,7 @@ HWY_INLINE Weights lump_gradients(D d, size_t at, const BlockParameters& paramet
   return {error(w.e01, z2.e01), error(w.e12, z2.e12), error(w.e20, z2.e20), error(w.face, z)};
 }
 
-// Which of several numbers in each lane.
+// Chooses one of several numbers in each lane.
 template <size_t kChoices>
 struct Choice {
   M beyond[kChoices - 1];
@@ -183,7 +183,7 @@ struct Choice {
     }
     return chosen;
   }
-  // number(k) for the lanes of rule k.
+  // Returns number(k) in the lanes of rule k.
   template <typename Number>
   HWY_INLINE V rule(D d, const Number& number) const {
     V numbers[kChoices];
@@ -203,11 +203,11 @@ HWY_INLINE void store_bytes(D, V v, std::uint8_t* to) {
   hn::StoreU(hn::DemoteTo(db, hn::DemoteTo(di, v)), db, to);
 }
 
-// An edge with its rule: what it adds to each of its ends.
+// Terms that an edge with its rule adds to each of its ends.
 struct HermiteTerms {
   V value, gradient, hessian, error;
 };
-// xx, xy, xz, yy, yz, zz of e e^T.
+// Components xx, xy, xz, yy, yz, zz of e e^T.
 struct Outer {
   V v[6];
 };
@@ -216,7 +216,7 @@ HWY_INLINE Outer outer(const V3& e) {
            hn::Mul(e.y, e.z), hn::Mul(e.z, e.z)}};
 }
 
-// The terms of half-edge i; its nodes, in whole quanta, are added to `nodes`.
+// Returns the terms of half-edge i. Adds its nodes, in whole quanta, to `nodes`.
 template <typename T>
 HWY_INLINE HermiteTerms edge_terms(D d, size_t at, const BlockParameters& p, int i, V w, V z2,
                                    TriangleBlock<T>& b, V& nodes) {
@@ -241,7 +241,7 @@ HWY_INLINE HermiteTerms edge_terms(D d, size_t at, const BlockParameters& p, int
   return t;
 }
 
-// VGH, as lump_gradients().
+// VGH: does the same as lump_gradients(), with Hessians.
 template <typename T>
 HWY_INLINE Weights lump_hessians(D d, size_t at, const BlockParameters& p, const Weights& w,
                                  const Weights& z2, const V3& e01, const V3& e12, const V3& e20,
@@ -253,7 +253,7 @@ HWY_INLINE Weights lump_hessians(D d, size_t at, const BlockParameters& p, const
   const auto& faces = kHermiteFaces;
   const V z = hn::Max(z2.e01, hn::Max(z2.e12, z2.e20)), root = hn::Sqrt(z);
   const auto rule = choose(d, z, p.face_reach2);
-  // z^5 ... z^9.
+  // The powers are z^5 ... z^9.
   const V z4 = hn::Mul(z, z), z5 = hn::Mul(z4, root);
   const V powers = rule.of({z5, hn::Mul(z4, z), hn::Mul(z5, z), hn::Mul(z4, z4), hn::Mul(z5, z4)});
   const V unit = rule.rule(d, [](size_t k) { return kHermiteFaceUnits[k]; });
@@ -289,7 +289,7 @@ HWY_INLINE Weights lump_hessians(D d, size_t at, const BlockParameters& p, const
   };
   store_lumps<true>(d, lump(t01, t20, g01, e01, g20, e20), lump(t12, t01, g12, e12, g01, e01),
                     nodes, at, b);
-  // a b^T + b a^T = a a^T + b b^T - c c^T for c = a - b, the edge opposite.
+  // a b^T + b a^T = a a^T + b b^T - c c^T for c = a - b, the opposite edge.
   const V per_hessian = hn::Set(d, p.per_hessian);
   const V product = hn::Mul(hn::Mul(per_hessian, w.face),
                             rule.rule(d, [&](size_t k) { return faces[k].product; }));

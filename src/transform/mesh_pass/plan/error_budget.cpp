@@ -50,9 +50,9 @@ PassError error_of_pass(const MeshPlan& plan, PassFacts& facts, const Coefficien
   const double window = relative_window * generic(counted + amplified) +
                         rounding * generic(facts.source2 + facts.hessian2);
   const double scale = plan.block.scale;
-  // Vertices in step with the grid leave the window's error of the whole, see
-  // AllowedErrors::most_window: of values half of it (measured as kLatticeShare of plan.cpp), of
-  // Hessians all, as much more as these count.
+  // Vertices aligned with the grid have a window error in proportion to the error of the whole, see
+  // AllowedErrors::most_window. Values have half of it (measured as kLatticeShare of plan.cpp).
+  // Hessians have all of it, times the root of their ratio to the sum of squares.
   const double whole = relative_window * scale * norm_of_degrees(coefficients, 1, degree);
   const double lattice =
       whole * std::hypot(0.5, std::sqrt(amplified / std::max(facts.source2, 1e-300)));
@@ -61,8 +61,8 @@ PassError error_of_pass(const MeshPlan& plan, PassFacts& facts, const Coefficien
   const double beside = std::hypot(window, std::hypot(lattice, rows, plan.quanta_error));
   error.whole = std::hypot(rules, beside) / scale;
   error.whole_beside = beside / scale;
-  // Of l^6, as the error of lumping grows, 0.82 lies above 3L/4; of (2l+1)/(l(l+1))^2, as that of
-  // windows falls, 0.78 / L^2.
+  // The degrees above 3L/4 have 0.82 of l^6, which the lumping error follows. They have 0.78 / L^2
+  // of (2l+1)/(l(l+1))^2, which the window error follows.
   error.band_beside = 0.88 / std::max(degree, 1) * window / scale;
   error.band = std::hypot(0.9 * rules / scale, error.band_beside);
   return error;

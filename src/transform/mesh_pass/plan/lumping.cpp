@@ -12,8 +12,8 @@
 namespace rholm {
 namespace {
 
-// Sum of squares of what lumping leaves if triangles up to a tolerance are lumped: of an edge the
-// sum of its half-edges, or the one that is lumped. No further than `enough`.
+// Returns the sum of squares of lumping errors if faces up to a tolerance are lumped. An edge has
+// the sum of its half-edges, or the half-edge that is lumped. Stops above `enough`.
 double lumped_error2(const MeshSample& sample, double tolerance2, double enough) {
   double faces = 0, edges = 0;
   for (const MeshSample::Entry& entry : sample.entries) {
@@ -30,8 +30,8 @@ double lumped_error2(const MeshSample& sample, double tolerance2, double enough)
   return faces + sample.edge_share * edges;
 }
 
-// Energy of all errors if everything is lumped, in units of what triangles have on their own: small
-// where the half-edges of each edge nearly cancel.
+// Returns the energy of all errors if everything is lumped, relative to the energy that faces have
+// on their own. It is small where the half-edges of each edge nearly cancel.
 double cancellation(const MeshSample& sample) {
   constexpr double kAll = std::numeric_limits<double>::infinity();
   double own = 0;
@@ -40,11 +40,12 @@ double cancellation(const MeshSample& sample) {
   return sample.edge_share > 0 && own > 0 ? std::min(1.0, whole / (sample.share * own)) : 1;
 }
 
-// The sample does not know the worst: of what it has none of there may be three times what one of
-// its triangles stands for, at 95 %. They may take a seventh of it all, and cancel as others do,
-// ten times at most: if they do not, they take one and a half times what all may, and with windows
-// and quanta still no more than 0.9 of the wish. A single one may always take a forty-fifth of the
-// error: the pass sees the sum, and there is a second try.
+// Returns the largest tolerance that a sample allows, because the sample does not contain the worst
+// faces. At 95 %, the faces of a kind that it lacks number at most three times what one of its
+// faces stands for. They may take a seventh of the allowed error, and cancel as others do, ten
+// times at most. If they do not cancel, they take one and a half times the allowed error. With
+// windows and quanta this is at most 0.9 of the wanted error. A single face may always take a
+// forty-fifth of the error: the pass knows the sum, and there is a second try.
 double largest_tolerance(const MeshSample& sample, double allowed2) {
   constexpr double kMostCancelled = 0.1;
   return allowed2 * std::max(0.15 / (3 * sample.share), 1.0 / 2000) /
@@ -68,7 +69,7 @@ struct Steps {
   static std::size_t of(double error2) {
     return std::min<std::size_t>(kCount, std::bit_cast<std::uint64_t>(error2) >> kDropped);
   }
-  // The largest number below step n, all finite ones if n is kCount.
+  // Returns the largest number below step n; if n is kCount, the largest finite number.
   static double below(std::size_t n) {
     return n == 0 ? 0 : std::bit_cast<double>((std::uint64_t{n} << kDropped) - 1);
   }
@@ -81,7 +82,8 @@ double node_share2(bool some_noded) { return some_noded ? 0.5 : 0.1; }
 double tolerance_of(const MeshSample& sample, double allowed2) {
   const double most = largest_tolerance(sample, allowed2);
   if (may_all_be_lumped(sample, allowed2)) return most;
-  // What joins the sum of squares in each step of tolerances; behind the last, what never does.
+  // Terms of the sum of squares in each step of tolerances; the last element has terms that never
+  // join.
   std::vector<double> steps(Steps::kCount + 1);
   double least = std::numeric_limits<double>::infinity();
   for (const MeshSample::Entry& entry : sample.entries) {
@@ -112,15 +114,15 @@ double power(double z2, int p) {
   return result;
 }
 
-// L^2 times what the Hessians of an edge are multiplied by, for the half-edges of the triangle with
-// the smaller and with the larger error.
+// L^2 times the factors of an edge's Hessians, for the half-edges of the faces with the smaller and
+// with the larger error.
 struct EdgeHessian {
   double lower2, upper2;
   double lower, upper;
 };
 
-// What each rule leaves of a triangle's half-edges, and of its face, whose z^2 is the largest of
-// theirs.
+// Errors, by each rule, of a face's half-edges and of the face itself, whose z^2 is the largest of
+// its half-edges.
 struct RuleErrors {
   std::array<std::array<double, kHermiteEdgeRules>, 3> edges;
   std::array<double, kHermiteFaceRules> face;
@@ -157,8 +159,8 @@ Seen with_hessians(const MeshSample& sample, const std::vector<RuleErrors>& rule
   MeshSample& seen = result.sample;
   seen.share = sample.share;
   seen.edge_share = sample.edge_share;
-  seen.unseen_edges = 0;                      // they are in the entries
-  std::vector<std::array<double, 3>> errors;  // of half-edges
+  seen.unseen_edges = 0;                      // the entries contain them
+  std::vector<std::array<double, 3>> errors;  // errors of half-edges
   std::vector<double> errors2;
   errors.reserve(sample.triangles.size());
   errors2.reserve(sample.triangles.size());
@@ -181,7 +183,7 @@ Seen with_hessians(const MeshSample& sample, const std::vector<RuleErrors>& rule
     errors.push_back(error);
     errors2.push_back(edges2 + face2);
     if (!std::isfinite(edges2 + face2)) continue;
-    // Where no neighbours are known: (a + b)^2 <= 2 (a^2 + b^2).
+    // If no neighbours are known, (a + b)^2 <= 2 (a^2 + b^2) bounds an edge.
     const double own2 = sample.edge_share > 0 ? face2 : face2 + 2 * edges2;
     seen.entries.push_back({edges2 + face2, own2, t.face * t.face});
   }
@@ -204,7 +206,7 @@ Seen with_hessians(const MeshSample& sample, const std::vector<RuleErrors>& rule
   return result;
 }
 
-// Sum of squares over edges of lumped triangles, at both ends.
+// Returns the sum of squares over edges of lumped faces, at both ends.
 double hessians2(const Seen& seen, double tolerance2) {
   double sum = 0;
   for (const EdgeHessian& edge : seen.hessians) {
@@ -246,7 +248,7 @@ double noded_share(const MeshSample& sample, double tolerance2) {
 }
 
 double own_nodes_of(const MeshSample& sample, const NodeAllowance& element) {
-  // Every so many edges and faces are enough (chosen): rules take as long to look up as nodes.
+  // Every fourth edge and face is enough (chosen): rules take as long to look up as nodes.
   constexpr std::size_t kEvery = 4;
   // An element that is better halved counts for two of the largest rules (chosen).
   constexpr double kHalvedEdge = 16, kHalvedFace = 60;
@@ -279,9 +281,10 @@ double crowding_of(const MeshSample& sample) {
   for (const MeshSample::Triangle& t : sample.triangles) {
     const auto [a, b, c] = t.z2;
     const double longest = std::max({a, b, c});
-    const double weight = std::pow(t.face * std::pow(longest, 4), 2);  // as z^8
+    const double weight = std::pow(t.face * std::pow(longest, 4), 2);  // for an error as z^8
     if (!std::isfinite(weight) || weight == 0) continue;
-    // 16 times the square of the area (Heron); the height is twice the area by the length.
+    // Heron: area2 is 16 times the square of the area; the height is twice the area over the
+    // length.
     const double area2 = std::max(0.0, 2 * (a * b + b * c + c * a) - (a * a + b * b + c * c));
     const double along = neighbours_in_step(longest);
     const double across = neighbours_in_step(area2 / (4 * longest));
@@ -295,13 +298,13 @@ std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allow
                                           double own_nodes) {
   const MeanWeights mean = mean_weights(sample);
   if (!(mean.edge > 0) || !(mean.face > 0) || !(allowed2 > 0)) return {};
-  // The error of an edge and of a face if all were alike: one and a half edges a triangle.
+  // Errors of an edge and a face if all were alike; a face has one and a half edges.
   const double triangles = sample.share * static_cast<double>(sample.triangles.size());
   const double edge = std::sqrt(allowed2 / (3 * triangles)) / mean.edge;
   const double face = std::sqrt(allowed2 / (2 * triangles)) / mean.face;
   const std::vector<RuleErrors> rules = rule_errors(sample);
-  // The more a rule may leave the fewer nodes between vertices, and the more triangles that have to
-  // be taken out.
+  // With a larger allowed error, rules have fewer nodes between vertices, but more faces have to be
+  // taken out.
   const auto with_errors = [&](double factor) {
     HermiteLumps lumps{.edge_reach2 = hermite_edge_reach(factor * edge),
                        .face_reach2 = hermite_face_reach(factor * face)};
@@ -316,7 +319,7 @@ std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allow
   HermiteLumps best;
   best.cost = std::numeric_limits<double>::infinity();
   double at = 1;
-  // Whether to go on in this direction.
+  // Returns true if the search should go on in this direction.
   const auto take = [&](double factor) {
     const HermiteLumps lumps = with_errors(factor);
     if (lumps.cost < best.cost) best = lumps, at = factor;
@@ -325,7 +328,7 @@ std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allow
   constexpr double kStart = 8, kMost = 1e4, kLeast = 0.1;
   bool better = take(kStart);
   if (best.node_share == 0) {
-    // Nodes between vertices alone: where errors cancel many fewer may do.
+    // There are only nodes between vertices. Where errors cancel, many fewer may be enough.
     for (double f = 2 * kStart; better && best.between > 0 && f < kMost; f *= 2) better = take(f);
   } else {
     for (double f = kStart / 2; better && best.node_share > 0 && f > kLeast; f /= 2) {

@@ -1,4 +1,4 @@
-// Which triangles of a mesh are lumped, and by which rules: chosen on the sample.
+// Chooses on the sample which faces of a mesh are lumped, and the rules for lumping.
 #pragma once
 
 #include <optional>
@@ -9,37 +9,37 @@
 
 namespace rholm {
 
-// Of the squares that rules may leave, the part of triangles with nodes of their own. Where the
-// sample has none, there may be a few all the same.
+// Returns the part of the rules' allowed squares for faces with nodes of their own. There may be a
+// few of these faces even if the sample has none.
 double node_share2(bool some_noded);
 
-// The largest tolerance (squared, in units of lumping), in steps of an eighth of a power of two, up
-// to which lumps keep within their part of the sum of squares allowed; 0 if none does.
+// Returns the largest tolerance for which lumps keep their part of the allowed sum of squares, or
+// 0. It is squared, in units of lumping, and in steps of an eighth of a power of two.
 double tolerance_of(const MeshSample& sample, double allowed2);
 
-// The part of the triangles that is beyond it.
+// Returns the part of the faces beyond the tolerance.
 double noded_share(const MeshSample& sample, double tolerance2);
 
-// How many nodes of its own a triangle gets in the mean, if edges and faces may leave this.
+// Returns the mean number of nodes of a face and its edges, if each element may have this error.
 double own_nodes_of(const MeshSample& sample, const NodeAllowance& element);
 
-// By how much more errors count for neighbours, as those of the largest count: of narrow triangles
-// as many lie in a wave across them as of short ones (see Crowd in plane_wave_rules.h).
+// Returns the factor for errors that neighbours have alike; the largest count most. Many narrow
+// faces fit into a wave across them, like short ones (see Crowd in plane_wave_rules.h).
 double crowding_of(const MeshSample& sample);
 
-// Rules with Hessians.
+// Rules with Hessians, and their cost.
 struct HermiteLumps {
   HermiteEdgeReach edge_reach2;
   HermiteFaceReach face_reach2;
   double tolerance2 = 0;
-  double node_share = 0;  // triangles that get nodes all the same
-  double between = 0;     // nodes between the vertices of the others, per triangle
+  double node_share = 0;  // part of the faces that get nodes of their own
+  double between = 0;     // nodes between the vertices of lumped faces, per face
   double hessian2 = 0;    // sum of squares of L^2 times the Hessians' factors
-  double cost = 0;        // per triangle, nanoseconds
-  double neighbours = 1;  // see LumpChoice, narrow triangles counted
+  double cost = 0;        // nanoseconds per face
+  double neighbours = 1;  // see LumpChoice, with narrow faces counted
 };
-// The cheapest that keep the sum of squares allowed, where a triangle that gets nodes of its own
-// has so many.
+// Returns the cheapest rules that keep the allowed sum of squares, if a face with nodes of its own
+// has `own_nodes` of them.
 std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allowed2,
                                           double own_nodes);
 

@@ -20,47 +20,49 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kRuleShare = 0.46;
 constexpr double kWindowShare = 0.45;
 constexpr double kQuantumShare = 0.2;
-// What vertices in step with the grid leave, in units of the window's error of the norm. With this
-// and what follows windows leave at most a fifth of their share on cube-spheres, boxes, prisms,
-// lattices and balls (bench/mesh_plan_bench).
+// Error of vertices aligned with the grid, in units of the window's error of the norm. With this
+// and the next constants, windows have at most a fifth of their share on cube-spheres, boxes,
+// prisms, lattices and balls (bench/mesh_plan_bench).
 constexpr double kLatticeShare = 0.4;
-// Sources along a meridian or a parallel, as on extruded shapes, are all alike to the grid: its
-// error is that of the parts, which cancel in the whole (4 to 8 times that of a cube-sphere on a
-// box, a sixth of whose edges lie so), and grows with the share of the edges.
+// Sources along a meridian or a parallel, as on extruded shapes, are all alike to the grid. The
+// parts, which cancel in the whole, set the error. It is 4 to 8 times the error of a cube-sphere
+// for a box, a sixth of whose edges are aligned. The error grows with the share of aligned edges.
 constexpr double kAlignedTimes = 7, kAlignedShare = 0.2;
 double lattice_share(double aligned) {
   return kLatticeShare / (1 + kAlignedTimes * std::min(1.0, aligned / kAlignedShare));
 }
 
-// Of the window's error of the moduli of the nodes' weights; balls, planets and lattices leave
-// 0.002 to 2.3 of it.
+// Error of nodes in rows, relative to the window's error of the moduli of their weights. Balls,
+// planets and lattices have 0.002 to 2.3 of it.
 constexpr double kRowsInStep = 0.5;
-// The same of all sources of nearly a ball, in rows about any axis. Chosen: 17 to 28 times what
-// sums of squares ask for, where windows left 1.2 to 2.9 times their share of balls of 200 000 to
-// 1 000 000 faces. It counts in full where the norm without the mean is below kRound of the mean.
+// Error of all sources of a body that is nearly a ball, in rows about any axis. Chosen: 17 to 28
+// times the value from sums of squares, with which windows had 1.2 to 2.9 times their share on
+// balls of 200 000 to 1 000 000 faces. It counts in full where the norm without the mean is below
+// kRound of the mean.
 constexpr double kRoundInStep = 0.02, kRound = 3e-4;
 double roundness(const MeshSample& sample) {
   const double relief = sample.norm / (sample.mean * std::sqrt(4 * kPi));
   return kRound / std::max(kRound, relief);
 }
 
-// What windows in single precision leave of sources in step, relative to the sum of the moduli of
+// Error of windows in single precision for aligned sources, relative to the sum of the moduli of
 // their weights (4e-10 to 1e-9 where windows are good enough).
 constexpr double kSingleInStep = 9e-10;
 
-// A rule chosen as just good enough leaves, in the mean, this part of what it may.
+// A rule chosen as just good enough has, in the mean, this part of its allowed error.
 constexpr double kTypicalShare = 0.4;
 // Elements (edges and faces) per triangle.
 constexpr double kElements = 2.5;
 
-// Some four thousand edges: the sum of squares to a few per cent, if none outweighs the others.
+// Returns the limit of names for some four thousand sampled edges. They give the sum of squares to
+// a few per cent, if none outweighs the others.
 std::uint32_t sampled_names(std::size_t n_triangles) {
   const double part = 4000 / (1.5 * static_cast<double>(n_triangles));
   return static_cast<std::uint32_t>(std::min(1.0, part) * 4294967295.0);
 }
 
-// What each edge and face with nodes may leave. What the sample has none of counts as three of its
-// triangles, as in largest_tolerance().
+// Returns the allowed error of each edge and face with nodes. A kind of face that the sample lacks
+// counts as three of its faces, as in largest_tolerance().
 double allowed_of_element(const MeshPlan& plan, const MeshSample& sample, std::size_t n_triangles) {
   const double noded = std::max(plan.node_share * static_cast<double>(n_triangles),
                                 std::max(3 * sample.share, 10.0));
@@ -68,9 +70,10 @@ double allowed_of_element(const MeshPlan& plan, const MeshSample& sample, std::s
          kTypicalShare;
 }
 
-// Derivative p of 1/|x|^2 along a line is below p! / |x|^(p + 2): what plane waves leave times p!.
-// They are means over directions, 3 times more are at most, and the face comes nearer to the centre
-// than its corners, by a seventh where edges are a quarter: again 3 times.
+// Derivative p of 1/|x|^2 along a line is below p! / |x|^(p + 2). So the error is the error of
+// plane waves times p!. Such errors are means over directions; the largest is at most 3 times the
+// mean. The face is nearer to the centre than its corners, by a seventh where edges are a quarter:
+// again 3 times more.
 double mean_nodes_reach2(double allowed) {
   constexpr double kLeft = 9 * 120 * kSixNodesConstant;
   return std::min(1.0 / 16, std::pow(allowed / kLeft, 2.0 / 5));
@@ -82,16 +85,16 @@ BlockParameters block_parameters(const MeshView& mesh, const MeshSample& sample,
           .scale = sample.scale,
           .degree = static_cast<double>(degree),
           .grazing2 = std::pow(grazing_slope(degree), 2),
-          // 1/|x|^2 by the rule of lumping leaves 5!/720 z^4 and less.
+          // The rule of lumping integrates 1/|x|^2 with an error of 5!/720 z^4 or less.
           .mean_reach2 = std::sqrt(6 * plan.allowed.mean),
           .mean_nodes_reach2 = mean_nodes_reach2(plan.allowed.mean),
           .per_weight = 1 / quantum.size,
           .per_gradient = std::max(degree, 1) / quantum.size,
-          // Sums wrap around: only those of whole vertices must fit into 31 bits, where the
-          // weights of neighbours cancel.
+          // Sums wrap around. Only sums of whole vertices, where the weights of neighbours cancel,
+          // must fit into 31 bits.
           .largest = std::exp2(plan.single ? 28 : 48),
-          // Nothing makes up for their rounding: finer. Still they are smaller than weights
-          // by kFarthest of hermite_rules.cpp.
+          // No other rounding cancels the rounding of Hessians, so their quanta are finer. Still
+          // Hessians are smaller than weights, by kFarthest of hermite_rules.cpp.
           .per_hessian = 4 * std::pow(std::max(degree, 1), 2) / quantum.size,
           .sampled_names = sampled_names(mesh.n_triangles)};
 }
@@ -106,7 +109,7 @@ AllowedErrors divide_error(const MeshSample& sample, double precision, double ti
   const double c00 = sample.mean * std::sqrt(4 * kPi);
   const double whole = std::max(precision * sample.norm, kLumpRounding * c00) / tighten;
   AllowedErrors allowed;
-  // Where sheets overlap the norm of their alternating sum is below what the sample says.
+  // Where sheets overlap, the norm of their alternating sum is below the sample's estimate.
   allowed.caution = sample.overlaps ? 1.5 : 1;
   allowed.rules = kRuleShare * whole / allowed.caution;
   allowed.window = kWindowShare * whole;
@@ -145,8 +148,8 @@ bool single_suffices(const MeshSample& sample, const AllowedErrors& allowed, int
 }
 
 Quantum choose_quantum(const AllowedErrors& allowed, std::size_t n_vertices, bool single) {
-  // Rounding to quanta adds variance q^2 / 12 at two corners of a triangle and twice that at the
-  // third: at six corners a vertex 2/3 q^2.
+  // Rounding to quanta adds variance q^2 / 12 at two corners of a face and twice that at the third.
+  // The six corners at a vertex add 2/3 q^2.
   const double largest = allowed.quanta * std::sqrt(6 * kPi / static_cast<double>(n_vertices));
   const double size = std::exp2(std::floor(std::log2(largest)) - (single ? 0 : 6));
   return {.size = size, .error = allowed.quanta * size / largest};

@@ -13,10 +13,10 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kSampleBlocks = 24;  // 3072 triangles: some 1 ms, and planning as much again
+constexpr std::size_t kSampleBlocks = 24;  // 3072 faces: some 1 ms, and planning as much again
 constexpr double kPi = std::numbers::pi;
 
-// Moments of r over the directions of triangles: corners and centroid, exact solid angles.
+// Moments of r over the directions of faces, by corners and centroid, with exact solid angles.
 struct Moments {
   double solid = 0, signed_solid = 0, sum = 0, square = 0;
   void add(const std::array<Vec3, 3>& p) {
@@ -34,7 +34,7 @@ struct Moments {
   }
 };
 
-// Weights of edges, all and those along meridians or parallels; their angles.
+// Weights of edges, of all and of edges along meridians or parallels; sum of the edges' angles.
 struct EdgeStatistics {
   double all = 0, aligned = 0, angles = 0, count = 0;
   void add(const Vec3& a, const Vec3& b, double weight) {
@@ -50,8 +50,8 @@ struct EdgeStatistics {
   }
 };
 
-// Half-edges of a block, whose triangles begin at `first` of the sample, by the vertices at their
-// ends.
+// Adds the edges of a block, whose faces begin at `first` of the sample. Half-edges are matched by
+// the vertices at their ends.
 void add_edges(const TriangleBlock<double>& block, std::size_t n, std::size_t first,
                MeshSample& sample) {
   struct Half {
@@ -104,7 +104,7 @@ double scale_of(MeshView mesh, const Vec3& center) {
   return unit_scale(mesh, center, {.threads = 1});
 }
 
-// Blocks of which only the errors are looked at: nothing is too large.
+// Returns parameters for blocks of which only the errors are used: nothing is too large.
 BlockParameters judging_only(const Vec3& center, double scale, int degree) {
   return {.center = center,
           .scale = scale,
@@ -141,7 +141,7 @@ double source2_of(const MeshSample& sample) {
   double faces = 0, edges = 0;
   for (const MeshSample::Entry& entry : sample.entries) faces += entry.face_weight2;
   for (const MeshSample::Edge& edge : sample.edges) edges += edge.weight * edge.weight;
-  // Edges nobody knows are taken for as smooth as faces.
+  // Edges that are not known count as if they were as smooth as faces.
   const double whole = sample.edge_share > 0 ? sample.edge_share * edges : sample.share * faces;
   return whole / 2 + sample.share * faces / 3;
 }
@@ -167,7 +167,7 @@ void set_statistics(const Moments& moments, const EdgeStatistics& edges, std::si
   const double n = static_cast<double>(std::max<std::size_t>(sample.entries.size(), 1));
   sample.share = all / n;
   sample.overlaps = moments.solid > 1.01 * std::abs(moments.signed_solid);
-  // A tenth of the edges should meet; in a mesh of random order none does.
+  // A tenth of the edges should have both half-edges in the sample; in random order none has.
   const double met = static_cast<double>(sample.edges.size());
   if (met > 0.1 * n) sample.edge_share = 1.5 * all / met;
   sample.source2 = source2_of(sample);
@@ -190,7 +190,7 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
     const std::size_t first = k * blocks / taken * kSize;
     const std::size_t n = std::min(kSize, mesh.n_triangles - first);
     parameters.largest_index = largest_index(mesh, first, n);
-    if (parameters.largest_index >= mesh.n_vertices) continue;  // the pass will say so
+    if (parameters.largest_index >= mesh.n_vertices) continue;  // the pass reports it
     BlockSums sums = no_triangles();
     work_block(mesh, first, n, parameters, *block, sums);
     add_triangles(*block, n, degree, moments, edges, sample);

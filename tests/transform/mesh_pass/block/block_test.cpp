@@ -1,4 +1,4 @@
-// The inner loops of the mesh pass against their definitions: docs/method.md (M8).
+// The inner loops of the mesh pass, compared with their definitions: docs/method.md (M8).
 #include "transform/mesh_pass/block/block.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kQuantum = 0x1p-44;
 
-// Everything lumped that can be, in quanta of 2^-44.
+// All triangles that can be lumped are lumped, in quanta of 2^-44.
 BlockParameters parameters_about(const Vec3& center) {
   BlockParameters parameters;
   parameters.center = center;
@@ -37,7 +37,8 @@ BlockParameters parameters_about(const Vec3& center) {
   return parameters;
 }
 
-// Rules with Hessians, this one for all faces, and for all edges or the last they have.
+// Uses rules with Hessians: this rule for all faces, and for all edges this or the last rule of
+// edges.
 void with_rule(BlockParameters& parameters, std::size_t rule) {
   parameters.hessians = true;
   parameters.per_hessian = parameters.per_weight;
@@ -71,7 +72,7 @@ BlockSums sums_of(const Mesh& mesh, const Vec3& center = {}) {
   return work<double>(view_of(mesh), parameters_about(center)).sums;
 }
 
-// Triangles of many sizes and slopes, none of them seen edge on.
+// Returns triangles of many sizes and slopes, none of them seen edge-on.
 Mesh random_triangles(std::size_t n, std::uint64_t seed) {
   Mesh mesh;
   for (std::uint64_t k = 0; mesh.triangles.size() < n; ++k) {
@@ -91,14 +92,14 @@ Mesh random_triangles(std::size_t n, std::uint64_t seed) {
   return mesh;
 }
 
-// (M8) in extended precision, from the doubles given.
+// Evaluates (M8) in extended precision, from the given doubles.
 struct Exact {
   using Real = long double;
   using Vec = std::array<Real, 3>;
   std::array<Vec, 3> p;
-  std::array<Real, 3> w;  // of p_i -> p_{i+1}
+  std::array<Real, 3> w;  // weights of p_i -> p_{i+1}
   Real face = 0;
-  Real rounding = 0;  // what doubles leave of the weights
+  Real rounding = 0;  // rounding error of the weights in double precision
 
   static Vec minus(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
   static Real inner(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -120,15 +121,15 @@ struct Exact {
       edge = std::max(edge, std::sqrt(inner(minus(b, a), minus(b, a))));
     }
     face = -inner(n, n) / d2;
-    // n is known to some eps |e|^2 and p x e to eps r |e|: W = n . (p x e) / d2 and what n does
-    // to d2.
+    // n is known to some eps |e|^2, and p x e to eps r |e|: W = n . (p x e) / d2. The error of n
+    // also affects d2.
     const Real length = std::sqrt(inner(n, n)), slope = reach * edge / std::abs(d2);
     rounding = 0x1p-50L * slope * (length + edge * edge) * (1 + reach * edge * edge / std::abs(d2));
   }
   Vec edge(std::size_t i) const { return minus(p[(i + 1) % 3], p[i]); }
 };
 
-// In whole quanta: in a lattice, where all triangles are rounded alike, errors would add up.
+// Sums are whole quanta: in a lattice all triangles are rounded alike, so that errors would add up.
 TEST(block, lumps_of_a_triangle_add_up_to_nothing) {
   const Mesh mesh = random_triangles(300, 2);
   BlockParameters parameters = parameters_about({});
@@ -160,7 +161,7 @@ TEST(block, lumps_are_what_the_rule_makes_of_the_definition) {
       const std::size_t before = (i + 2) % 3;
       const long double out = exact.w[i], in = exact.w[before], f = exact.face;
       const double* lump = block.lump[i][at].value;
-      // The third corner has what the two others leave.
+      // The third corner gets the remainder of the two others.
       const long double tolerance = (i == 2 ? kQuantum : kQuantum / 2) + exact.rounding;
       EXPECT_NEAR(lump[0] * kQuantum, static_cast<double>((out + in) / 2 + f / 3),
                   static_cast<double>(tolerance));
@@ -217,7 +218,7 @@ TEST(block, lumps_are_exact_for_quadratic_functions) {
   }
 }
 
-// Together with the nodes between the corners, which are whole quanta as well.
+// Sums include the nodes between corners, which are whole quanta as well.
 TEST(block, lumps_and_nodes_of_a_triangle_add_up_to_nothing) {
   const Mesh mesh = random_triangles(300, 2);
   for (std::size_t rule = 0; rule < kHermiteFaceRules; ++rule) {
@@ -253,8 +254,8 @@ TEST(block, lumps_and_nodes_of_a_triangle_add_up_to_nothing) {
   }
 }
 
-// Means of (k . x)^d by Gauss's rules, far beyond the degrees wanted: edges are exact to degree 5,
-// 7, 9, faces to 4, 5, 6, 7, 8.
+// Means of (k . x)^d by Gauss's rules of far higher degree. Edge rules are exact to degree 5, 7, 9,
+// face rules to 4, 5, 6, 7, 8.
 TEST(block, lumps_with_hessians_are_exact_for_polynomials) {
   const Mesh mesh = random_triangles(100, 3);
   const GaussRule gauss = gauss_legendre(8);
@@ -343,7 +344,7 @@ TEST(block, closed_meshes_have_hash_sums_of_zero) {
   }
 }
 
-// A seam: some triangles have copies of their vertices, with zeros of the other sign.
+// A seam: some triangles have copies of their vertices, with zeros of the opposite sign.
 TEST(block, zero_and_minus_zero_are_one_place) {
   Mesh mesh = test::random_octahedron(3);
   for (std::size_t t = 0; t < 4; ++t) {
@@ -380,7 +381,7 @@ TEST(block, meshes_that_are_not_closed_or_oriented_have_other_hash_sums) {
   }
 }
 
-// Round numbers, whose last bits are all zeros.
+// Coordinates are round numbers, whose last bits are all zeros.
 TEST(block, holes_in_a_lattice_have_other_hash_sums) {
   Mesh open = box({8, 8, 8}, 8);
   for (std::size_t holes = 0; holes < 100; ++holes) {
@@ -401,7 +402,7 @@ TEST(block, volume_distances_and_bad_faces_are_those_of_the_star_check) {
                {box({2, 2, 2}, 5), {0.9, 0.5, -0.99}},
                {box({2, 2, 2}, 3), {1, 0, 0}},     // on a face
                {test::l_prism(1), {0.5, 0.5, 0}},  // star-shaped
-               {test::l_prism(1), {2, 0.5, 0.1}},  // and not
+               {test::l_prism(1), {2, 0.5, 0.1}},  // not star-shaped
                {torus(1, 0.3, 30, 20), {0.1, 0, 0}},
                {icosphere(3), {3, 0, 0}}};
   for (const auto& [mesh, center] : cases) {
@@ -414,7 +415,7 @@ TEST(block, volume_distances_and_bad_faces_are_those_of_the_star_check) {
   }
 }
 
-// 1/|x|^2 by the rule of lumping leaves at most 5!/720 of the fourth power of edge / radius.
+// For 1/|x|^2 the rule of lumping leaves at most 5!/720 of (edge / radius)^4.
 TEST(block, lumps_integrate_the_radius_to_a_sixth_of_the_fourth_power_of_the_edge) {
   for (const int subdivisions : {2, 4}) {
     const Mesh mesh = test::rotated(bumpy_sphere(subdivisions));
@@ -430,7 +431,7 @@ TEST(block, lumps_integrate_the_radius_to_a_sixth_of_the_fourth_power_of_the_edg
   }
 }
 
-// And by six nodes where edges are longer, with the bound of plan.cpp, on every target.
+// Longer edges use six nodes; the bound of plan.cpp holds with every instruction set.
 TEST(block, six_nodes_integrate_the_radius_to_the_fifth_power_of_the_edge) {
   test::for_each_target([&](const char* target) {
     for (const int subdivisions : {2, 3, 4}) {
@@ -453,7 +454,7 @@ TEST(block, six_nodes_integrate_the_radius_to_the_fifth_power_of_the_edge) {
   });
 }
 
-// Blocks that are not full, down to one triangle: lanes without a triangle do not count.
+// Some blocks are not full, down to one triangle: lanes without a triangle do not count.
 TEST(block, sums_do_not_depend_on_how_triangles_are_dealt_out) {
   const Mesh mesh = test::rotated(bumpy_sphere(2, 0.4));
   const BlockParameters parameters = parameters_about({0.5, 0.3, 0});
@@ -498,7 +499,7 @@ TEST(block, every_instruction_set_agrees_to_rounding) {
     const auto worked = work<double>(view_of(mesh), parameters);
     EXPECT_NEAR(worked.sums.volume6, expected.sums.volume6, 1e-12) << target;
     EXPECT_NEAR(worked.sums.mean, expected.sums.mean, 1e-10) << target;
-    // Hashes differ between processors; whether they vanish does not.
+    // Hashes differ between processors, but all of them vanish for closed meshes.
     EXPECT_TRUE(closes(test::exploded(bumpy_sphere(2)))) << target;
     EXPECT_NE(worked.sums.hash1, 0u) << target;
     EXPECT_EQ(worked.sums.bad, expected.sums.bad) << target;
@@ -522,7 +523,7 @@ TEST(block, every_instruction_set_agrees_to_rounding) {
 TEST(block, flags_what_cannot_be_lumped) {
   Mesh mesh;
   mesh.vertices = {{1, 0, 0},  {1, 0.1, 0}, {1, 0, 0.1},  // plain
-                   {1, 0, 0},  {2, 0, 0},   {1, 0, 0.1},  // edge on
+                   {1, 0, 0},  {2, 0, 0},   {1, 0, 0.1},  // edge-on
                    {1, 1, 1},  {1, 1, 1},   {1, 0, 0},    // no area
                    {1, -1, 0}, {1, 1, 0},   {1, 0, 1}};   // large
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}};

@@ -1,5 +1,5 @@
 // The kernels of the mesh pass with 1 ... 33 triangles or vertices, with every instruction set, on
-// memory full of NaN: what single ones give, one after the other.
+// memory full of NaN. The reference processes single elements one after the other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,14 +22,14 @@ namespace {
 constexpr std::size_t kMost = 33;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// With this rule of those with Hessians, of edges the last they have, or gradients alone.
+// Uses this rule with Hessians (for edges at most their last one), or gradients only.
 BlockParameters parameters_of(int rule, const MeshView& mesh) {
   BlockParameters parameters;
   parameters.center = {0.1, 0.05, -0.1};
   parameters.degree = 16;
   parameters.tolerance2 = parameters.mean_reach2 = parameters.largest = kInfinity;
   parameters.per_weight = parameters.per_gradient = 0x1p20;
-  parameters.sampled_names = std::uint32_t{1} << 31;  // half of all
+  parameters.sampled_names = std::uint32_t{1} << 31;  // half of all names
   parameters.largest_index = static_cast<std::uint32_t>(mesh.n_vertices - 1);
   if (rule >= 0) {
     parameters.hessians = true;
@@ -50,7 +50,7 @@ void expect_same_lump(const VertexLump<T>& a, const VertexLump<T>& b) {
   for (int c = 0; c < 4; ++c) EXPECT_EQ(a.value[c], b.value[c]);
 }
 
-// Triangle t of a block is the only one of another.
+// Compares triangle t of a block with the only triangle of another block.
 template <typename T>
 void expect_same_triangle(const TriangleBlock<T>& all, std::size_t t, const TriangleBlock<T>& one,
                           const BlockParameters& parameters) {
@@ -94,7 +94,7 @@ void expect_single_triangles(const MeshView& mesh, int rule) {
     EXPECT_EQ(sums.max_edge2, expected.max_edge2);
     EXPECT_NEAR(sums.volume6, expected.volume6, 1e-13);
     EXPECT_NEAR(sums.mean, expected.mean, 1e-13);
-    // Weights of zero rules are all quantum: nothing but rounding.
+    // With zero rules all weights are rounding.
     EXPECT_NEAR(sums.face_error2, expected.face_error2, 1e-13 * (1 + expected.face_error2));
     EXPECT_EQ(sums.nodes, 0u);
     EXPECT_EQ(sums.probe, 0);
@@ -136,7 +136,7 @@ void expect_single_vertices(const MeshView& mesh, bool hessians) {
   const std::size_t parts = lumps_per_vertex(hessians);
   const auto all = std::make_unique<SourceBatch<T>>(), one = std::make_unique<SourceBatch<T>>();
   LumpSums expected, expected_squares;
-  // Vertices one after the other, then with gaps, up to the last.
+  // Vertices are consecutive, then have gaps, up to the last vertex.
   std::vector<std::uint32_t> numbers(kMost);
   for (std::size_t j = 0; j < kMost; ++j) {
     const std::size_t gaps = mesh.n_vertices - kMost;
@@ -144,7 +144,7 @@ void expect_single_vertices(const MeshView& mesh, bool hessians) {
   }
   for (std::size_t n = 1; n <= kMost; ++n) {
     SCOPED_TRACE(n);
-    // As LumpArrays::sums() has them: zeros up to whole vectors.
+    // Zeros fill the last vectors, as in LumpArrays::sums().
     for (std::size_t k = 0; k < parts; ++k) {
       for (std::size_t i = 0; i < 40; ++i) {
         for (std::size_t c = 0; c < 4; ++c) {

@@ -34,7 +34,7 @@ TEST(sampled_error2, stands_for_all_edges) {
   EXPECT_EQ(sampled_error2(none, 0), 0);
 }
 
-// Whatever the order in which threads bring them.
+// The order in which threads deliver samples does not matter.
 TEST(sampled_error2, is_the_same_in_any_order) {
   std::vector<SampledHalfEdge> sample;
   sample.reserve(1000);
@@ -58,7 +58,7 @@ TEST(norm_of_degrees, is_the_root_of_the_squares_of_those_degrees) {
   EXPECT_EQ(norm_of_degrees(c, 2, 1), 0);
 }
 
-// Errors of parts add up in squares: each part that is named is in the whole.
+// Errors of parts add up in squares: each named part is contained in the whole.
 TEST(error_of_pass, grows_with_what_lumps_nodes_windows_and_quanta_leave) {
   MeshPlan plan;
   plan.divided = {.degree = 20, .allowed = 1, .divided = true};

@@ -13,7 +13,7 @@
 namespace rholm {
 namespace {
 
-// n triangles whose faces leave 1, 2, 4, ... and half-edges nothing; all are known.
+// Returns n triangles whose faces have the errors 1, 2, 4, ... and half-edges none; all are known.
 MeshSample doubling_sample(int n) {
   MeshSample sample;
   for (int k = 0; k < n; ++k) {
@@ -53,7 +53,7 @@ TEST(tolerance_of, is_zero_where_nothing_may_be_left) {
   EXPECT_EQ(tolerance_of(doubling_sample(10), 1e-9), 0);
 }
 
-// The two half-edges of each edge cancel: triangles that are far too large on their own are lumped.
+// The two half-edges of each edge cancel: triangles that are far too large alone are lumped.
 TEST(tolerance_of, counts_edges_by_the_sum_of_their_half_edges) {
   MeshSample sample;
   for (int k = 0; k < 100; ++k) {
@@ -67,7 +67,7 @@ TEST(tolerance_of, counts_edges_by_the_sum_of_their_half_edges) {
 }
 
 TEST(noded_share, is_the_part_of_the_triangles_beyond_the_tolerance) {
-  EXPECT_EQ(noded_share(doubling_sample(8), 16), 3.0 / 8);  // 32, 64, 128
+  EXPECT_EQ(noded_share(doubling_sample(8), 16), 3.0 / 8);  // faces 32, 64 and 128
   EXPECT_EQ(noded_share(doubling_sample(8), 0), 1);
   EXPECT_EQ(noded_share(MeshSample{}, 1), 0);
 }
@@ -78,8 +78,8 @@ TEST(hermite_lumps, are_none_where_nothing_is_known_or_nothing_may_be_left) {
   EXPECT_FALSE(hermite_lumps(sample_mesh(view_of(mesh), {}, 32), 0, 20).has_value());
 }
 
-// Of a mesh that is too coarse for values and gradients: the less may be left, the more nodes, and
-// the dearer.
+// For a mesh too coarse for values and gradients: a smaller allowed error needs more nodes and
+// costs more.
 TEST(hermite_lumps, cost_more_the_less_they_may_leave) {
   const Mesh mesh = bumpy_sphere(4);
   const MeshSample sample = sample_mesh(view_of(mesh), {}, 64);
@@ -87,19 +87,19 @@ TEST(hermite_lumps, cost_more_the_less_they_may_leave) {
   for (double allowed2 = 1e4; allowed2 > 1e-12; allowed2 /= 100) {
     const std::optional<HermiteLumps> lumps = hermite_lumps(sample, allowed2, 20);
     ASSERT_TRUE(lumps.has_value());
-    // The search goes in steps of 1.2.
+    // The search has steps of a factor 1.2.
     EXPECT_GE(lumps->cost, cost / 1.2) << allowed2;
     EXPECT_GE(lumps->node_share, 0);
     EXPECT_LE(lumps->node_share, 1);
     EXPECT_GE(lumps->between, 0);
-    // Rules with more nodes take over from those with fewer.
+    // Rules with more nodes follow rules with fewer nodes.
     EXPECT_LE(lumps->edge_reach2[0], lumps->edge_reach2[1]);
     EXPECT_LE(lumps->face_reach2[0], lumps->face_reach2[1]);
     cost = lumps->cost;
   }
 }
 
-// Against the nodes of a pass in which every triangle has nodes of its own.
+// Compares with the nodes of a pass in which every triangle has its own nodes.
 TEST(own_nodes_of, are_those_that_a_pass_writes) {
   const Mesh mesh = test::rotated(bumpy_sphere(4));
   int compared = 0;

@@ -70,7 +70,7 @@ TEST(choose_lumps, lumps_fine_meshes_whole_and_coarse_ones_less) {
   EXPECT_GT(share_at(200), 0.5);
 }
 
-// Elements much shorter than a wave are in step with their neighbours.
+// Elements much shorter than a wave have the phase of their neighbours.
 TEST(choose_lumps, counts_short_elements_as_in_step) {
   const Mesh mesh = icosphere(5);
   const MeshSample sample = sample_mesh(view_of(mesh), {}, 1);
@@ -119,7 +119,7 @@ TEST(choose_quantum, is_a_power_of_two_within_its_share) {
       EXPECT_GT(coarse.error, allowed.quanta / 2);
       EXPECT_EQ(coarse.size, 64 * fine.size);
       EXPECT_EQ(coarse.error, 64 * fine.error);
-      // Of q^2 / 12 at four corners of six and twice that at the others, over 4 pi.
+      // The variance is q^2 / 12 at four of six corners and twice that at the others, over 4 pi.
       const double variance = coarse.size * coarse.size * 2 / 3 * static_cast<double>(vertices);
       EXPECT_NEAR(coarse.error, std::sqrt(variance / (4 * 3.14159265358979)), 1e-9 * coarse.error);
     }

@@ -18,7 +18,7 @@ MeshSample sample_of(const Mesh& mesh, int degree = 16) {
   return sample_mesh(view_of(mesh), {}, degree);
 }
 
-// 2 000 triangles are sampled whole: the moments are cubatures of the faces' own integrals.
+// 2 000 triangles are all sampled: moments are cubatures of the exact integrals of the faces.
 TEST(sample_mesh, knows_mean_and_norm_of_a_small_mesh) {
   const Mesh mesh = ellipsoid({1.5, 1, 0.8}, 3);
   const MeshSample sample = sample_of(mesh);
@@ -57,14 +57,14 @@ TEST(sample_mesh, of_many_triangles_stands_for_all_of_them) {
 TEST(sample_mesh, sees_which_edges_run_along_meridians_and_parallels) {
   const Mesh lattice = test::adversarial::lattice(20, 40);
   EXPECT_GT(sample_of(lattice).aligned, 0.3);
-  // Some do by chance.
+  // Some are aligned by chance.
   EXPECT_LT(sample_of(test::adversarial::turned(lattice, 0.7)).aligned, 0.05);
 }
 
 TEST(sample_mesh, sees_sheets_that_overlap) {
   Mesh twice = icosphere(2);
   const std::size_t n = twice.triangles.size();
-  for (std::size_t t = 0; t < n; ++t) {  // half of it once more, and turned over
+  for (std::size_t t = 0; t < n; ++t) {  // repeats half of the faces, flipped
     if (t % 2 != 0) continue;
     const Triangle f = twice.triangles[t];
     twice.triangles.push_back(f);
@@ -85,7 +85,7 @@ TEST(sample_mesh, passes_over_blocks_with_indices_out_of_range) {
   EXPECT_EQ(sample_of(mesh).triangles.size(), mesh.triangles.size() - 128);
 }
 
-// Faces of one size: the squares and moduli of the face weights -n . n / d2 by their definition.
+// All faces have one size: squares and moduli of face weights -n . n / d2 follow their definition.
 TEST(sample_mesh, sums_of_what_is_spread_are_those_of_all_faces_and_edges) {
   const Mesh mesh = icosphere(3);
   const MeshSample sample = sample_of(mesh);
