@@ -187,7 +187,7 @@ def test_other_threads_may_write_to_arrays_that_are_in_use():
     directions = rholm._arrays.directions(directions)[0]
 
     def tried(call):
-        for _ in range(30):
+        for _ in range(10):
             with contextlib.suppress(rholm.Error):
                 call()
 

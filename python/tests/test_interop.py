@@ -150,7 +150,7 @@ def test_every_function_takes_every_kind_of_mesh_and_mends_it(tmp_path):
     ]
     slow = [
         lambda m: rholm.render(m, (16, 16)).shape,  # render() takes a list as several shapes
-        lambda m: rholm.compress(m, 0.1, samples=1000, max_numbers=10**6).mesh().volume > 0,
+        lambda m: rholm.compress(m, 0.3, samples=1000, max_numbers=10**6).mesh().volume > 0,
         lambda m: rholm.patch_atlas(m, 2).mesh.volume > 0,
         lambda m: rholm.patch_picture(m).area > 0,
         lambda m: rholm.reconstruct(m).mesh.volume > 0,

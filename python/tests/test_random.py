@@ -1,5 +1,5 @@
 """Random calls: any input gives a result or an exception. RHOLM_RANDOM_CALLS sets the number of
-calls (default 150). scripts/python-sanitized runs the tests under AddressSanitizer.
+calls (default 60). scripts/python-sanitized runs the tests under AddressSanitizer.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-CALLS = int(os.environ.get("RHOLM_RANDOM_CALLS", "150"))
+CALLS = int(os.environ.get("RHOLM_RANDOM_CALLS", "60"))
 
 DTYPES = st.sampled_from(["f4", "f8", "f2", ">f8", "i4", "i8", "u1", "u4", "?", "c16", "O", "U1"])
 SHAPES = st.one_of(
@@ -300,7 +300,7 @@ calls_made = itertools.count(1)
 @settings(
     max_examples=CALLS,
     deadline=None,
-    derandomize=CALLS <= 150,
+    derandomize=CALLS <= 60,
     database=None,
     suppress_health_check=list(HealthCheck),
 )

@@ -65,7 +65,7 @@ class Atlas(CliTest):
 
     def test_wrong_sides_are_turned_or_said(self):
         """One face of an octahedron is flipped; all faces are flipped; points have normals inwards."""
-        words = ["--tolerance", "0.05", "--max-degree", "4", "-o", "m.h5"]
+        words = ["--tolerance", "0.1", "--max-degree", "4", "-o", "m.h5"]
         self.write("mixed.off", off(V, [F[0][::-1], *F[1:]]))
         self.assertIn("faces have contradicting orientations at 3 edges",
                       self.rholm("compress", "mixed.off", *words, code=3).err)

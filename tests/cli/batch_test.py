@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, OCTAHEDRON, RHOLM, Terminal, TIMEOUT, main, nightly, off, rows_done, until
+from harness import CliTest, OCTAHEDRON, RHOLM, NIGHTLY, Terminal, TIMEOUT, main, nightly_too, off, rows_done, until
 
 # Columns that only the batch has, and columns of a run, which differ from one run to the next.
 OWN = {"id", "path", "group", "exit_code", "message", "warnings", "seconds", "cpu_seconds"}
@@ -81,15 +81,9 @@ class BatchTest(CliTest):
 
 
 class Rows(BatchTest):
+    @nightly_too
     def test_rows_say_what_the_command_says_of_each_shape_alone(self):
-        self.check_rows(12)
-
-    @nightly
-    def test_a_hundred_rows_say_what_the_command_says_of_each_shape_alone(self):
-        self.check_rows(100)
-
-    def check_rows(self, n):
-        rows = self.make_shapes(n)
+        rows = self.make_shapes(100 if NIGHTLY else 8)
         result = self.batch("all.csv", "--coefficients")
         table = self.table("all.csv")
         self.assertEqual([(r["id"], r["path"], r["group"]) for r in table], rows)

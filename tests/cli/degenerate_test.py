@@ -165,11 +165,10 @@ class Degenerate(CliTest):
 
     def test_report(self):
         for name, (_, _, codes, _) in SHAPES.items():
-            with self.subTest(name):
-                self.check(codes, "report", name, "--degree", "3", "--size", "16",
-                           output="out.html")
-                self.check(codes | FINE, "report", "good.sh", "--shape", name, "--size", "16",
-                           output="out.html")
+            for words in self.variants(name, (name, "--degree", "3"), ("good.sh", "--shape", name)):
+                with self.subTest(words):
+                    self.check(codes if words[0] == name else codes | FINE, "report", *words, "--size", "16",
+                               output="out.html")
 
     def test_convert(self):
         for name, (_, codes, _, _) in SHAPES.items():

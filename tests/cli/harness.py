@@ -231,6 +231,16 @@ def nightly(case):
     return case
 
 
+# Which size a case takes that has two: the larger one in nightly runs, and in those of all cases.
+NIGHTLY = not {"--nightly", "--every"}.isdisjoint(sys.argv)
+
+
+def nightly_too(case):
+    """Marks a case that asks NIGHTLY for its size: it is among the fast ones and, in full size, among the nightly ones."""
+    case.two_sizes = True
+    return case
+
+
 class Loader(unittest.TestLoader):
     """Loads cases that are (not) nightly, or all (None). A case given by name is always loaded."""
 
@@ -239,9 +249,11 @@ class Loader(unittest.TestLoader):
         self.wanted = wanted
 
     def getTestCaseNames(self, case_class):
-        def is_nightly(name):
-            return getattr(case_class, "nightly", False) or getattr(getattr(case_class, name), "nightly", False)
-        return [name for name in super().getTestCaseNames(case_class) if self.wanted in (None, is_nightly(name))]
+        def is_wanted(name):
+            case = getattr(case_class, name)
+            is_nightly = getattr(case_class, "nightly", False) or getattr(case, "nightly", False)
+            return self.wanted in (None, is_nightly) or getattr(case, "two_sizes", False)
+        return [name for name in super().getTestCaseNames(case_class) if is_wanted(name)]
 
 
 def main():

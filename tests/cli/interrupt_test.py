@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import (CliTest, RHOLM, TIMEOUT, answers_signals, held, main, nightly, status_of, until,
+from harness import (NIGHTLY, CliTest, RHOLM, TIMEOUT, answers_signals, held, main, nightly_too, status_of, until,
                      until_working)
 
 OLD = b"what was here before\n"
@@ -196,16 +196,10 @@ class Questions(CliTest):
         commands = re.findall(r"^  (\w+) {2,}", text.partition("Commands:")[2].partition("Exit codes")[0], re.M)
         self.assertEqual(set(commands) - NO_WORK, {words.split()[0] for words, _ in LONG})
 
-    def test_some_commands_ask_while_they_work(self):
-        self.check_commands(LONG[::9])
-
-    @nightly
-    def test_all_commands_ask_while_they_work(self):
-        self.check_commands(LONG)
-
-    def check_commands(self, commands):
+    @nightly_too
+    def test_commands_ask_while_they_work(self):
         self.make_inputs()
-        for words, output in commands:
+        for words, output in LONG if NIGHTLY else LONG[::9]:
             with self.subTest(words):
                 self.check_questions(words, output)
 

@@ -8,7 +8,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, RHOLM, TIMEOUT, main, nightly
+from harness import CliTest, NIGHTLY, RHOLM, TIMEOUT, main, nightly_too
 
 MIB = 1 << 20
 GIB = 1 << 30
@@ -117,10 +117,11 @@ class Limits(CliTest):
         self.assertTrue(self.check("info mesh.ply", 0.003))  # mapped in place
         self.assertTrue(self.check("info mesh.stl", 0.1))
 
+    @nightly_too
     @unittest.skipIf(LARGE, "the large ones")
     def test_a_limit_little_above_what_text_takes_is_enough(self):
-        self.rholm("make", "sphere", "--subdivisions", "7", "-o", "mesh.ply")
-        n = 163842
+        self.rholm("make", "sphere", "--subdivisions", 7 if NIGHTLY else 6, "-o", "mesh.ply")
+        n = 163842 if NIGHTLY else 40962
         rows = self.rholm("convert", "mesh.ply", "-", "--format", "obj").out.splitlines()
         vertices, faces = rows[:n], rows[n:]
         self.assertTrue(vertices[-1].startswith("v ") and faces[0].startswith("f "))
@@ -149,26 +150,23 @@ class Limits(CliTest):
                 self.assertEqual(code, 0, said)
                 self.assertLessEqual(used, limit * GIB + BESIDE)
 
-    def tiles_are_refused(self, limits_of_tiles, limits):
+    @nightly_too
+    @unittest.skipIf(LARGE, "the large ones")
+    def test_tiles_are_refused_with_a_limit_and_a_size_that_are_enough(self):
+        points, tile, limits_of_tiles, limits = 8000, 6000, [0.006], [0.006]
+        if NIGHTLY:
+            points, tile = 60000, 10000
+            limits_of_tiles, limits = [0.006, 0.01, 0.015], [0.003, 0.006, 0.01, 0.02, 0.04]
         self.rholm("make", "sphere", "--subdivisions", "5", "-o", "mesh.ply")
-        self.rholm("make", "sample", "mesh.ply", "--points", "60000", "-o", "points.ply")
-        line = "reconstruct points.ply -o out.ply --tile-points 10000"
-        refused = self.peak(line.split(), 0.01)
+        self.rholm("make", "sample", "mesh.ply", "--points", points, "-o", "points.ply")
+        line = f"reconstruct points.ply -o out.ply --tile-points {tile}"
+        refused = self.peak(line.split(), 0.006)
         self.assertRegex(refused[1], r"need some [\d.]+ GiB")
         for limit in limits_of_tiles:
             self.assertFalse(self.check(line, limit))  # also tries the limit that is named
         for limit in limits:
             self.assertFalse(self.check("reconstruct points.ply -o out.ply", limit))
         self.assertTrue(self.check("reconstruct points.ply -o out.ply", 0.1))
-
-    @unittest.skipIf(LARGE, "the large ones")
-    def test_tiles_are_refused_with_a_limit_and_a_size_that_are_enough(self):
-        self.tiles_are_refused([0.01], [0.02])
-
-    @nightly
-    @unittest.skipIf(LARGE, "the large ones")
-    def test_tiles_are_refused_with_limits_and_sizes_that_are_enough(self):
-        self.tiles_are_refused([0.006, 0.01, 0.015], [0.003, 0.006, 0.01, 0.02, 0.04])
 
     @unittest.skipIf(LARGE, "the large ones")
     def test_nothing_is_refused_where_no_limit_was_said(self):

@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import RHOLM, CliTest, held, main, nightly, until
+from harness import NIGHTLY, RHOLM, CliTest, held, main, nightly, nightly_too, until
 
 
 def rows(path):
@@ -19,7 +19,7 @@ class Reconstruct(CliTest):
     def setUp(self):
         super().setUp()
         self.rholm("make", "torus", "-o", "t.ply")
-        self.rholm("make", "sample", "t.ply", "--points", "4000", "-o", "p.xyz")
+        self.rholm("make", "sample", "t.ply", "--points", "2500", "-o", "p.xyz")
 
     def shape_of(self, name):
         return self.rholm("info", name, "--json").json()
@@ -33,7 +33,7 @@ class Reconstruct(CliTest):
         self.assertEqual((shape["components"], shape["genus"]), (1, 1))
         self.assertTrue(shape["closed"] and shape["manifold"] and shape["oriented"])
         self.assertEqual((report["points"], report["outliers"], report["dropped_points"]),
-                         (4000, 0, 0))
+                         (2500, 0, 0))
         self.assertFalse(report["computed_normals"])
         for count in ("vertices", "faces"):
             self.assertEqual(report[count], shape["counts"][count])
@@ -51,10 +51,10 @@ class Reconstruct(CliTest):
         for row, word in ((5, "nan"), (700, "inf"), (2000, "-inf")):
             lines.insert(row, " ".join([word] + lines[row].split()[1:]))
         self.write("odd.xyz", "\n".join(lines) + "\n")
-        for words in (["odd.xyz"], ["odd.xyz", "--tile-points", "3000"]):
+        for words in (["odd.xyz"], ["odd.xyz", "--tile-points", "1500"]):
             report = self.reconstruct(*words)
             with self.subTest(words):
-                self.assertEqual((report["points"], report["dropped_points"]), (4003, 3))
+                self.assertEqual((report["points"], report["dropped_points"]), (2503, 3))
         text = self.rholm("reconstruct", "odd.xyz", "-o", "s.ply").out
         self.assertRegex(text, r"dropped +3 \(not finite")
 
@@ -79,7 +79,7 @@ class Reconstruct(CliTest):
             self.assertNotIn("sensor_x", names)
 
     def test_every_option_is_heard(self):
-        self.rholm("make", "sample", "t.ply", "--points", "4000", "--noise", ".003", "--outliers",
+        self.rholm("make", "sample", "t.ply", "--points", "2500", "--noise", ".003", "--outliers",
                    ".02", "--holes", "1,.15", "-o", "bad.xyz")
         self.reconstruct("bad.xyz", output="plain.ply")
         plain = (self.folder / "plain.ply").read_bytes()
@@ -303,9 +303,9 @@ class Tiles(CliTest):
     def setUp(self):
         super().setUp()
         self.rholm("make", "torus", "-o", "t.ply")
-        self.rholm("make", "sample", "t.ply", "--points", "12000", "-o", "p.ply")
+        self.rholm("make", "sample", "t.ply", "--points", "5000", "-o", "p.ply")
 
-    def tiles(self, *words, output="s.ply", n=3000, **options):
+    def tiles(self, *words, output="s.ply", n=1250, **options):
         return self.rholm("reconstruct", *words, "--tile-points", n, "-o", output, **options)
 
     def bytes(self, name):
@@ -325,11 +325,11 @@ class Tiles(CliTest):
             self.assertLess(relative[way]["max"], 1e-5)
 
     def test_a_torus_in_tiles_is_that_in_one_piece(self):
-        self.rholm("make", "sample", "t.ply", "--points", "6000", "-o", "p.ply")
-        said = self.tiles("p.ply", "--json", n=1500)
-        self.assertRegex(said.err, r"6000 points in 4 tiles: some [\d.]+ GB of memory")
+        self.rholm("make", "sample", "t.ply", "--points", "5000", "-o", "p.ply")
+        said = self.tiles("p.ply", "--json", n=1250)
+        self.assertRegex(said.err, r"5000 points in 4 tiles: some [\d.]+ GB of memory")
         report = json.loads(said.out)
-        self.assertEqual((report["points"], report["tiles"]), (6000, 4))
+        self.assertEqual((report["points"], report["tiles"]), (5000, 4))
         shape = self.rholm("info", "s.ply", "--json").json()
         self.assertEqual((shape["components"], shape["genus"], shape["closed"]), (1, 1, True))
         self.assertEqual((shape["counts"]["vertices"], shape["counts"]["faces"]),
@@ -339,7 +339,7 @@ class Tiles(CliTest):
         self.assertAlmostEqual(report["area"] / one["area"], 1, delta=1e-3)
         self.assertAlmostEqual(report["diagonal"], one["diagonal"], delta=1e-6)
         # If the limit is the number of points, there are no tiles.
-        self.tiles("p.ply", n=6000, output="same.ply")
+        self.tiles("p.ply", n=5000, output="same.ply")
         self.assertEqual(self.bytes("same.ply"), self.bytes("one.ply"))
 
     @nightly
@@ -347,9 +347,9 @@ class Tiles(CliTest):
         self.tiles("p.ply")
         content = self.bytes("p.ply")
         (self.folder / "work").mkdir()
-        for words, options in ((["p.ply", "--threads", "1", "--max-memory", "0.012"], {}),
+        for words, options in ((["p.ply", "--threads", "1", "--max-memory", "0.005"], {}),
                                (["-"], {"stdin": content}),
-                               (["-", "--max-memory", "0.012"], {"stdin": content})):
+                               (["-", "--max-memory", "0.005"], {"stdin": content})):
             self.tiles(*words, "--work-dir", "work", output="other.ply", **options)
             self.assertEqual(self.bytes("other.ply"), self.bytes("s.ply"), words)
             self.assertEqual(os.listdir(self.folder / "work"), [])
@@ -357,31 +357,34 @@ class Tiles(CliTest):
         self.tiles("p.xyz", output="other.ply")
         self.assertEqual(self.bytes("other.ply"), self.bytes("s.ply"))
 
+    @nightly_too
     def test_little_memory_is_refused_with_tiles_that_fit(self):
-        self.rholm("make", "sample", "t.ply", "--points", "40000", "-o", "p.ply")
+        points = 40000 if NIGHTLY else 8000
+        self.rholm("make", "sample", "t.ply", "--points", points, "-o", "p.ply")
         self.rholm("reconstruct", "p.ply", "-o", "one.ply")
         # A sufficient limit changes nothing.
         self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", "0.1")
         self.assertEqual(self.bytes("s.ply"), self.bytes("one.ply"))
         refused = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", "0.006", code=1)
         self.assertIn("0.013 GiB would do for tiles of 3100 points (--tile-points 3100)", refused.err)
-        for limit in ("0.013", "0.025"):
-            for words in ((), ("--tile-points", "30000")):
-                refused = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", limit, *words, code=1)
+        # What is refused, and what is enough for the tiles that are named then.
+        for less, limit in (("0.013", "0.013"), ("0.025", "0.025")) if NIGHTLY else (("0.006", "0.013"),):
+            for words in ((), ("--tile-points", "30000")) if NIGHTLY else (("--tile-points", "6000"),):
+                refused = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", less, *words, code=1)
                 fits = re.search(r"--tile-points (\d+)", refused.err)[1]
                 made = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", limit, "--tile-points", fits)
-                self.assertIn("40000 points in", made.err)
+                self.assertIn(f"{points} points in", made.err)
                 self.assertEqual(self.rholm("info", "s.ply", "--json").json()["genus"], 1)
                 # The limit of memory does not change the result of these tiles.
                 self.rholm("reconstruct", "p.ply", "-o", "wide.ply", "--tile-points", fits)
                 self.assertEqual(self.bytes("s.ply"), self.bytes("wide.ply"))
 
     def test_the_old_name_of_tile_points_is_understood(self):
-        said = self.rholm("reconstruct", "p.ply", "--brick-points", "3000", "-o", "old.ply")
+        said = self.rholm("reconstruct", "p.ply", "--brick-points", "1250", "-o", "old.ply")
         self.assertIn("--brick-points is --tile-points now", said.err)
         self.assertNotIn("is --tile-points now", self.tiles("p.ply").err)
         self.assertEqual(self.bytes("old.ply"), self.bytes("s.ply"))
-        self.assertIn("--brick-points is", self.rholm("reconstruct", "p.ply", "--brick-points=3000", "-o", "old.ply").err)
+        self.assertIn("--brick-points is", self.rholm("reconstruct", "p.ply", "--brick-points=1250", "-o", "old.ply").err)
         for words in (["reconstruct", "--help"], ["completion", "bash"]):
             self.assertNotIn("brick", self.rholm(*words).out)
 
@@ -397,7 +400,7 @@ class Tiles(CliTest):
             # The run waits when the second file of the stage, or the result, is about to get its name.
             letters, after = ("r.ply$", 0) if stage == "output" else (f"pieces/{stage}/", 1)
             mark = self.folder / "mark"
-            with subprocess.Popen([RHOLM, "reconstruct", *words, "--tile-points", "3000", "-o", "r.ply",
+            with subprocess.Popen([RHOLM, "reconstruct", *words, "--tile-points", "1250", "-o", "r.ply",
                                    "--threads", "1"], cwd=self.folder, stdout=subprocess.DEVNULL,
                                   stderr=subprocess.DEVNULL,
                                   env={**os.environ, **held(mark, letters, after)}) as run:
@@ -417,10 +420,10 @@ class Tiles(CliTest):
         self.assertIn("rholm convert", self.tiles("p.ply", "--ascii", code=2).err)
         self.assertIn("--resume", self.tiles("-", "--resume", stdin=b"", code=2).err)
         self.assertIn("--resume", self.tiles("p.ply", "--resume", "--format", "ply", output="-", code=2).err)
-        self.assertIn("nowhere", self.tiles("p.ply", "--max-memory", "0.012", "--work-dir", "nowhere", code=1).err)
+        self.assertIn("nowhere", self.tiles("p.ply", "--max-memory", "0.005", "--work-dir", "nowhere", code=1).err)
         self.assertIn("--tile-points", self.tiles("p.ply", n=10, code=2).err)
         self.write("short.ply", self.bytes("p.ply")[:-7])
-        self.tiles("short.ply", "--work-dir", ".", "--max-memory", "0.012", code=3)
+        self.tiles("short.ply", "--work-dir", ".", "--max-memory", "0.005", code=3)
         self.assertEqual(self.files(), ["p.ply", "short.ply", "t.ply"])
 
 

@@ -153,7 +153,7 @@ class Report(CliTest):
 
     def test_an_atlas_has_its_caps_and_its_shape(self):
         self.rholm("make", "torus", "-o", "t.ply")
-        self.rholm("make", "sample", "t.ply", "--points", "3000", "-o", "t.xyz")
+        self.rholm("make", "sample", "t.ply", "--points", "1000", "-o", "t.xyz")
         self.rholm("reconstruct", "t.xyz", "--model", "caps.h5", "-o", "s.ply")
         alone = self.page("caps.h5")
         beside = self.page("caps.h5", "--shape", "t.ply")

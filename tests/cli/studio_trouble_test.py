@@ -10,7 +10,7 @@ import sys
 import threading
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import TIMEOUT, CliTest, main, until
+from harness import NIGHTLY, TIMEOUT, CliTest, main, nightly_too, until
 from studio_program import LONG_JOB, TETRAHEDRON, Studio
 
 LONG = os.environ.get("RHOLM_LONG") == "1"  # True where tests of minutes are wanted
@@ -142,13 +142,14 @@ class Many(CliTest):
         self.assertEqual(len(studio.json("GET", "api/state")["items"]), 1)
         gives_back(self, studio, after_one + 32 * MIB)
 
+    @nightly_too
     def test_sessions_that_come_and_go_leave_no_memory_behind(self):
         studio = Studio(self)
         first = None
-        for _ in range(30):
+        for _ in range(30 if NIGHTLY else 10):
             studio.begin()
             studio.step(op="make", shape="bumpy", amplitude=0.3)
-            studio.step(op="expand", item=1, degree=40)
+            studio.step(op="expand", item=1, degree=16)
             studio.ask("POST", "api/live", json.dumps({"live": "degree", "item": 1, "degree": 7}))
             self.assertEqual(studio.ask("DELETE", "api/session")[0], 200)
             first = first or resident(studio)
@@ -226,6 +227,7 @@ class Slow(CliTest):
 
 
 class Bodies(CliTest):
+    @nightly_too
     def test_json_and_what_has_no_body(self):
         studio = Studio(self)
         studio.begin()
@@ -243,8 +245,9 @@ class Bodies(CliTest):
         def ask(_):
             self.assertEqual(studio.ask("POST", "api/step", large)[0], 404)
 
-        in_threads(8, ask)
-        has_taken_less(self, studio, before + (8 * 2 * 16 + 512) * MIB)
+        n = 8 if NIGHTLY else 3
+        in_threads(n, ask)
+        has_taken_less(self, studio, before + (n * 2 * 16 + 512) * MIB)
         self.assertEqual(studio.ask("GET", "api/state")[0], 200)
 
     def refused(self, studio, method, path, length):

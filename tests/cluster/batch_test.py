@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness_mpi import MpiTest, RANKS, RHOLM, RHOLM_MPI, main, nightly, rows_done
+from harness_mpi import NIGHTLY, MpiTest, RANKS, RHOLM, RHOLM_MPI, main, nightly, nightly_too, rows_done
 
 
 class Batch(MpiTest):
@@ -203,15 +203,9 @@ class Stopped(Batch):
 
         self.at_once(check, (0.3, 3, 2), (0.6, 2, 0), (0.9, 4, 1))
 
+    @nightly_too
     def test_a_rank_that_is_stopped_ends_the_run(self):
-        self.check_stopped_ranks([1])
-
-    @nightly
-    def test_the_first_rank_that_is_stopped_ends_the_run(self):
-        self.check_stopped_ranks([0])
-
-    def check_stopped_ranks(self, all_stopped):
-        for stopped in all_stopped:
+        for stopped in (0, 1) if NIGHTLY else (1,):
             run = self.stopped_at(0.1, 3, lambda run: os.kill(run.pids()[stopped], signal.SIGSTOP))
             says = rf"error: rank {stopped}\b.* has not been heard of .*"
             if stopped != 0:  # rank 0 knows the number of rows kept

@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness_mpi import ProgramTest, RANKS, RHOLM, RHOLM_MPI, held, main, nightly
+from harness_mpi import NIGHTLY, ProgramTest, RANKS, RHOLM, RHOLM_MPI, held, main, nightly, nightly_too
 
 
 class Expand(ProgramTest):
@@ -174,15 +174,9 @@ class Stopped(Expand):
         self.assertEqual(left, ["mesh.ply"])
         self.assertEqual(run.pids(), {})
 
+    @nightly_too
     def test_a_rank_that_is_killed_ends_the_run(self):
-        self.check_killed((3, 0, 0.2))
-
-    @nightly
-    def test_any_rank_that_is_killed_ends_the_run(self):
-        self.check_killed((2, 1, 0), (3, 0, 0.2), (4, 2, 0.5))
-
-    def check_killed(self, *cases):
-        for ranks, killed, worked in cases:
+        for ranks, killed, worked in ((3, 0, 0.2), (2, 1, 0), (4, 2, 0.5))[:3 if NIGHTLY else 1]:
             run = self.start_working(ranks)
             begin = run.seconds_worked(killed)
             run.until(lambda: run.seconds_worked(killed) >= begin + worked, f"rank {killed} has worked")

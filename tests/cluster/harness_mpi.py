@@ -14,7 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
-from harness import held, main, nightly, rows_done, seconds_worked  # noqa: F401 (for the tests)
+from harness import NIGHTLY, held, main, nightly, nightly_too, rows_done, seconds_worked  # noqa: F401 (for the tests)
 
 RHOLM = os.environ.get("RHOLM", "rholm")
 RHOLM_MPI = os.environ.get("RHOLM_MPI", "rholm-mpi")

@@ -13,6 +13,7 @@
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
+#include "support/sizes.h"
 #include "support/test_meshes.h"
 
 namespace rholm {
@@ -122,13 +123,13 @@ Vec3 turn(const Vec3& v, const Vec3& axis, double angle) {
 
 // The target is turned about its own axis by the angle to be found. Then the axis is turned to a
 // random direction by the shortest rotation.
-TEST(Transfer, angle_is_found_within_a_degree) {
+TEST_OF_TWO_SIZES(Transfer, angle_is_found_within_a_degree) {
   const Mesh source =
       test::sheet(90, 0.02, [](double x, double y) { return 0.004 * pattern(x, y); });
   const Mesh bowed = test::sheet(
       90, 0.02, [&](double x, double y) { return 0.004 * pattern(x, y) - (x * x + y * y) / 6; });
   const Regions disc = {BallRegion{{0, 0, 0}, 0.5}};
-  for (std::uint64_t k = 0; k < 50; ++k) {
+  for (std::uint64_t k = 0; k < (nightly ? 50 : 12); ++k) {
     const double angle = 2 * pi * random_uniform(9, k) - pi;
     const double heading = 2 * pi * random_uniform(10, k), tilt = 3 * random_uniform(11, k);
     const Vec3 across = {std::cos(heading), std::sin(heading), 0};

@@ -11,6 +11,7 @@
 #include "rholm/reconstruct.h"
 #include "rholm/topology.h"
 #include "support/reconstruct_checks.h"
+#include "support/sizes.h"
 #include "support/targets.h"
 #include "support/test_points.h"
 
@@ -81,9 +82,11 @@ double rms_of(const Mesh& mesh, const Body& body) {
 
 // Runs without noise and with noise of 0.25 % of the diagonal. Caps have all remainders of points
 // by the lanes of a vector.
-void check_reconstructions(const std::vector<Body>& bodies, const std::vector<double>& noises) {
+TEST_OF_TWO_SIZES(targets, reconstructions_have_the_same_topology_and_are_as_near) {
+  std::vector<Body> bodies = {box_body(6000)};
+  if (nightly) bodies = {sphere_body(4000), torus_body(6000), box_body(6000)};
   for (Body body : bodies) {
-    for (const double noise : noises) {
+    for (const double noise : nightly ? std::vector{0.0, 0.007} : std::vector{0.0}) {
       for (std::size_t i = 0; noise > 0 && i < body.cloud.points.size(); ++i) {
         body.cloud.points[i] += noise * test::random_normal(9, i) * body.cloud.normals[i];
       }
@@ -101,14 +104,6 @@ void check_reconstructions(const std::vector<Body>& bodies, const std::vector<do
       });
     }
   }
-}
-
-TEST(targets, reconstructions_have_the_same_topology_and_are_as_near) {
-  check_reconstructions({box_body(6000)}, {0.0});
-}
-
-TEST(targets, reconstructions_have_the_same_topology_and_are_as_near_nightly) {
-  check_reconstructions({sphere_body(4000), torus_body(6000), box_body(6000)}, {0.0, 0.007});
 }
 
 }  // namespace

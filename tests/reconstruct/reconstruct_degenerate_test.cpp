@@ -14,6 +14,7 @@
 #include "rholm/topology.h"
 #include "support/random_data.h"
 #include "support/reconstruct_checks.h"
+#include "support/sizes.h"
 #include "support/test_meshes.h"
 #include "support/test_points.h"
 
@@ -72,7 +73,7 @@ TEST(ReconstructDegenerate, few_points) {
 }
 
 TEST(ReconstructDegenerate, points_without_a_surface) {
-  constexpr std::size_t n = 250;
+  constexpr std::size_t n = 125;
   std::vector<Vec3> line, plane, grid, same(n, {1, 2, 3}), cloud, two;
   for (std::size_t i = 0; i < n; ++i) {
     line.push_back({random_in(0, 1, 1, i), 0, 0});
@@ -111,7 +112,7 @@ TEST(ReconstructDegenerate, a_grid_too_coarse_for_the_shape_is_refused_with_its_
 }
 
 TEST(ReconstructDegenerate, bad_normals) {
-  constexpr std::size_t kCount = 500;
+  constexpr std::size_t kCount = 200;
   const PointCloud sphere = sphere_points(kCount);
   PointCloud cloud = sphere;
   for (Vec3& n : cloud.normals) n = -n;
@@ -138,12 +139,12 @@ TEST(ReconstructDegenerate, bad_normals) {
 }
 
 TEST(ReconstructDegenerate, the_same_places_again) {
-  const PointCloud sphere = sphere_points(300);
+  const PointCloud sphere = sphere_points(120);
   PointCloud cloud = sphere, nearly = sphere;
   for (int k = 1; k < 100; ++k) cloud = test::joined(cloud, sphere);
   expect_decent(cloud, "a hundred times");
   const Reconstruction made = reconstruct(cloud);
-  EXPECT_EQ(made.report.dropped_points, 99 * 300U);
+  EXPECT_EQ(made.report.dropped_points, 99 * 120U);
   const Mesh once = reconstruct(sphere).mesh;
   ASSERT_EQ(made.mesh.vertices.size(), once.vertices.size());
   // Means of a hundred normals have rounding errors.
@@ -164,7 +165,7 @@ TEST(ReconstructDegenerate, the_same_places_again) {
   expect_decent(nearly, "twenty times nearly");
 }
 
-TEST(ReconstructDegenerate, extremes_of_scale) {
+TEST_OF_TWO_SIZES(ReconstructDegenerate, extremes_of_scale) {
   for (const double scale :
        {1e-310, 1e-200, 1e-100, 1e-30, 1e-13, 1e13, 1e30, 1e100, 1e200, 1e308}) {
     PointCloud cloud = sphere_points(200);
@@ -172,30 +173,30 @@ TEST(ReconstructDegenerate, extremes_of_scale) {
     EXPECT_NE(refusal(cloud), "") << scale;
   }
   for (const double scale : {1e-12, 1e11}) {
-    PointCloud cloud = sphere_points(500);
+    PointCloud cloud = sphere_points(200);
     for (Vec3& p : cloud.points) p *= scale;
     EXPECT_EQ(expect_closed_manifold(reconstruct(cloud).mesh).euler_characteristic, 2) << scale;
   }
   // The shape is moved away until doubles cannot represent it.
   for (const double shift : {1e6, 1e12, 1e15, 1e17}) {
-    PointCloud cloud = sphere_points(300);
+    PointCloud cloud = sphere_points(nightly ? 300 : 100);
     for (Vec3& p : cloud.points) p += {shift, 0, 0};
     expect_decent(cloud, "at " + std::to_string(shift));
   }
   // One point lies far away from all others.
-  for (const double far : {1e3, 1e6, 1e9, 1e12}) {
-    PointCloud cloud = sphere_points(500);
+  for (const double far : nightly ? std::vector{1e3, 1e6, 1e9, 1e12} : std::vector{1e3, 1e9}) {
+    PointCloud cloud = sphere_points(nightly ? 500 : 150);
     cloud.points.push_back({far, 0, 0});
     cloud.normals.push_back({1, 0, 0});
     expect_decent(cloud, "one at " + std::to_string(far));
   }
 }
 
-TEST(ReconstructDegenerate, thin_sheets) {
+TEST_OF_TWO_SIZES(ReconstructDegenerate, thin_sheets) {
   // The two faces of the plate are nearer to each other than the points.
   for (const double thickness : {1e-1, 1e-3, 0.0}) {
     PointCloud plate;
-    for (std::size_t i = 0; i < 700; ++i) {
+    for (std::size_t i = 0; i < (nightly ? 700 : 200); ++i) {
       const double side = i % 2 == 0 ? 1 : -1;
       plate.points.push_back(
           {random_in(-1, 1, 1, i), random_in(-1, 1, 2, i), side * thickness / 2});

@@ -18,6 +18,7 @@
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
 #include "support/reconstruct_checks.h"
+#include "support/sizes.h"
 #include "support/test_meshes.h"
 #include "support/test_points.h"
 
@@ -89,7 +90,7 @@ TEST(Reconstruct, normals_are_computed_where_there_are_none) {
 TEST(Reconstruct, normals_into_the_solid_are_turned) {
   for (const double density_ratio : {1.0, 30.0}) {
     PointCloud cloud =
-        sample_surface(torus(1, 0.4, 96, 48), {.points = 20000, .density_ratio = density_ratio});
+        sample_surface(torus(1, 0.4, 96, 48), {.points = 8000, .density_ratio = density_ratio});
     const Reconstruction right = reconstruct(cloud);
     EXPECT_FALSE(right.report.turned_normals);
     for (Vec3& normal : cloud.normals) normal = -normal;
@@ -220,9 +221,9 @@ TEST(Reconstruct, an_open_half_is_closed_or_kept) {
 
 // ---- Bad data ----
 
-TEST(Reconstruct, noise_is_found_and_averaged_out) {
+TEST_OF_TWO_SIZES(Reconstruct, noise_is_found_and_averaged_out) {
   constexpr double kSigma = 0.01;
-  PointCloud cloud = sphere_points(20000);
+  PointCloud cloud = sphere_points(nightly ? 20000 : 8000);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     cloud.points[i] *= 1 + kSigma * random_normal(7, i);
   }
@@ -270,43 +271,37 @@ TEST(Reconstruct, outliers_are_left_out_before_normals_are_found_nightly) {
   EXPECT_EQ(with.mesh.vertices, expected.vertices);
 }
 
-TEST(Reconstruct, wrong_normals_among_good_ones_do_no_harm) {
-  PointCloud cloud = sphere_points(10000);
-  for (std::size_t i = 0; i < 10000; i += 10) cloud.normals[i] = random_direction(9, i);
+TEST_OF_TWO_SIZES(Reconstruct, wrong_normals_among_good_ones_do_no_harm) {
+  const std::size_t n = nightly ? 10000 : 4000;
+  PointCloud cloud = sphere_points(n);
+  for (std::size_t i = 0; i < n; i += 10) cloud.normals[i] = random_direction(9, i);
   const Reconstruction made = reconstruct(std::move(cloud));
   EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 2);
-  EXPECT_GT(made.report.outliers, 500U);
-  EXPECT_LT(made.report.outliers, 1100U);
+  EXPECT_GT(made.report.outliers, n / 20);
+  EXPECT_LT(made.report.outliers, n * 11 / 100);
   for (const Vec3& v : made.mesh.vertices) EXPECT_NEAR(norm(v), 1, 0.02);
 }
 
-void check_points_in_rows(const std::vector<double>& ratios,
-                          const std::vector<bool>& with_normals) {
+TEST_OF_TWO_SIZES(Reconstruct, points_in_rows_make_the_surface_of_even_ones) {
+  const std::size_t n = nightly ? 20000 : 6000;
   const Mesh ring = torus(2, 0.7, 400, 200);
-  for (const double ratio : ratios) {
-    for (const bool normals : with_normals) {
-      const PointCloud rows = sample_surface(ring, {.points = 20000,
+  for (const double ratio : nightly ? std::vector{5.0, 20.0} : std::vector{5.0}) {
+    for (const bool normals : nightly ? std::vector{true, false} : std::vector{true}) {
+      const PointCloud rows = sample_surface(ring, {.points = n,
                                                     .pattern = SamplePattern::kRings,
                                                     .pattern_ratio = ratio,
                                                     .normals = normals});
       const Reconstruction made = reconstruct(rows);
       EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 0);
       // The bound is 0.1 times gap^2 times curvature; the best possible factor is about 0.01.
-      const double gap = std::sqrt(ratio * 4 * std::numbers::pi * std::numbers::pi * 1.4 / 20000);
+      const double gap =
+          std::sqrt(ratio * 4 * std::numbers::pi * std::numbers::pi * 1.4 / static_cast<double>(n));
       for (const Vec3& v : made.mesh.vertices) {
         const double off = std::hypot(std::hypot(v.x, v.y) - 2, v.z) - 0.7;
         EXPECT_LT(std::abs(off), 0.1 * gap * gap / 0.7) << ratio << normals;
       }
     }
   }
-}
-
-TEST(Reconstruct, points_in_rows_make_the_surface_of_even_ones) {
-  check_points_in_rows({5.0}, {true});
-}
-
-TEST(Reconstruct, points_in_rows_make_the_surface_of_even_ones_nightly) {
-  check_points_in_rows({5.0, 20.0}, {true, false});
 }
 
 TEST(Reconstruct, points_that_say_nothing_change_nothing) {
@@ -325,10 +320,10 @@ TEST(Reconstruct, points_that_say_nothing_change_nothing) {
   EXPECT_EQ(made.mesh.triangles, expected.triangles);
 }
 
-TEST(Reconstruct, uneven_density_does_not_tear_the_surface) {
+TEST_OF_TWO_SIZES(Reconstruct, uneven_density_does_not_tear_the_surface) {
   // The density is thirty times higher at one pole than at the other.
   PointCloud cloud;
-  for (std::uint64_t i = 0; cloud.points.size() < 20000; ++i) {
+  for (std::uint64_t i = 0; cloud.points.size() < (nightly ? 20000 : 8000); ++i) {
     const Vec3 u = random_direction(3, i);
     if (random_in(0, 1, 4, i) < std::pow(30, (u.z - 1) / 2)) cloud.points.push_back(u);
   }
@@ -341,10 +336,10 @@ TEST(Reconstruct, uneven_density_does_not_tear_the_surface) {
 
 // ---- Attributes ----
 
-TEST(Reconstruct, a_density_that_falls_a_thousand_times_does_not_tear_it_either) {
+TEST_OF_TWO_SIZES(Reconstruct, a_density_that_falls_a_thousand_times_does_not_tear_it_either) {
   // Points are drawn by rejection: the density is 1000^(-(z + 1) / 2).
   PointCloud cloud;
-  for (std::uint64_t i = 0; cloud.points.size() < 20000; ++i) {
+  for (std::uint64_t i = 0; cloud.points.size() < (nightly ? 20000 : 8000); ++i) {
     const Vec3 p = random_direction(3, i);
     if (random_in(0, 1, 4, i) < std::pow(1000, -(p.z + 1) / 2)) cloud.points.push_back(p);
   }
@@ -456,15 +451,15 @@ double error_after(const test::Motion& motion, std::size_t n_points) {
 }
 
 TEST(Reconstruct, place_and_size_do_not_matter) {
-  const double expected = error_after({}, 4000);
+  const double expected = error_after({}, 2000);
   for (const double scale : {1e-6, 1e6}) {
     test::Motion motion;
     motion.scale = scale;
-    EXPECT_NEAR(error_after(motion, 4000) / expected, 1, 0.03) << scale;
+    EXPECT_NEAR(error_after(motion, 2000) / expected, 1, 0.03) << scale;
   }
   test::Motion motion;
   motion.shift = {3e4, -2e4, 1e4};  // the diagonal is 3.5 at most
-  EXPECT_NEAR(error_after(motion, 4000) / expected, 1, 0.03);
+  EXPECT_NEAR(error_after(motion, 2000) / expected, 1, 0.03);
 }
 
 TEST(Reconstruct, direction_does_not_matter) {

@@ -118,8 +118,8 @@ TEST(tile_normals, of_many_tiles_point_out_nightly) {
 TEST(tile_normals, have_the_directions_of_all_points) {
   for (const double noise : {0.0, 0.005}) {
     const PointCloud given =
-        sample_surface(torus(1, 0.4, 96, 48), {.points = 12000, .noise = noise});
-    const Oriented made(without_normals(given), 1500);
+        sample_surface(torus(1, 0.4, 96, 48), {.points = 6000, .noise = noise});
+    const Oriented made(without_normals(given), 1000);
     PointCloud whole = without_normals(given);
     orient(whole, {.neighbors = static_cast<int>(made.report.neighbors), .keep_outliers = true});
     std::size_t others = 0;
@@ -131,11 +131,11 @@ TEST(tile_normals, have_the_directions_of_all_points) {
 }
 
 TEST(tile_normals, turn_what_bounds_a_cavity_inwards) {
-  PointCloud shell = sample_surface(icosphere(4), {.points = 9000});
-  const PointCloud inner = sample_surface(icosphere(4), {.points = 4000, .seed = 2});
+  PointCloud shell = sample_surface(icosphere(4), {.points = 4500});
+  const PointCloud inner = sample_surface(icosphere(4), {.points = 2000, .seed = 2});
   for (const Vec3& p : inner.points) shell.points.push_back(0.6 * p);
   for (const Vec3& n : inner.normals) shell.normals.push_back(-n);
-  const Oriented made(without_normals(shell), 1200);
+  const Oriented made(without_normals(shell), 1000);
   EXPECT_EQ(made.report.components, 2u);
   EXPECT_EQ(share_right(made, shell), 1.0);
 }
@@ -252,7 +252,7 @@ TEST(tile_normals, are_looked_for_without_sensors_that_are_not_all_known) {
 }
 
 TEST(tile_normals, are_the_same_after_an_interruption) {
-  const PointCloud given = without_normals(ring_points(6000));
+  const PointCloud given = without_normals(ring_points(4000));
   const Oriented whole(given, 1000);
   MemoryStore store;
   const Tiles tiles(*points_in_memory(given), store, 1000);

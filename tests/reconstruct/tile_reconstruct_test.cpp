@@ -28,8 +28,8 @@ using namespace testing;
 class TileReconstruct : public TileFiles {};
 
 TEST_F(TileReconstruct, is_as_good_as_one_piece) {
-  const PointCloud cloud = torus_points(30000);
-  const ReconstructReport report = run(cloud, 5000, "tiles.ply");
+  const PointCloud cloud = torus_points(9000);
+  const ReconstructReport report = run(cloud, 3000, "tiles.ply");
   const Mesh tiles = mesh("tiles.ply");
   const Inspection found = test::expect_closed_manifold(tiles);
   EXPECT_EQ(found.components, 1U);

@@ -130,14 +130,14 @@ TEST_F(TileReconstructWork, foresees_nothing_for_tiles_that_there_are_none_of) {
 }
 
 TEST_F(TileReconstructWork, foresees_what_it_takes) {
-  const PointCloud cloud = torus_points(20000);
+  const PointCloud cloud = torus_points(8000);
   TileForecast told;
-  ReconstructOptions wanted{.tile_points = 5000,
+  ReconstructOptions wanted{.tile_points = 2000,
                             .output = path("a.ply"),
                             .work_dir = path(""),
                             .foreseen = [&](const TileForecast& forecast) { told = forecast; }};
   const ReconstructReport report = reconstruct(cloud, wanted).report;
-  EXPECT_EQ(told.points, 20000U);
+  EXPECT_EQ(told.points, 8000U);
   EXPECT_EQ(told.tiles, report.tiles);
   EXPECT_GT(report.stored, told.stored / 2);
   EXPECT_LT(report.stored, 2 * told.stored);
@@ -154,8 +154,8 @@ TEST_F(TileReconstructWork, foresees_what_it_takes) {
 
 // Runs of one tile and of several: errors name tiles that fit, and nothing else changes.
 TEST_F(TileReconstructWork, memory_refuses_or_changes_nothing) {
-  const PointCloud cloud = torus_points(20000);
-  for (const std::uint64_t tile_points : {std::uint64_t{8000}, kTilePoints}) {
+  const PointCloud cloud = torus_points(9000);
+  for (const std::uint64_t tile_points : {std::uint64_t{6000}, kTilePoints}) {
     const Mesh known = reconstruct(cloud, {.tile_points = tile_points}).mesh;
     for (const std::size_t mebibytes : {6, 24}) {
       ReconstructOptions wanted{
@@ -181,14 +181,14 @@ TEST_F(TileReconstructWork, memory_refuses_or_changes_nothing) {
 }
 
 TEST_F(TileReconstructWork, gives_the_same_in_memory_and_in_files) {
-  const PointCloud cloud = torus_points(10000);
+  const PointCloud cloud = torus_points(5000);
   write_shape(cloud, path("points.ply"));
   const PointCloud read = std::get<PointCloud>(read_shape(path("points.ply")).shape);
   const ReconstructReport report =
       reconstruct(path("points.ply"),
-                  {.tile_points = 3000, .output = path("file.ply"), .model = path("model.h5")})
+                  {.tile_points = 1500, .output = path("file.ply"), .model = path("model.h5")})
           .report;
-  const Reconstruction kept = reconstruct(read, {.tile_points = 3000});
+  const Reconstruction kept = reconstruct(read, {.tile_points = 1500});
   write_shape(kept.mesh, path("memory.ply"));
   EXPECT_TRUE(bytes("file.ply") == bytes("memory.ply"));
   EXPECT_EQ(kept.mesh.vertices.size(), report.vertices);

@@ -58,7 +58,7 @@ TEST(SessionFile, BringsEverythingBack) {
   client.step({{"op", "expand"}, {"item", 1}, {"degree", 10}});
   client.step({{"op", "look"}, {"item", 1}, {"degree", 4}});
   client.step({{"op", "make"}, {"shape", "points"}});
-  client.step({{"op", "compress"}, {"item", 1}, {"tolerance", 0.1}});
+  client.step({{"op", "compress"}, {"item", 1}, {"tolerance", 0.3}});
   const int highest = client.state().at("items").back().at("atlas").at("degree");
   client.step({{"op", "atlas_look"}, {"item", 3}, {"limit", highest - 1}});
   const Response expansion = client.save(1, "h5");

@@ -126,13 +126,13 @@ TEST(Steps, PointsBecomeSurfacesAndCaps) {
   EXPECT_EQ(state.at("items").back().at("kind"), "mesh");
   EXPECT_GT(state.at("items").back().at("caps").get<int>(), 0);
   const int surface = last_item(state);
-  state = check_undone(client, {{"op", "compress"}, {"item", surface}, {"tolerance", 0.1}});
+  state = check_undone(client, {{"op", "compress"}, {"item", surface}, {"tolerance", 0.3}});
   EXPECT_EQ(state.at("items").back().at("kind"), "atlas");
   const Json atlas = state.at("items").back().at("atlas");
   EXPECT_GT(atlas.at("bytes").get<int>(), 0);
   EXPECT_GT(atlas.at("error").at("rms").get<double>(), 0);
   EXPECT_GT(atlas.at("error").at("max").get<double>(), atlas.at("error").at("rms").get<double>());
-  EXPECT_LT(atlas.at("error").at("rms").get<double>(), 0.1);
+  EXPECT_LT(atlas.at("error").at("rms").get<double>(), 0.3);
   const int caps = last_item(state), highest = atlas.at("degree").get<int>();
   state = check_undone(client, {{"op", "atlas_look"}, {"item", caps}, {"limit", highest - 1}});
   EXPECT_EQ(state.at("items").back().at("look").at("degree"), highest - 1);

@@ -173,8 +173,8 @@ inline Mesh half_lattice(int n_theta, int n_phi) {
 
 inline std::vector<AdversarialMesh> few_adversaries() {
   return {{"rough run", rough_run(cube_sphere(30), 128 * 50, 32, 3e-2), 48, 1e-4},
-          {"lattice in step with 2 L", lattice(64, 128), 32, 1e-6},
-          {"lattice, half of it", half_lattice(64, 128), 48, 1e-5},
+          {"lattice in step with 2 L", lattice(32, 64), 16, 1e-6},
+          {"lattice, half of it", half_lattice(48, 96), 32, 1e-5},
           {"needles along", lattice(300, 12), 32, 1e-4},
           {"spikes", spiked(cube_sphere(30), 1001, 0.5), 32, 1e-4}};
 }

@@ -77,7 +77,7 @@ TEST(greedy_cover, is_given_up_where_too_many_numbers_are_foreseen) {
   const Samples s = torus(3000);
   const SampleLevels levels = make_levels(s.points, s.normals, {});
   const std::vector<std::uint8_t> none(levels.size());
-  GreedyOptions options = options_for(1e-3);
+  GreedyOptions options = options_for(3e-3);
   const GreedyCover all = greedy_cover(levels, 3, options, none, {});
   EXPECT_EQ(all.foreseen, 0U);
   std::size_t numbers = 0;

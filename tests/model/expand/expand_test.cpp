@@ -113,7 +113,7 @@ TEST(expand, finds_the_same_degree_for_a_tolerance_on_both_ways) {
   const Mesh mesh = bumpy_sphere(3, 0.3);
   for (const ErrorNorm norm : {ErrorNorm::kRms, ErrorNorm::kMax}) {
     ExpandOptions options;
-    options.tolerance = Tolerance{.error = 3e-3, .norm = norm};
+    options.tolerance = Tolerance{.error = 1e-2, .norm = norm};
     const Expanded fast = expand(mesh, options);
     options.engine = Engine::kDirect;
     const Expanded direct = expand(mesh, options);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rholm/topology.h"
+#include "support/sizes.h"
 #include "support/test_points.h"
 
 namespace rholm {
@@ -83,7 +84,7 @@ TEST(crossings, are_named_by_points_near_them) {
 }
 
 // Edges of 90 degrees, sheets with borders, a sheet that ends at another sheet, touching spheres.
-TEST(crossings, are_not_found_where_sheets_bend_end_or_touch) {
+TEST_OF_TWO_SIZES(crossings, are_not_found_where_sheets_bend_end_or_touch) {
   const auto box = [](std::size_t i) {
     Vec3 p{uniform(1, i), uniform(2, i), uniform(3, i)};
     (i % 3 == 0 ? p.x : i % 3 == 1 ? p.y : p.z) = i % 2 == 0 ? 1 : -1;
@@ -94,7 +95,7 @@ TEST(crossings, are_not_found_where_sheets_bend_end_or_touch) {
     return i % 2 == 0 ? Vec3{x, y, 0} : Vec3{x, 0, std::abs(y)};
   };
   const auto sheet = [](std::size_t i) { return Vec3{uniform(1, i), uniform(2, i), 0}; };
-  for (const std::size_t n : {800, 4000}) {
+  for (const std::size_t n : nightly ? std::vector{800, 4000} : std::vector{800}) {
     const std::vector<std::vector<Vec3>> clouds = {points_of(n, box), points_of(n, tee),
                                                    points_of(n, sheet), two_spheres(n, 2),
                                                    two_spheres(n, 0)};

@@ -17,6 +17,7 @@
 #include "support/executor_by.h"
 #include "support/packed_mesh.h"
 #include "support/random_data.h"
+#include "support/sizes.h"
 #include "support/test_meshes.h"
 #include "support/test_shapes.h"
 #include "transform/mesh_pass/pass.h"
@@ -92,10 +93,10 @@ Mesh rows_of_vertices() {
 }
 
 // Cases have lumps of both precisions and with Hessians, shared or not. There are as many parts as
-// useful, up to eight grids, or one common grid. A mesh of one part is not shared. Without `all`
-// each mesh meets each precision and each number of parts, and each precision meets each number of
-// parts on some mesh.
-void check_bits_of_one_process(bool all) {
+// useful, up to eight grids, or one common grid. A mesh of one part is not shared. Without
+// `nightly` each mesh meets each precision and each number of parts, and each precision meets each
+// number of parts on some mesh.
+TEST_OF_TWO_SIZES(shared_parts, give_the_bits_of_one_process) {
   const Mesh fine = bumpy_sphere(7), rough = rough_sphere(5), rows = rows_of_vertices(),
              small = bumpy_sphere(4);
   ASSERT_TRUE(parts_overlap(view_of(fine), divide_triangles(fine.triangles.size(), 8)));
@@ -109,7 +110,7 @@ void check_bits_of_one_process(bool all) {
     for (std::size_t j = 0; j < precisions.size(); ++j) {
       const double precision = precisions[j];
       for (std::size_t k = 0; k < all_parts.size(); ++k) {
-        if (!all && (i + j + k) % 3 != 0) continue;
+        if (!nightly && (i + j + k) % 3 != 0) continue;
         MeshPassOptions options{.degree = 12,
                                 .precision = precision,
                                 .center = {0.05, 0.02, 0.01},
@@ -128,10 +129,6 @@ void check_bits_of_one_process(bool all) {
   }
   EXPECT_EQ(rounds, (std::set<std::size_t>{0, 2}));
 }
-
-TEST(shared_parts, give_the_bits_of_one_process) { check_bits_of_one_process(false); }
-
-TEST(shared_parts, give_the_bits_of_one_process_nightly) { check_bits_of_one_process(true); }
 
 // Other processes do not know the order into which triangles are sorted.
 TEST(shared_parts, triangles_in_random_order_are_not_shared) {

@@ -15,6 +15,7 @@
 #include "rholm/topology.h"
 #include "rholm/transform.h"
 #include "support/random_bodies.h"
+#include "support/sizes.h"
 #include "transform/mesh_pass/plan/error_budget.h"
 
 namespace rholm {
@@ -63,22 +64,22 @@ TEST(verify_pass, of_a_rod_keeps_the_wish) {
   EXPECT_GT(judged.report.passes, first.report.passes);
 }
 
-TEST(verify_pass, of_a_cube_seen_from_before_a_face_keeps_the_wish) {
+TEST_OF_TWO_SIZES(verify_pass, of_a_cube_seen_from_before_a_face_keeps_the_wish) {
   Mesh cube = box({2, 2, 2});
   for (Vec3& v : cube.vertices) v.x -= 1 - 2.6e-6;
-  expect_is_kept(judge(cube, 64, 1e-8), 1e-8);
+  expect_is_kept(judge(cube, nightly ? 64 : 24, 1e-8), 1e-8);
 }
 
 // The planes of the largest faces nearly contain the centre. Their weights are 1e8 times their sum,
 // and have the same rounding in every reading. The oracle has no terms that cancel.
-TEST(verify_pass, of_a_prism_seen_from_beside_a_corner_keeps_the_wish) {
+TEST_OF_TWO_SIZES(verify_pass, of_a_prism_seen_from_beside_a_corner_keeps_the_wish) {
   std::vector<std::vector<Vec3>> rings;
   for (int k = 0; k <= 5; ++k) {
     rings.push_back(test::random_bodies::ring(18, 0.0253, 1 - 2.0 * k / 5));
   }
   const Mesh prism = test::random_bodies::of_rings(rings, 1, -1);
   const Rotation rotation = rotation_of(EulerAngles{1, 2, 3});
-  for (const double inwards : {3e-8, 1e-7, 6e-7, 5e-6}) {
+  for (const double inwards : nightly ? std::vector{3e-8, 1e-7, 6e-7, 5e-6} : std::vector{1e-7}) {
     for (const double below : {9e-6, 1e-4}) {
       SCOPED_TRACE(testing::Message() << inwards << " " << below);
       const Vec3 corner = rings[0][0], center{corner.x - inwards, corner.y, corner.z - below};
@@ -91,9 +92,9 @@ TEST(verify_pass, of_a_prism_seen_from_beside_a_corner_keeps_the_wish) {
 
 // All faces at the tip are large and near, and none is seen at a grazing angle. Direct sums use the
 // same weights, so that they are tested, too.
-TEST(verify_pass, of_a_flat_cone_seen_from_below_its_tip_keeps_the_wish) {
+TEST_OF_TWO_SIZES(verify_pass, of_a_flat_cone_seen_from_below_its_tip_keeps_the_wish) {
   const Rotation rotation = rotation_of(EulerAngles{1, 2, 3});
-  for (const int sides : {3, 5, 60}) {
+  for (const int sides : nightly ? std::vector{3, 5, 60} : std::vector{5}) {
     for (const double below : {1e-4, 3e-6, 5e-8}) {
       SCOPED_TRACE(testing::Message() << sides << " " << below);
       Mesh seen =
@@ -116,11 +117,28 @@ TEST(verify_pass, of_a_flat_cone_seen_from_below_its_tip_keeps_the_wish) {
   }
 }
 
+// The sides are long faces that meet next to the centre. Their weights are 1e5 times the radius,
+// and the rounding of their sums adds up around the axis: the search found 1.1 times the wish, and
+// a third of that reported.
+void expect_of_a_tall_cone(int sides) {
+  const double below = 4.915e-4, flat = 0.00241;
+  Mesh seen =
+      test::random_bodies::of_rings({test::random_bodies::ring(sides, 0.08753, 0)}, 1, -flat);
+  for (Vec3& v : seen.vertices) v = v - Vec3{0, 0, 1 - below};
+  expect_is_kept(judge(seen, 15, 1e-9, Method::kArea), 1e-9);
+}
+TEST(verify_pass, of_a_tall_cone_seen_from_below_its_tip_keeps_the_wish) {
+  expect_of_a_tall_cone(24);
+}
+TEST(verify_pass, of_a_tall_cone_of_many_sides_keeps_the_wish_nightly) {
+  expect_of_a_tall_cone(481);
+}
+
 // The measured error is tested, too: for 98 of 100 bodies it is within these factors.
 TEST(verify_pass, keeps_the_wish_on_random_bodies) {
   std::vector<double> ratios;
   double worst = 0;
-  for (std::uint64_t seed = 0; seed < RHOLM_RANDOM_BODIES; ++seed) {
+  for (std::uint64_t seed = 2; seed < 2 + RHOLM_RANDOM_BODIES; ++seed) {
     const test::RandomBody body = test::random_body(test::random_genes(seed));
     SCOPED_TRACE(body.family + " " + std::to_string(seed));
     Mesh mesh = body.mesh;
@@ -144,12 +162,12 @@ TEST(verify_pass, keeps_the_wish_on_random_bodies) {
 
 // Degrees 1 and 2 of a tetrahedron are zero, and 1 to 3 of a cube. Both readings have only rounding
 // there, so that their difference is as large as their values.
-TEST(verify_pass, of_degrees_that_are_zero_by_symmetry_leaves_what_rounding_does) {
+TEST_OF_TWO_SIZES(verify_pass, of_degrees_that_are_zero_by_symmetry_leaves_what_rounding_does) {
   Mesh tetrahedron;
   tetrahedron.vertices = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   tetrahedron.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
   const Mesh cube = box({2, 2, 2});
-  for (int turn = 0; turn < 40; ++turn) {
+  for (int turn = 0; turn < (nightly ? 40 : 14); ++turn) {
     const Vec3 axis = test::random_direction(7, static_cast<std::uint64_t>(turn));
     const RotationMatrix rows = matrix_of(rotation_about(axis, 0.1 * turn));
     for (const auto& [body, last] : {std::pair(tetrahedron, 2), std::pair(cube, 3)}) {

@@ -9,6 +9,7 @@
 #include "rholm/star.h"
 #include "rholm/transform.h"
 #include "support/dense_error.h"
+#include "support/sizes.h"
 #include "support/test_shapes.h"
 #include "transform/error/error_of_degree.h"
 #include "transform/tolerance/tolerance.h"
@@ -33,8 +34,10 @@ std::vector<Tolerance> tolerances() {
 }
 
 // Degrees are doubled until one is good; then the final degree is computed.
-TEST(search_tolerance, doubles_the_degree_until_it_is_good) {
-  for (const Mesh& mesh : {box({2, 1.6, 1.2}), test::rotated(bumpy_sphere(3, 0.3))}) {
+TEST_OF_TWO_SIZES(search_tolerance, doubles_the_degree_until_it_is_good) {
+  std::vector<Mesh> meshes = {test::rotated(bumpy_sphere(3, 0.3))};
+  if (nightly) meshes.push_back(box({2, 1.6, 1.2}));
+  for (const Mesh& mesh : meshes) {
     const StarChart chart = chart_of(mesh);
     for (const Tolerance& tolerance : tolerances()) {
       const ToleranceTransform found = expand(chart, tolerance);
@@ -84,12 +87,17 @@ TEST(search_tolerance, finds_the_smallest_degree_exactly_for_the_rms_radius) {
 
 // Largest errors need not fall with every degree. Each lower degree is measured in dense points
 // and, where these are within the tolerance, uphill of them.
-void check_smallest_degree(const std::vector<Mesh>& meshes) {
+TEST_OF_TWO_SIZES(search_tolerance, finds_the_smallest_degree_for_the_largest_radial_error) {
+  std::vector<Mesh> meshes = {test::random_octahedron(4)};
+  if (nightly) {
+    meshes.insert(meshes.end(), {test::rotated(box({2, 1.6, 0.3})), test::rough_sphere(1),
+                                 test::rotated(bumpy_sphere(2, 0.3))});
+  }
   for (const Mesh& mesh : meshes) {
     const StarChart chart = chart_of(mesh);
     const Transform exact = expand(chart, {.degree = 100, .precision = 1e-10});
     const int n = mesh.triangles.size() > 100 ? 8 : 24;
-    for (const double error : {0.2, 0.08}) {
+    for (const double error : nightly ? std::vector{0.2, 0.08} : std::vector{0.12}) {
       Tolerance tolerance{.error = error, .norm = ErrorNorm::kMax, .max_degree = 100};
       const ToleranceTransform found = expand(chart, tolerance);
       ASSERT_TRUE(found.met) << mesh.triangles.size() << ' ' << found.reached;
@@ -112,22 +120,18 @@ void check_smallest_degree(const std::vector<Mesh>& meshes) {
   }
 }
 
-TEST(search_tolerance, finds_the_smallest_degree_for_the_largest_radial_error) {
-  check_smallest_degree({test::random_octahedron(4)});
-}
-
-TEST(search_tolerance, finds_the_smallest_degree_for_the_largest_radial_error_nightly) {
-  check_smallest_degree({test::rotated(box({2, 1.6, 0.3})), test::random_octahedron(4),
-                         test::rough_sphere(1), test::rotated(bumpy_sphere(2, 0.3))});
-}
-
 // Distances of a thin box do not fall with every degree. Each lower degree must have a larger
 // error, as measured for the model of that degree, whatever the largest degree is.
 struct DistanceCase {
   Mesh mesh;
   double largest, rms;
 };
-void check_smallest_degree_for_distances(const std::vector<DistanceCase>& shapes) {
+TEST_OF_TWO_SIZES(search_tolerance, finds_the_smallest_degree_for_distances) {
+  std::vector<DistanceCase> shapes = {{test::rotated(box({2, 1.6, 0.2})), 0.15, 0.06}};
+  if (nightly) {
+    shapes = {{test::rotated(box({2, 1.6, 0.2})), 0.05, 0.02},
+              {test::rotated(bumpy_sphere(3, 0.3)), 0.04, 0.01}};
+  }
   for (const DistanceCase& shape : shapes) {
     const StarChart chart = chart_of(shape.mesh);
     // Models of the degrees 0, 1, ...: one measurement gives the errors of all norms.
@@ -140,6 +144,7 @@ void check_smallest_degree_for_distances(const std::vector<DistanceCase>& shapes
       return errors[static_cast<std::size_t>(degree)];
     };
     for (const ErrorNorm norm : {ErrorNorm::kMax, ErrorNorm::kRms}) {
+      if (!nightly && norm == ErrorNorm::kRms) continue;
       Tolerance tolerance{.error = norm == ErrorNorm::kMax ? shape.largest : shape.rms,
                           .norm = norm,
                           .measure = ErrorMeasure::kDistance,
@@ -152,21 +157,13 @@ void check_smallest_degree_for_distances(const std::vector<DistanceCase>& shapes
         EXPECT_GT(error, tolerance.error) << to_string(norm) << ' ' << l << " of " << degree;
       }
       for (const int most : {degree, degree + 1, degree + 9}) {
+        if (!nightly && most == degree + 9) continue;
         tolerance.max_degree = most;
         EXPECT_EQ(expand(chart, tolerance).transform.expansion.coefficients.degree(), degree)
             << to_string(norm) << ' ' << most;
       }
     }
   }
-}
-
-TEST(search_tolerance, finds_the_smallest_degree_for_distances) {
-  check_smallest_degree_for_distances({{test::rotated(box({2, 1.6, 0.2})), 0.08, 0.03}});
-}
-
-TEST(search_tolerance, finds_the_smallest_degree_for_distances_nightly) {
-  check_smallest_degree_for_distances({{test::rotated(box({2, 1.6, 0.2})), 0.05, 0.02},
-                                       {test::rotated(bumpy_sphere(3, 0.3)), 0.04, 0.01}});
 }
 
 TEST(search_tolerance, ends_with_the_largest_degree_where_none_is_good_nightly) {
