@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/commands/commands.h"
+#include "cli/grammar/help.h"
 #include "cli/options/field_options.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/session.h"
@@ -65,10 +66,10 @@ std::string window_section() {
   }
   return fmt::format(
       "## Filter windows\n\n"
-      "A window is how a low-pass filter falls: `--window` of `rholm filter`, `window=` in Python, "
-      "and under Degrees in the studio. The default is `{}`. Above the degree L the gain is 0, "
-      "unless the table says otherwise. The overshoot is that of a filtered step of the radius (a "
-      "cap of 60 degrees) at L = 64, in parts of the step.\n\n{}",
+      "A window is the decay of a low-pass filter: `--window` of `rholm filter`, `window=` in "
+      "Python, and under Degrees in the studio. The default is `{}`. Above the degree L the gain "
+      "is 0, unless the table says otherwise. The overshoot is measured at a filtered step of the "
+      "radius, a cap of 60 degrees, at L = 64. It is a fraction of the step.\n\n{}",
       to_string(WindowOptions{}.window),
       markdown_table({"window", "gain of degree l", "overshoot", "parameter", "use"}, rows));
 }
@@ -85,11 +86,13 @@ std::string descriptor_section() {
   }
   return fmt::format(
       "## Descriptors\n\n"
-      "A descriptor is a figure of the surface of an expansion that stays when the shape is moved "
-      "or "
-      "turned. `rholm info --json` has each as a key, a table of `rholm batch` as a column, and "
+      "A descriptor is a number for the surface of an expansion. It stays the same when the shape "
+      "is "
+      "moved or rotated. `rholm info --json` has each as a key, a table of `rholm batch` as a "
+      "column, and "
       "`Expansion` and `SurfaceMeasures` in Python as a property of that name. Lengths are in the "
-      "unit of the expansion. A descriptor is null for what is no surface and for a signed sum. "
+      "unit of the expansion. A descriptor is null if the coefficients are not the radius of a "
+      "surface, and for a signed sum. "
       "`rholm info` and `rholm batch` also leave it null above degree 512.\n\n{}",
       markdown_table({"descriptor", "unit", "definition", "source"}, rows));
 }
@@ -116,17 +119,18 @@ std::string format_table(const std::vector<Info>& formats) {
     rows.push_back({code(info.file.name), joined(extensions), joined(ways), joined(held_by(info)),
                     info.file.help});
   }
-  return markdown_table({"format", "extensions", "is", "holds", "what it is"}, rows);
+  return markdown_table({"format", "extensions", "is", "holds", "description"}, rows);
 }
 
 std::string shape_format_section() {
   return "## Formats of shapes\n\n`--format` of the program and `format=` in Python take these "
-         "names; without, the extension of a file decides, and of what is read its content.\n\n" +
+         "names. By default the extension decides the format of an output, and the content decides "
+         "the format of an input.\n\n" +
          format_table(shape_formats());
 }
 
 std::string coefficients_format_section() {
-  return "## Formats of coefficients\n\nThe same of expansions.\n\n" +
+  return "## Formats of coefficients\n\nThe same options take these names for expansions.\n\n" +
          format_table(coefficients_formats());
 }
 
@@ -136,9 +140,9 @@ std::string error_section() {
     rows.push_back({code(one.name), std::to_string(one.exit_code), code(one.python_class),
                     one.python_base[0] == '\0' ? "" : code(one.python_base), one.meaning});
   }
-  return "## Errors\n\nWhat an error is called in C++ (`ErrorCode`) and in JSON, what the program "
-         "ends with, and what Python raises. The program ends with 2 for a command line that "
-         "means nothing.\n\n" +
+  return "## Errors\n\nThe name of each error in C++ (`ErrorCode`) and in JSON, the exit code of "
+         "the program, and the exception of Python. The exit code of a wrong command line is "
+         "2.\n\n" +
          markdown_table({"error", "exit code", "in Python", "is a", "meaning"}, rows);
 }
 
@@ -190,15 +194,15 @@ std::string field_section(const std::string& title, const std::string& text,
          default_of(standard.*member), choices.empty() ? range_text(info) : choices, info.help});
   });
   return fmt::format("## {}\n\n{}\n\n{}", title, text,
-                     markdown_table({"field", "option", "default", "values", "what it is"}, rows));
+                     markdown_table({"field", "option", "default", "values", "meaning"}, rows));
 }
 
 std::string reconstruct_section() {
   return field_section<ReconstructOptions>(
       "Options of reconstruct",
       "`ReconstructOptions` in C++ and arguments of `rholm.reconstruct` in Python. Lengths are in "
-      "the unit of the points there; the program takes parts of the diagonal of their bounding "
-      "box.");
+      "the unit of the points there; the program takes fractions of the diagonal of their "
+      "bounding box.");
 }
 
 std::string simplify_section() {
@@ -251,7 +255,7 @@ std::string truncation_section() {
 
 std::string transfer_update_section() {
   return field_section<TransferUpdate>(
-      "How detail is laid",
+      "How detail is transferred",
       "`TransferUpdate` in C++ and arguments of `rholm.transfer` in Python; options of `rholm "
       "transfer`, with `--rotate DEG` for the angle.");
 }
@@ -268,7 +272,7 @@ std::string report_section() {
   return field_section<ReportOptions>(
       "Options of report_html",
       "`ReportOptions` in C++ and arguments of `rholm.report_html` in Python; `rholm report` has "
-      "`--size` and what it knows of its input.",
+      "`--size`.",
       false);
 }
 
@@ -293,7 +297,7 @@ std::string sample_section() {
   return field_section<SampleOptions>(
       "Options of samples",
       "`SampleOptions` in C++ and arguments of `rholm.sample_surface` in Python; the program has "
-      "them in `rholm make sample`. Lengths are parts of the diagonal of the bounding box.");
+      "them in `rholm make sample`. Lengths are fractions of the diagonal of the bounding box.");
 }
 
 std::string transform_section() {
@@ -312,7 +316,7 @@ std::string tolerance_section() {
 
 std::string encode_section() {
   return field_section<ExpandOptions>(
-      "Options of the way from a mesh to coefficients",
+      "Options of expand",
       "`ExpandOptions` in C++, with the lists of its parts here; arguments of `rholm.expand` in "
       "Python and options of `rholm expand`, which has `--no-errors`.");
 }
@@ -339,7 +343,8 @@ std::string file_section() {
          "\n" +
          field_section<Convention>(
              "Conventions of coefficients",
-             "`Convention` in C++, arguments of what reads and writes coefficients in Python. The "
+             "`Convention` in C++, arguments of the functions that read and write coefficients in "
+             "Python. The "
              "program has `--input-normalization` and `--input-csphase`, too.") +
          "\n" +
          field_section<CoefficientsReadOptions>("Options of reading coefficients",
@@ -385,10 +390,57 @@ std::string result_section() {
   add_result<GravityField>("GravityField", rows);
   return "## Results\n\nStructs in C++, classes of the same names in Python. Lengths are in the "
          "unit of the shape.\n\n" +
-         markdown_table({"result", "field", "what it is"}, rows);
+         markdown_table({"result", "field", "meaning"}, rows);
 }
 
-constexpr ReferenceSection kSections[] = {window_section,
+// Returns "L, 0 ... 16384" or "edge, gauge"; empty for a switch.
+std::string values_text(const Option& option) {
+  if (!option.choices.empty()) return joined(option.choices);
+  std::string text = value_name(option);
+  if (text.empty()) return text;
+  const auto number = [](double value) { return fmt::format("{}", value); };
+  if (option.above) text += ", above " + number(*option.above);
+  if (option.min && option.max)
+    return text + ", " + number(*option.min) + " ... " + number(*option.max);
+  if (option.min) text += ", from " + number(*option.min);
+  if (option.max) text += ", at most " + number(*option.max);
+  return text;
+}
+
+// Returns "`-o, --output`", or an operand.
+std::string option_cell(const Option& option) {
+  if (option.letter == 0) return code(option.typed());
+  return code(fmt::format("-{}, {}", option.letter, option.typed()));
+}
+
+// Returns the operands and all options of a command, group by group.
+std::string option_table(const Command& command) {
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const char* group, const std::vector<Option>& options) {
+    for (const Option& option : options) {
+      rows.push_back({group, option_cell(option), values_text(option), option.help});
+    }
+  };
+  add("Operand", operands_of(command));
+  for (const GroupInfo& info : kGroups) add(info.title, described_options(command, info.group));
+  return markdown_table({"group", "option", "values", "meaning"}, rows);
+}
+
+std::string commands_section() {
+  std::string text =
+      "## Commands\n\nThe first screen of `rholm COMMAND --help` has the options of the groups "
+      "Data, Accuracy and Output, and `rholm COMMAND --help all` has all options.\n";
+  for (const Command& command : all_commands()) {
+    if (command.hidden) continue;
+    text += fmt::format("\n### {}\n\n{}.\n\n```text\n{}\n```\n\n{}\n\n{}", typed_name(command),
+                        command.summary, usage_line(command, 100), command.description,
+                        option_table(command));
+  }
+  return text;
+}
+
+constexpr ReferenceSection kSections[] = {commands_section,
+                                          window_section,
                                           descriptor_section,
                                           shape_format_section,
                                           coefficients_format_section,
@@ -443,8 +495,10 @@ std::string markdown_table(const std::vector<std::string>& headings,
 
 Command reference_command() {
   return {.name = "reference",
-          .summary = "Write the reference page",
-          .description = "Writes docs/reference.md to standard output: the tables of the library.",
+          .summary = "Print the reference page",
+          .description =
+              "Prints docs/reference.md, made from the tables of the library and the commands of "
+              "the program.",
           .options = {},
           .examples = {"rholm reference"},
           .run =

@@ -51,6 +51,10 @@ class Help(CliTest):
                     if not line.startswith("  rholm "):  # examples may be longer
                         self.assertLessEqual(len(line), 80, line)
 
+    def every_command(self):
+        listed = self.rholm("help").out.split("Commands:\n")[1].split("\n\n")[0]
+        return [line.split()[0] for line in listed.splitlines()]
+
     def groups(self, *words):
         """Returns the options of a help text by the title of their group, in the order of the text."""
         text = self.rholm(*words).out
@@ -69,7 +73,7 @@ class Help(CliTest):
     def test_help_all_has_every_option_once_and_the_groups_in_order(self):
         titles = ["Operands", "Data", "Accuracy", "Output", "Advanced", "Method of the paper"]
         completion = self.rholm("completion", "bash").out
-        for command in COMMANDS:
+        for command in self.every_command():
             with self.subTest(command):
                 everything = self.groups(command, "--help", "all")
                 self.assertEqual(list(everything), [title for title in titles if title in everything])
@@ -85,11 +89,20 @@ class Help(CliTest):
                 self.assertEqual(last, f"rholm {command} --help all shows {more} more options.")
 
     def test_required_options_are_on_the_first_screen(self):
-        for command in COMMANDS:
+        for command in self.every_command():
             text = self.rholm(command, "--help").out
             usage = text.split("\nUsage: ")[1].split("\n\n")[0]
             for option in re.findall(r" (--?\w[\w-]*)", usage):
                 self.assertRegex(text, rf"\n  {option}[ ,]", command)
+
+    def test_the_reference_has_every_command_and_option(self):
+        page = self.rholm("reference").out
+        section = page.split("\n## Commands\n")[1].split("\n## ")[0]
+        for command in self.every_command():
+            part = section.split(f"\n### rholm {command}\n")[1].split("\n### ")[0]
+            for title, names in self.groups(command, "--help", "all").items():
+                for name in names:
+                    self.assertEqual(len(re.findall(rf"^\|[^|]*\| `(?:-\w, )?{name}`", part, re.M)), 1, (command, name))
 
     def test_help_wins_over_wrong_options(self):
         self.rholm("expand", "--nonsense", "--help")
