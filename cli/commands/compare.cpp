@@ -117,7 +117,7 @@ std::optional<Comparison> compare_large(const Options& options, const CompareBy&
   if (!a.mapped && !b.mapped) {
     session.note(
         fmt::format("about {:.2g} GiB are needed; only meshes of triangles in a binary PLY file "
-                    "are compared in place",
+                    "can be compared without a copy in memory",
                     needed / 0x1p30));
     return {};
   }

@@ -275,8 +275,8 @@ Command convert_command() {
               "for.\n\nConventions apply to text, JSON and NumPy files. A model file is always "
               "orthonormal without Condon-Shortley phase. If an input does not state its "
               "convention, --input-normalization and --input-csphase give it (4pi and 1 by "
-              "default), and a note states the assumption.\n\nA mesh in a binary PLY file is "
-              "converted in place. Points of a binary PLY file, and points that need more memory "
+              "default), and a note states the assumption.\n\nA mesh in a binary PLY file is not "
+              "copied to memory. Points of a binary PLY file, and points that need more memory "
               "than --max-memory, are written while they are read, to PLY and XYZ.",
               coefficients_list(), shape_extensions()),
           .options =

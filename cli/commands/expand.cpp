@@ -149,11 +149,12 @@ void check_room_to_read(std::uintmax_t bytes, const std::string& path, const Opt
     }
   }
   if (!refused) return;
-  throw Error(ErrorCode::kOutOfMemory,
-              fmt::format("{} cannot be expanded in place, and needs {}. Only a binary PLY file of "
-                          "triangles that are closed, oriented outwards and star-shaped can be "
-                          "larger than memory, with the method edge and without --weld",
-                          display_name(path), *refused));
+  throw Error(
+      ErrorCode::kOutOfMemory,
+      fmt::format("{} cannot be expanded without a copy in memory, and needs {}. Only a binary PLY "
+                  "file of triangles that are closed, oriented outwards and star-shaped can be "
+                  "larger than memory, with the method edge and without --weld",
+                  display_name(path), *refused));
 }
 
 // Encodes a stream. Input that does not fit in memory is kept in a file.
