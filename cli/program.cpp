@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -39,19 +40,25 @@ const Command& command_of(std::span<const Command> commands, const std::string& 
   for (const Command& command : commands) {
     if (!command.hidden) names.push_back(command.name);
   }
-  const std::string meant = did_you_mean(name, names);
-  throw UsageError(fmt::format("there is no command '{}'{} '{} help' lists them", name,
-                               meant.empty() ? ";" : meant, program_name()));
+  std::string meant = command_hint(name);
+  if (meant.empty()) meant = did_you_mean(name, names);
+  throw UsageError(
+      fmt::format("there is no command '{}'{}\nTry '{} help'.", name, meant, program_name()));
 }
 
-bool asks_for_help(std::span<const std::string> words) {
-  return std::any_of(words.begin(), words.end(),
-                     [](const std::string& word) { return word == "--help" || word == "-h"; });
+// Returns how much help is asked for: nothing, "--help", or "--help all".
+std::optional<HelpExtent> wanted_help(std::span<const std::string> words) {
+  const auto help = std::find_if(words.begin(), words.end(), [](const std::string& word) {
+    return word == "--help" || word == "-h";
+  });
+  if (help == words.end()) return std::nullopt;
+  const bool all = help + 1 != words.end() && *(help + 1) == "all";
+  return all ? HelpExtent::kAll : HelpExtent::kFirstScreen;
 }
 
 int dispatch(const Command& command, std::span<const std::string> words,
              std::span<const std::string> notes = {}) {
-  if (asks_for_help(words)) return print(command_help(command));
+  if (const auto extent = wanted_help(words)) return print(command_help(command, *extent));
   const CancelScope scope(keep_going);
   return run_command(command, words, notes);
 }
@@ -67,14 +74,16 @@ int dispatch(const ProgramText& program, std::span<const Command> commands,
   if (first == "help") {
     std::vector<std::string> name(rest.begin(), rest.end());
     replace_old_command(name);
-    return print(name.empty() ? program_help(program, commands)
-                              : command_help(command_of(commands, name.front())));
+    if (name.empty()) return print(program_help(program, commands));
+    const bool all = name.size() > 1 && name[1] == "all";
+    return print(command_help(command_of(commands, name.front()),
+                              all ? HelpExtent::kAll : HelpExtent::kFirstScreen));
   }
   if (first.starts_with('-')) {
-    throw UsageError(fmt::format(
-        "the command comes first, then its options: {0} COMMAND ... {1}; '{0} help' lists the "
-        "commands",
-        program.name, first));
+    throw UsageError(
+        fmt::format("the command comes first, then its options: {0} COMMAND ... {1}; '{0} help' "
+                    "lists the commands",
+                    program.name, first));
   }
   return dispatch(command_of(commands, first), rest, notes);
 }

@@ -17,11 +17,13 @@ std::vector<cli::Option> rank_options(RankOptions& options) {
                    "300 by default",
            .target = &options.patience,
            .min = 5,
-           .max = 1e7},
+           .max = 1e7,
+           .group = cli::Group::kAdvanced},
           {.name = "timings",
            .help = "at the end, on standard error: processor time of all ranks, and the bytes that "
                    "they have exchanged",
-           .target = &options.timings}};
+           .target = &options.timings,
+           .group = cli::Group::kAdvanced}};
 }
 
 void check_input(const Ranks& ranks, const std::string& path) {

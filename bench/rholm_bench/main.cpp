@@ -303,7 +303,7 @@ Command bench_command() {
           .examples = {"rholm_bench --faces 5000 --degree 32 --repeat 3",
                        "rholm_bench bumpy.ply --degree 32 --precision 1e-4,1e-6 --json"},
           .run = [options](Session& session) { return run(*options, session); },
-          .if_not_star = "--signed"};
+          .if_not_star = "Give --signed to measure it nevertheless"};
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ std::vector<std::size_t> rows_of_shard(const std::string& shard, std::size_t n_r
                       read_whole(numbers[1], parts) && part >= 1 && part <= parts;
     if (!read) {
       throw UsageError(
-          fmt::format("--shard is '{}'; it must be I/N with 1 <= I <= N, as in 2/8", shard));
+          fmt::format("--shard is '{}'; it must be I/N with 1 <= I <= N, for example 2/8", shard));
     }
   }
   std::vector<std::size_t> rows;
@@ -45,15 +45,15 @@ void check_words(const BatchOptions& options, const PerShape& about) {
   for (const std::string& word : options.words) {
     const std::string name = word.substr(0, word.find('='));
     if (name == "--output" || (word.starts_with("-o") && !word.starts_with("--"))) {
-      throw UsageError(
-          fmt::format("'{}' names one file for all shapes: --outputs DIR keeps what '{}' writes",
-                      word, options.command));
+      throw UsageError(fmt::format(
+          "'{}' names the same file for all shapes; --outputs DIR keeps the files of '{}'", word,
+          options.command));
     }
     if (name == "--json" || name == "--threads" || name == "--quiet") {
-      throw UsageError(fmt::format("'{}' is given by the batch: write it before --", word));
+      throw UsageError(fmt::format("'{}' is an option of the batch; write it before --", word));
     }
     if (!about.one_file.empty() && name == "--" + about.one_file) {
-      throw UsageError(fmt::format("'{}' names one file for all shapes", word));
+      throw UsageError(fmt::format("'{}' names the same file for all shapes; leave it out", word));
     }
   }
 }
@@ -73,15 +73,13 @@ void check_command(BatchJob& job) {
   const Command command = job.commands.make(name);
   if (!command.per_shape) {
     throw UsageError(
-        fmt::format("'{}' does not take one shape and report on it: no command for a "
-                    "batch",
-                    name));
+        fmt::format("'{}' cannot run in a batch, because it does not report on one shape", name));
   }
   check_words(job.options, *command.per_shape);
   job.extension = command.per_shape->extension;
   if (job.options.outputs.empty() && !command.per_shape->writes_always) job.extension.clear();
   if (!job.options.outputs.empty() && job.extension.empty()) {
-    throw UsageError(fmt::format("--outputs: '{}' writes no files", name));
+    throw UsageError(fmt::format("--outputs does not apply to '{}', which writes no file", name));
   }
   const auto words = [&] {
     return command_words(job, kNoFile, job.extension.empty() ? "" : "out." + job.extension);
@@ -97,7 +95,7 @@ void check_command(BatchJob& job) {
     Session session(common);
     command.run(session);
   } catch (const UsageError& error) {
-    throw UsageError(fmt::format("{} (for '{}', behind --)", error.what(), name));
+    throw UsageError(fmt::format("{} (option of '{}' after --)", error.what(), name));
   } catch (const std::exception&) {
     return;  // all checks before opening the file passed
   }
@@ -146,7 +144,7 @@ void check_results_name(const std::string& path) {
   const std::string extension = extension_of(path);
   if (path == "-" || (extension != ".h5" && extension != ".csv")) {
     throw UsageError(
-        fmt::format("'{}' does not say what the results are to be: NAME.h5 or NAME.csv", path));
+        fmt::format("'{}' has no known extension; the results are NAME.h5 or NAME.csv", path));
   }
 }
 

@@ -30,15 +30,16 @@ std::vector<Place> places_of(const Manifest& manifest, const std::vector<BatchTa
     const BatchColumn* column = parts[p].find("id");
     const auto* ids =
         column == nullptr ? nullptr : std::get_if<std::vector<std::string>>(&column->values);
-    if (ids == nullptr) refuse(fmt::format("{} has no ids: it is no part of a batch", names[p]));
+    if (ids == nullptr)
+      refuse(fmt::format("{} has no column id and is not a part of a batch", names[p]));
     for (std::size_t r = 0; r < ids->size(); ++r) {
       const auto found = rows.find((*ids)[r]);
       if (found == rows.end()) {
-        refuse(fmt::format("{}: the manifest has no shape '{}'", names[p], (*ids)[r]));
+        refuse(fmt::format("{}: the shape '{}' is not in the manifest", names[p], (*ids)[r]));
       }
       Place& place = places[found->second];
       if (place.part != nullptr) {
-        refuse(fmt::format("{}: the shape '{}' is in another part as well", names[p], (*ids)[r]));
+        refuse(fmt::format("{}: the shape '{}' is also in another part", names[p], (*ids)[r]));
       }
       place = {&parts[p], r};
     }
@@ -47,8 +48,8 @@ std::vector<Place> places_of(const Manifest& manifest, const std::vector<BatchTa
       places.begin(), places.end(), [](const Place& place) { return place.part == nullptr; }));
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (places[i].part != nullptr) continue;
-    refuse(fmt::format("{} of {} shapes of the manifest are in no part, the first of them '{}'",
-                       missing, places.size(), manifest.items[i].id));
+    refuse(fmt::format("{} of {} shapes of the manifest are in no part; the first is '{}'", missing,
+                       places.size(), manifest.items[i].id));
   }
   return places;
 }
@@ -64,7 +65,7 @@ std::vector<std::pair<std::string, std::string>> about_all(const std::vector<Bat
   for (std::size_t p = 1; p < parts.size(); ++p) {
     if (without_shard(parts[p]) != without_shard(parts[0])) {
       refuse(
-          fmt::format("{} and {} are of different jobs: their manifest, command, options or "
+          fmt::format("{} and {} are parts of different jobs: their manifest, command, options or "
                       "version differ",
                       names[0], names[p]));
     }
@@ -75,12 +76,14 @@ std::vector<std::pair<std::string, std::string>> about_all(const std::vector<Bat
 }  // namespace
 
 BatchTable merge_parts(const BatchOptions& options) {
-  if (options.words.empty()) throw UsageError("--merge needs parts: the results of the shards");
+  if (options.words.empty())
+    throw UsageError("--merge needs the results of the shards, for example part-1.h5 part-2.h5");
   check_results_name(options.output);
   for (const std::string& name : options.words) {
     if (extension_of(name) != extension_of(options.output)) {
-      throw UsageError(fmt::format("'{}' and '{}' differ in format: parts are merged in their own",
-                                   name, options.output));
+      throw UsageError(fmt::format(
+          "'{}' and '{}' have different formats; merge parts into a file of their own format", name,
+          options.output));
     }
   }
   const Manifest manifest = read_manifest(options.manifest);

@@ -103,7 +103,7 @@ void work_rows(const BatchJob& job, const RowsToDo& to_do, BatchJournal& journal
                 .input = std::move(input)},
                row_work(job, to_do.rows, scratch), [&](std::size_t part, const std::string& bytes) {
                  const std::optional<BatchRow> cells = parse_row(bytes);
-                 if (!cells) throw Error(ErrorCode::kIo, "a row came damaged from another process");
+                 if (!cells) throw Error(ErrorCode::kIo, "a row from another process is damaged");
                  journal.append(to_do.rows[part], *cells);
                  progress.add(has_failed(*cells));
                  added();

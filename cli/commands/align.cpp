@@ -127,12 +127,12 @@ int run(const Options& options, Session& session) {
 
 std::vector<Option> models(Options& o) {
   return {{.name = "A",
-           .help = "file of coefficients to turn, or - for standard input",
+           .help = "file of coefficients to rotate, or - for standard input",
            .target = &o.a,
            .required = true,
            .offer = Offer::kCoefficients},
           {.name = "B",
-           .help = "file of coefficients to turn it onto",
+           .help = "file of coefficients that A is rotated onto",
            .target = &o.b,
            .required = true,
            .offer = Offer::kCoefficients}};
@@ -141,13 +141,13 @@ std::vector<Option> models(Options& o) {
 std::vector<Option> option_list(Options& o) {
   std::vector<Option> list = models(o);
   append(list, field_options(o.align));
-  list.push_back(field_option({.name = "centers",
-                               .help = "points laid on each other: volume, the centroids of the "
-                                       "solids; own, the centres of the expansions; auto, the "
-                                       "centroids if both surfaces are seen whole from there, "
-                                       "else their own centres, with a warning"},
-                              o.centers));
-  append(list, coefficients_output_options(o.to, "A laid on B, to be written", false));
+  list.push_back(field_option(
+      {.name = "centers",
+       .help = "points that are moved onto each other: volume, the centroids of the solids; own, "
+               "the centres of the expansions; auto, the centroids if both surfaces are visible "
+               "from there, and otherwise their own centres, with a warning"},
+      o.centers));
+  append(list, coefficients_output_options(o.to, "file for the rotated coefficients of A", false));
   return list;
 }
 
@@ -157,19 +157,20 @@ Command align_command() {
   auto options = std::make_shared<Options>();
   return {
       .name = "align",
-      .summary = "Turn one model onto another",
+      .summary = "Rotate one model onto another",
       .description =
-          "Lays the centroid of A on that of B and finds the rotation that brings the "
-          "surfaces nearest: by the correlation over all rotations, then by Newton's "
-          "iteration. The distance is the root mean square of the difference of the radii "
-          "over all directions.\n\nOther rotations that are nearly as good are listed: those "
-          "of a symmetric shape; and axes about which the shape turns freely: one of a surface of "
-          "revolution, three of a sphere. Where all that is not round is below what a model is "
-          "known to leave out, it is taken for a sphere and not turned. Size is not changed."
-          "\n\nWith --mirror also the mirror image of A is tried. What is done then is a "
-          "reflection in the plane through the centroid of A across the x axis (x becomes 2 "
-          "from_x - x, y and z stay), followed by the rotation; not an inversion in a point.",
-      .options = option_list(*options),
+          "Moves the centroid of A to the centroid of B and finds the rotation that brings the "
+          "surfaces closest. The distance is the root mean square difference of the radii over all "
+          "directions. The size is not changed.\n\nThe search maximises the correlation over all "
+          "rotations, and Newton's iteration refines the result. The report lists other rotations "
+          "that are nearly as good, for symmetric shapes. It also lists axes about which the shape "
+          "can turn freely: one for a surface of revolution, three for a sphere. A model whose "
+          "deviation from a sphere is below its error is treated as a sphere and is not "
+          "rotated.\n\nWith --mirror the mirror image of A is tried as well. It is a reflection "
+          "across the x axis in the plane through the centroid of A: x becomes 2 from_x - x. The "
+          "rotation follows. The reflection is not an inversion in a point.",
+      .options = in_groups(option_list(*options),
+                           {{Group::kData, {"mirror"}}, {Group::kAdvanced, {"centers"}}}),
       .examples = {"rholm align bumpy.h5 turned.h5",
                    "rholm align image.h5 bumpy.h5 --mirror --json -o back.h5"},
       .run = [options](Session& session) { return run(*options, session); }};

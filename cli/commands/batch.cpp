@@ -45,9 +45,8 @@ Command make_named(const std::string& name) {
   for (const auto& [known, make] : kMakers) {
     if (known == name) return make();
   }
-  const std::string meant = did_you_mean(name, names_for_batches());
-  throw UsageError(fmt::format("there is no command '{}'{} 'rholm help' lists them", name,
-                               meant.empty() ? ";" : meant));
+  throw UsageError(
+      fmt::format("there is no command '{}'{}", name, did_you_mean(name, names_for_batches())));
 }
 
 BatchTable table_of(const BatchJob& job, const BatchJournal& journal) {
@@ -113,17 +112,17 @@ int run(const BatchOptions& options, const RunRows& run_rows_here, Session& sess
   const std::vector<std::string> identity = {job.job, options.shard};
   BatchJournal journal(journal_name, fingerprint(identity), job.manifest.items.size());
   if (journal.dropped_bytes() > 0) {
-    session.note(fmt::format("{}: the last {} bytes are not whole: what they were of is done again",
-                             journal_name, journal.dropped_bytes()));
+    session.note(
+        fmt::format("{}: the last {} bytes are incomplete, and their row is processed again",
+                    journal_name, journal.dropped_bytes()));
   }
   if (journal.done() > 0) {
-    session.note(fmt::format("{}: {} done already", journal_name, counted(journal.done(), "row")));
+    session.note(fmt::format("{}: {} already done", journal_name, counted(journal.done(), "row")));
   }
   if (!run_rows_here(job, journal, session)) {
-    print_error(
-        fmt::format("interrupted: {} of {} rows are kept in {}; the same command goes on "
-                    "from there",
-                    journal.done(), job.rows.size(), journal_name));
+    print_error(fmt::format(
+        "interrupted: {} of {} rows are stored in {}; run the same command again to continue",
+        journal.done(), job.rows.size(), journal_name));
     return 128 + interrupting_signal();
   }
   const BatchTable table = table_of(job, journal);
@@ -134,54 +133,52 @@ int run(const BatchOptions& options, const RunRows& run_rows_here, Session& sess
 
 std::vector<Option> option_list(BatchOptions& o) {
   const std::vector<std::string> names = names_for_batches();
-  return {{.name = "MANIFEST",
-           .help = "the shapes: CSV with a column path (relative to the file), perhaps id, and any "
-                   "others, which the results carry along; - for standard input",
-           .target = &o.manifest,
-           .required = true,
-           .offer = Offer::kAnyFile},
-          {.name = "OPTIONS",
-           .help = "behind --: options of the command, the same for all shapes. With --merge: the "
-                   "results of the shards",
-           .target = &o.words,
-           .offer = Offer::kAnyFile},
-          {.name = "command",
-           .value = "COMMAND",
-           .help = fmt::format("what is done with each shape: expand by default; one of {}",
-                               fmt::join(names, ", ")),
-           .target = &o.command,
-           .choices = names},
-          output_option(o.output, "results to write: .h5 (HDF5) or .csv"),
-          {.name = "outputs",
-           .value = "DIR",
-           .help = "keep the files that the command writes, in this folder, as ID.EXTENSION",
-           .target = &o.outputs,
-           .offer = Offer::kAnyFile},
-          {.name = "shard",
-           .value = "I/N",
-           .help = "only rows I, I + N, I + 2 N, ... of the manifest, for arrays of jobs",
-           .target = &o.shard},
-          {.name = "merge",
-           .help = "join the results of all shards to those of one run",
-           .target = &o.merge},
-          {.name = "restart",
-           .help = "forget what an interrupted run has done, or another job of that name",
-           .target = &o.restart},
-          {.name = "no-times",
-           .help = "no columns that differ from run to run: same shapes, same bytes",
-           .target = &o.no_times},
-          {.name = "coefficients",
-           .help = "CSV: the coefficients as well, a column each; HDF5 has them in any case",
-           .target = &o.coefficients},
-          {.name = "raw-cells",
-           .help = "CSV: texts as they are; by default those that programs for tables take for "
-                   "formulas (they begin with =, +, -, @ and are no numbers) have an apostrophe "
-                   "before them",
-           .target = &o.raw_cells},
-          {.name = "strict",
-           .help = "exit code 3 if a row failed, once all are done and written",
-           .target = &o.strict},
-          json_option(o.json)};
+  return {
+      {.name = "MANIFEST",
+       .help = "CSV file with a column path, relative to the file, optionally id, and other "
+               "columns, which are copied; - for standard input",
+       .target = &o.manifest,
+       .required = true,
+       .offer = Offer::kAnyFile},
+      {.name = "OPTIONS",
+       .help = "after --: options of the command, the same for all shapes; with --merge: the "
+               "results of the shards",
+       .target = &o.words,
+       .offer = Offer::kAnyFile},
+      {.name = "command",
+       .value = "COMMAND",
+       .help = fmt::format("command to run for each shape; expand by default; one of {}",
+                           fmt::join(names, ", ")),
+       .target = &o.command,
+       .choices = names},
+      output_option(o.output, "table to write: .h5 (HDF5) or .csv"),
+      {.name = "outputs",
+       .value = "DIR",
+       .help = "folder for the files that the command writes, as ID.EXTENSION; by default they are "
+               "not kept",
+       .target = &o.outputs,
+       .offer = Offer::kAnyFile},
+      {.name = "shard",
+       .value = "I/N",
+       .help = "process only the rows I, I + N, I + 2 N, ... of the manifest",
+       .target = &o.shard},
+      {.name = "merge", .help = "join the results of all shards", .target = &o.merge},
+      {.name = "restart", .help = "ignore the results of an interrupted run", .target = &o.restart},
+      {.name = "no-times",
+       .help = "leave out the columns that differ from run to run, so that the same shapes give "
+               "the same bytes",
+       .target = &o.no_times},
+      {.name = "coefficients",
+       .help = "CSV: write the coefficients too, with one column each; HDF5 always has them",
+       .target = &o.coefficients},
+      {.name = "raw-cells",
+       .help = "CSV: write texts unchanged; by default texts that a spreadsheet takes for formulas "
+               "(they begin with =, +, -, @ and are no numbers) get an apostrophe",
+       .target = &o.raw_cells},
+      {.name = "strict",
+       .help = "exit code 3 if a row failed, after all rows are written",
+       .target = &o.strict},
+      json_option(o.json)};
 }
 
 }  // namespace
@@ -199,21 +196,24 @@ Command batch_command() { return batch_command_by(run_rows); }
 Command batch_command_by(const RunRows& run_rows_here) {
   auto options = std::make_shared<BatchOptions>();
   return {.name = "batch",
-          .summary = "A command for many shapes, and a table of what it found",
+          .summary = "Run a command for many shapes and collect a table",
           .description =
-              "Runs a command for every shape of a manifest, and writes one row for each: its id, "
-              "path and other columns of the manifest, the exit code and message, the time, and "
-              "all that the command reports, names within names joined by dots. Where it makes "
-              "coefficients, they, their energy per degree, and " +
+              "Runs a command for each shape of a manifest and writes one row for each. A row has "
+              "the columns of the manifest, the exit code, the message, the time, and all values "
+              "of the report. A shape that fails has a row with its exit code and message, and the "
+              "others continue.\n\nNested names are joined by dots. For coefficients the row also "
+              "has the coefficients, their energy per degree, and " +
               descriptor_names() +
-              " of their surface are in the row as well. A shape that "
-              "is missing or broken is a row with an exit code and a message, and the others go "
-              "on; the exit code of the batch is 0 when all rows are done.\n\nRows that are done "
-              "are kept in OUT.journal until all are: the same command after an interruption, or a "
-              "crash, does the others only. Several machines share the work by --shard, and "
-              "--merge joins what they found.\n\nSmall files are taken one on each thread, large "
-              "ones one after the other on all. Values do not depend on it.",
-          .options = option_list(*options),
+              " of their surface. The exit code is 0 when all rows are done.\n\nFinished rows are "
+              "kept in OUT.journal until the end. After an interruption the same command processes "
+              "only the missing rows. Several machines share the work by --shard, and --merge "
+              "joins their results.\n\nSmall files are processed one per thread, and large files "
+              "one after the other on all threads. The values do not depend on it.",
+          .options = in_groups(
+              option_list(*options),
+              {{Group::kData, {"command", "shard", "merge"}},
+               {Group::kOutput, {"outputs"}},
+               {Group::kAdvanced, {"restart", "no-times", "coefficients", "raw-cells", "strict"}}}),
           .examples = {"rholm batch shapes.csv -o results.h5 -- --degree 16",
                        "rholm batch shapes.csv --command info -o info.csv",
                        "rholm batch shapes.csv --shard 1/2 -o part-1.h5 -- --degree 16",

@@ -53,8 +53,8 @@ int run(const Options& options, Session& session) {
   }
   if (duplicates > 0) {
     session.warn(
-        fmt::format("{} of {} faces are duplicates, with the same three vertices as "
-                    "others: 'rholm repair' drops them",
+        fmt::format("{} of {} faces are duplicates: they have the same three vertices as other "
+                    "faces. Remove them with 'rholm repair'",
                     duplicates, prepared.mesh.triangles.size()));
   }
   return report.star_shaped ? kDone : kRefused;
@@ -65,23 +65,25 @@ int run(const Options& options, Session& session) {
 Command center_command() {
   auto options = std::make_shared<Options>();
   return {.name = "center",
-          .summary = "Whether a mesh is star-shaped, and its best centre",
+          .summary = "Find the centre from which a mesh is star-shaped",
           .description =
-              "Finds the centre from which the whole surface is seen, and measures how well: min "
-              "d is the smallest distance from the centre to the plane of a face (negative if "
-              "the face is seen from behind), min cos gamma the smallest cosine between a face's "
-              "normal and the direction to one of its corners. Rays tell the share of directions "
-              "that meet the surface once, more than once, never.\n\nThe exit code is 0 for a "
-              "star-shaped mesh and 3 for one that is not; the report is given either way.",
-          .options = {{.name = "SHAPE",
-                       .help = "file of a closed mesh, or - for standard input",
-                       .target = &options->input,
-                       .required = true,
-                       .offer = Offer::kShapes},
-                      center_option(options->center),
-                      field_option_of(options->chart.center, "rays"),
-                      weld_option(options->weld),
-                      json_option(options->json)},
+              "Finds the centre from which the whole surface is visible, and measures how well it "
+              "is visible. The exit code is 0 for a star-shaped mesh and 3 for any other mesh. The "
+              "report is printed in both cases.\n\n'min d' is the smallest distance from the "
+              "centre to the plane of a face; it is negative if the face is seen from behind. 'min "
+              "cos gamma' is the smallest cosine between the normal of a face and the direction to "
+              "one of its corners. Rays give the shares of directions that meet the surface once, "
+              "more than once, and never.",
+          .options = in_groups({{.name = "SHAPE",
+                                 .help = "file of a closed mesh, or - for standard input",
+                                 .target = &options->input,
+                                 .required = true,
+                                 .offer = Offer::kShapes},
+                                center_option(options->center),
+                                field_option_of(options->chart.center, "rays"),
+                                weld_option(options->weld),
+                                json_option(options->json)},
+                               {{Group::kData, {"center"}}}),
           .examples = {"rholm center bumpy.ply", "rholm center bumpy.ply --center cosine --json"},
           .run = [options](Session& session) { return run(*options, session); },
           .per_shape = PerShape{}};

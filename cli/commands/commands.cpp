@@ -20,16 +20,16 @@ std::span<Command (*const)()> command_makers() { return kMakers; }
 
 ProgramText rholm_text() {
   return {.name = "rholm",
-          .summary = "spherical harmonics of 3D objects, from a mesh to coefficients and back",
+          .summary = "spherical harmonics of 3D shapes, from a mesh to coefficients and back",
           .usage = "COMMAND ... [--threads N] [--quiet]",
           .examples = {"rholm make bumpy -o bumpy.ply",
                        "rholm expand bumpy.ply --degree 32 -o bumpy.h5",
                        "rholm synthesize bumpy.h5 --degree 4,16,32 -o smooth.ply"},
           .description =
-              "Turns closed triangle meshes into coefficients of spherical harmonics, exactly and "
-              "with an error that is known, and coefficients into meshes, pictures and reports. A "
-              "file named - is standard input or output; standard output needs --format. Data and "
-              "reports go to standard output, everything else to standard error."};
+              "Computes the spherical harmonics of closed meshes exactly and with a known error, "
+              "and makes meshes, pictures and reports from coefficients. A file named - is "
+              "standard input or standard output; standard output needs --format. Data and reports "
+              "go to standard output, and all other messages to standard error."};
 }
 
 std::vector<Command> all_commands() {

@@ -116,8 +116,8 @@ std::optional<Comparison> compare_large(const Options& options, const CompareBy&
   Place b{.mapped = mapped_mesh(options.b, session), .mesh = {}};
   if (!a.mapped && !b.mapped) {
     session.note(
-        fmt::format("some {:.2g} GiB are needed: only meshes of triangles in a binary "
-                    "PLY are compared where they lie",
+        fmt::format("about {:.2g} GiB are needed; only meshes of triangles in a binary PLY file "
+                    "can be compared without a copy in memory",
                     needed / 0x1p30));
     return {};
   }
@@ -180,14 +180,13 @@ std::vector<Option> option_list(Options& o, bool in_place) {
                   .offer = Offer::kShapesAndCoefficients};
   };
   std::vector<Option> list = {
-      surface("A", "the surface to measure against: a mesh, or coefficients", o.a),
-      surface("B", "the other surface", o.b)};
+      surface("A", "file of the first surface: a mesh or coefficients", o.a),
+      surface("B", "file of the second surface", o.b)};
   append(list, field_options(o.compare));
   list.push_back({.name = "subdivisions",
                   .value = "N",
-                  .help =
-                      "icosphere on which coefficients are sampled; by default the smallest N of 5 "
-                      "... 8 with 16 (L+1)^2 vertices",
+                  .help = "subdivisions of the icosphere that samples coefficients; by default the "
+                          "smallest N from 5 to 8 with 16 (L+1)^2 vertices",
                   .target = &o.subdivisions,
                   .min = 0,
                   .max = 12});
@@ -213,21 +212,25 @@ Command compare_command() {
 Command compare_command_by(const CompareBy& by) {
   auto options = std::make_shared<Options>();
   const bool in_place = static_cast<bool>(by.compare_in_place);
-  return {.name = "compare",
-          .summary = "How far two surfaces lie apart",
-          .description =
-              "Distances from random points of each surface, evenly spread over its area, to the "
-              "exact closest points of the other: rms, mean and largest, in the shape's unit and "
-              "as fractions of the diagonal of A's bounding box; the angle between oriented "
-              "normals; the F-score, the harmonic mean of the shares of points within a "
-              "threshold.\n\nThe largest distance is a lower bound of the Hausdorff distance." +
-              std::string(in_place ? "\n\nBinary PLY meshes that need more than --max-memory are "
-                                     "compared where they lie, with the same result."
-                                   : ""),
-          .options = option_list(*options, in_place),
-          .examples = {"rholm compare bumpy.ply bumpy.h5",
-                       "rholm compare bumpy.ply smooth.ply --samples 300000 --seed 7 --json"},
-          .run = [options, by](Session& session) { return run(*options, by, session); }};
+  return {
+      .name = "compare",
+      .summary = "Measure the distance between two surfaces",
+      .description =
+          "Measures distances from random points of each surface to the closest points of the "
+          "other one. The report has the rms, mean and largest distance, the angle between "
+          "normals, and the F-score.\n\nThe points are spread evenly over the area, and the "
+          "closest points are exact. Distances are in the unit of the shape and as fractions of "
+          "the diagonal of the bounding box of A. The largest distance is a lower bound of the "
+          "Hausdorff distance. The F-score is the harmonic mean of the two shares of points within "
+          "a threshold." +
+          std::string(in_place ? "\n\nBinary PLY meshes that need more memory than --max-memory "
+                                 "are read in place, with the same result."
+                               : ""),
+      .options = in_groups(option_list(*options, in_place),
+                           {{Group::kAccuracy, {"samples"}}, {Group::kAdvanced, {"subdivisions"}}}),
+      .examples = {"rholm compare bumpy.ply bumpy.h5",
+                   "rholm compare bumpy.ply smooth.ply --samples 300000 --seed 7 --json"},
+      .run = [options, by](Session& session) { return run(*options, by, session); }};
 }
 
 }  // namespace rholm::cli

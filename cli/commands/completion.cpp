@@ -28,21 +28,22 @@ int run(const Options& options, const std::string& program, const std::vector<Co
 
 Command completion_command(const std::string& program, ListCommands commands) {
   auto options = std::make_shared<Options>();
-  return {.name = "completion",
-          .summary = "Completions for a shell",
-          .description = "Writes to standard output what makes a shell complete " + program +
-                         "'s commands, options and files. An installed " + program +
-                         " has brought them along; this is for one that runs from where it was "
-                         "built.",
-          .options = {{.name = "SHELL",
-                       .help = "bash, zsh or fish",
-                       .target = &options->shell,
-                       .required = true,
-                       .choices = {"bash", "zsh", "fish"}}},
-          .examples = {program + " completion bash > " + program + ".bash"},
-          .run = [options, program, commands = std::move(commands)](Session&) {
-            return run(*options, program, commands());
-          }};
+  return {
+      .name = "completion",
+      .summary = "Print the completion script of a shell",
+      .description =
+          "Prints a script that makes a shell complete the commands, options and files of " +
+          program + ". An installed " + program +
+          " includes the scripts; this command is for a program that was built and not installed.",
+      .options = {{.name = "SHELL",
+                   .help = "bash, zsh or fish",
+                   .target = &options->shell,
+                   .required = true,
+                   .choices = {"bash", "zsh", "fish"}}},
+      .examples = {program + " completion bash > " + program + ".bash"},
+      .run = [options, program, commands = std::move(commands)](Session&) {
+        return run(*options, program, commands());
+      }};
 }
 
 Command completion_command() { return completion_command("rholm", all_commands); }

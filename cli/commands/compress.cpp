@@ -53,16 +53,16 @@ void check_options(const Options& o) {
   if (by_integrals(o)) {
     if (!o.patches.has("degree") || o.tolerance) {
       throw UsageError(
-          "--fit integral needs the degree of the caps, --degree L, and no --tolerance");
+          "--fit integral needs --degree L, the degree of the caps, and excludes --tolerance");
     }
     if (o.caps.has("max_degree") || o.caps.has("max_numbers")) {
-      throw UsageError("--max-degree and --max-numbers do not go with --fit integral");
+      throw UsageError("--max-degree and --max-numbers do not apply to --fit integral");
     }
     return;
   }
-  if (!o.tolerance) throw UsageError("--tolerance E is needed, or --fit integral --degree L");
+  if (!o.tolerance) throw UsageError("give --tolerance E, or --fit integral --degree L");
   if (!o.patches.names.empty()) {
-    throw UsageError("--degree and --extension go with --fit integral");
+    throw UsageError("--degree and --extension need --fit integral");
   }
 }
 
@@ -73,8 +73,8 @@ Mesh prepared_mesh(const Options& o, ShapeFile file, Session& session) {
   const Inspection state = inspect(mesh);
   if (state.misoriented_edges + state.duplicate_triangles > 0) {
     session.warn(
-        fmt::format("{}: faces have contradicting orientations at {} edges, {} faces are "
-                    "duplicates, and caps follow both sides: 'rholm repair' mends it",
+        fmt::format("{}: faces have opposite orientations at {} edges, {} faces are duplicates, "
+                    "and caps follow both sides; repair it with 'rholm repair'",
                     display_name(o.input), state.misoriented_edges, state.duplicate_triangles));
   }
   return std::move(mesh);
@@ -94,21 +94,21 @@ Compressed compress_shape(const Options& o, ShapeFile file, Session& session) {
   if (relative) options.tolerance *= bounds(mesh.vertices).diagonal();
   Compressed found = compress(mesh, options, session.context());
   if (found.report.hidden > 0) {
-    session.note(
-        fmt::format("{:.2g} % of the surface lies inside of the solid, where parts run "
-                    "into each other; it is left out",
-                    100 * found.report.hidden));
+    session.note(fmt::format(
+        "{:.2g} % of the surface is inside the solid, where parts intersect; it is left out",
+        100 * found.report.hidden));
   }
   if (found.report.aimed < options.tolerance && std::isfinite(found.report.gap)) {
-    session.note(fmt::format("sheets of the surface lie {} apart: caps are fitted within {}",
+    session.note(fmt::format("sheets of the surface are {} apart; caps are fitted within {}",
                              text_of(found.report.gap), text_of(found.report.aimed)));
   }
   if (!found.report.topology_kept) {
     const Inspection shape = inspect(mesh);
-    session.warn(fmt::format(
-        "the surface of the model has {} parts and {} handles (the shape {} and {}): some of it is "
-        "too thin or too small for these caps, or lies too close together",
-        found.report.components, found.report.genus, shape.components, shape.genus));
+    session.warn(
+        fmt::format("the surface of the model has {} parts and {} handles, and the shape has {} "
+                    "and {}. Some parts are too thin, too small or too close together for these "
+                    "caps; take a smaller tolerance",
+                    found.report.components, found.report.genus, shape.components, shape.genus));
   }
   return found;
 }
@@ -150,7 +150,7 @@ int run(const Options& options, Session& session) {
   check_options(options);
   const CoefficientsOutput output =
       coefficients_output(options.output, options.format, options.json);
-  if (output.format) throw UsageError("an atlas goes to a model file: -o NAME.h5");
+  if (output.format) throw UsageError("an atlas is written to a model file; use -o NAME.h5");
   check_writable(options.output);
 
   ShapeFile file = read_shape_input(options.input, session, options.columns);
@@ -168,8 +168,8 @@ int run(const Options& options, Session& session) {
   report(options, found.model, &found.report, session);
   if (!found.report.met) {
     throw Error(ErrorCode::kNotConverged,
-                fmt::format("the tolerance of {} is not kept by what was written: the distance is "
-                            "{} rms; take a smaller tolerance for more, finer caps",
+                fmt::format("the tolerance of {} is not reached: the distance is {} rms. The file "
+                            "is written; take a smaller tolerance for more caps",
                             text_of(found.model.tolerance), text_of(found.model.errors->rms())));
   }
   return 0;
@@ -178,15 +178,15 @@ int run(const Options& options, Session& session) {
 std::vector<Option> option_list(Options& o) {
   std::vector<Option> list = {
       {.name = "SHAPE",
-       .help = "file of a mesh, or of points with normals that point outwards; - for standard "
-               "input",
+       .help =
+           "file of a mesh, or of points with normals that point outwards, or - for standard input",
        .target = &o.input,
        .required = true,
        .offer = Offer::kShapes},
       {.name = "tolerance",
        .value = "E",
-       .help = "the largest rms distance between the surfaces, both ways; exit code 4 if it is not "
-               "kept",
+       .help = "largest rms distance between the two surfaces, measured both ways; exit code 4 if "
+               "it is not reached",
        .target = &o.tolerance,
        .above = 0},
       {.name = "unit",
@@ -200,11 +200,12 @@ std::vector<Option> option_list(Options& o) {
       weld_option(o.weld),
       length_unit_option(o.length_unit),
       columns_option(o.columns),
-      output_option(o.output, "model file of the atlas: .h5"),
+      output_option(o.output, "model file to write: .h5"),
       format_option(o.format, {"h5"}),
       {.name = "fit",
-       .help = "least-squares: the default; integral: the paper's way, to compare with: patches by "
-               "a kd-tree, integrals over their points to --degree",
+       .help =
+           "least-squares: caps fitted to the surface; integral: patches by a kd-tree and "
+           "integrals over their points up to --degree, for comparison; least-squares by default",
        .target = &o.fit,
        .choices = {"least-squares", "integral"}},
       field_option_of(o.patches, "degree", "with --fit integral, "),
@@ -219,14 +220,17 @@ std::vector<Option> option_list(Options& o) {
 Command compress_command() {
   auto options = std::make_shared<Options>();
   return {.name = "compress",
-          .summary = "From any shape to few large caps, a small model",
+          .summary = "Make a small model of any shape: an atlas of caps",
           .description =
-              "Makes a model of a mesh or of points with normals, star-shaped or not: as few large "
-              "caps as keep the tolerance. Each cap is a function on a sphere of its own, and all "
-              "of them are blended.\n\nThe error is the distance between the shape and the surface "
-              "that 'rholm synthesize' makes of the model, measured both ways. Where parts of a "
-              "closed mesh run into each other, the outer surface is taken.",
-          .options = option_list(*options),
+              "Makes a model of a mesh or of points with normals, star-shaped or not. The model "
+              "has few large caps that keep the tolerance. Each cap is a function on its own "
+              "sphere, and the caps are blended.\n\nThe error is the distance between the shape "
+              "and the surface that 'rholm synthesize' makes of the model, measured both ways. "
+              "Where parts of a closed mesh intersect, the outer surface is taken.",
+          .options = in_groups(option_list(*options),
+                               {{Group::kAccuracy, {"tolerance", "unit", "max-numbers"}},
+                                {Group::kAdvanced, {"length-unit"}},
+                                {Group::kPaper, {"fit", "degree", "extension"}}}),
           .examples = {"rholm compress bumpy.ply --tolerance 1e-2 --unit diagonal -o caps.h5",
                        "rholm compress bumpy.ply --fit integral --degree 8 -o patches.h5"},
           .run = [options](Session& session) { return run(*options, session); },

@@ -72,8 +72,8 @@ void convert_shape(const Options& options, const ShapeFile& file, Session& sessi
   if (is_one_of(wanted, coefficients_format_names()) &&
       (!options.format.empty() || !shape_format_of(options.output))) {
     throw UsageError(
-        fmt::format("{} is a shape and {} a format of coefficients: 'rholm expand {} "
-                    "--degree L -o {}' finds them",
+        fmt::format("{} is a shape, and {} is a format of coefficients; compute them with 'rholm "
+                    "expand {} --degree L -o {}'",
                     display_name(options.input), wanted, shell_word(options.input),
                     shell_word(options.output)));
   }
@@ -119,8 +119,8 @@ void convert_coefficients(const Options& options, const CoefficientsFile& file,
   const std::string wanted = named_format(options);
   if (is_one_of(wanted, shape_format_names())) {
     throw UsageError(
-        fmt::format("{} holds coefficients and {} is a format of shapes: 'rholm "
-                    "synthesize {} -o {}' makes their surface",
+        fmt::format("{} contains coefficients, and {} is a format of shapes; make a mesh with "
+                    "'rholm synthesize {} -o {}'",
                     display_name(options.input), wanted, shell_word(options.input),
                     shell_word(options.output)));
   }
@@ -198,17 +198,17 @@ std::optional<Input> rest_of_input(const Options& options, Session& session) {
 int run(const Options& options, Session& session) {
   const Convention convention = options.to.output_convention();
   if (options.output == "-" && options.format.empty()) {
-    throw UsageError("standard output has no extension: say --format");
+    throw UsageError("standard output has no extension; give --format");
   }
   if (options.gravity_constant.has_value() != options.reference_radius.has_value()) {
-    throw UsageError("--gravity-constant and --reference-radius belong together: give both");
+    throw UsageError("--gravity-constant and --reference-radius must be given together");
   }
   const std::string wanted = named_format(options);
   const bool has_room = is_one_of(wanted, coefficients_format_names()) && holds_meaning(wanted);
   if (options.gravity_constant && !wanted.empty() && !has_room) {
     throw UsageError(
-        fmt::format("--gravity-constant and --reference-radius are of coefficients, and "
-                    "'{}' has no room for them: write {}",
+        fmt::format("--gravity-constant and --reference-radius apply to coefficients, and '{}' has "
+                    "no room for them; write {}",
                     wanted, meaningful_extensions("or")));
   }
   check_writable(options.output);
@@ -232,7 +232,7 @@ std::vector<Option> option_list(Options& o) {
        .required = true,
        .offer = Offer::kShapesAndCoefficients},
       {.name = "OUT",
-       .help = "file to write; - for standard output, with --format",
+       .help = "file to write, or - for standard output with --format",
        .target = &o.output,
        .required = true,
        .offer = Offer::kAnyFile,
@@ -240,22 +240,21 @@ std::vector<Option> option_list(Options& o) {
   append(list, convention_options(o.to));
   append(list, input_convention_options(o.from));
   append(list, {{.name = "override",
-                 .help = "believe --input-normalization and --input-csphase even where the file "
-                         "says otherwise",
+                 .help = "use --input-normalization and --input-csphase even if the file states "
+                         "another convention",
                  .target = &o.from.override_file},
                 format_option(o.format, all_formats()),
                 {.name = "gravity-constant",
                  .value = "GM",
                  .help = fmt::format(
-                     "of the gravity field that the coefficients are of, in m^3/s^2: {} keep it, "
-                     "and other programs read it in .gfc; by default that of the input, if it has "
-                     "one",
+                     "gravity constant of the field of these coefficients, in m^3/s^2; by default "
+                     "the constant of the input. {} store it, and other programs read it from .gfc",
                      meaningful_extensions("and")),
                  .target = &o.gravity_constant,
                  .above = 0},
                 {.name = "reference-radius",
                  .value = "R",
-                 .help = "of the same field, in m; with --gravity-constant",
+                 .help = "reference radius of the same field, in m; with --gravity-constant",
                  .target = &o.reference_radius,
                  .above = 0},
                 ascii_option(o.ascii),
@@ -269,18 +268,21 @@ std::vector<Option> option_list(Options& o) {
 Command convert_command() {
   auto options = std::make_shared<Options>();
   return {.name = "convert",
-          .summary = "The same data in another format or convention",
+          .summary = "Convert a file to another format or convention",
           .description = fmt::format(
-              "Coefficients become coefficients: {}. Shapes become shapes: {}, with the "
-              "attributes the format has room for; what is left out is said. A mesh in a binary "
-              "PLY is written from where it lies, and points of a binary PLY, and those that need "
-              "more than --max-memory, as they are read, to PLY and XYZ.\n\nConventions are "
-              "those of the text, JSON and NumPy files; a model file is always orthonormal without "
-              "Condon-Shortley phase. Where an input does not say its convention, it is taken to "
-              "be that of --input-normalization and --input-csphase (4pi and 1 by default), and "
-              "what was assumed is said.",
+              "Converts a file of coefficients to another one ({}), or a file of a shape to "
+              "another one ({}). A note names attributes that the format has no room "
+              "for.\n\nConventions apply to text, JSON and NumPy files. A model file is always "
+              "orthonormal without Condon-Shortley phase. If an input does not state its "
+              "convention, --input-normalization and --input-csphase give it (4pi and 1 by "
+              "default), and a note states the assumption.\n\nA mesh in a binary PLY file is not "
+              "copied to memory. Points of a binary PLY file, and points that need more memory "
+              "than --max-memory, are written while they are read, to PLY and XYZ.",
               coefficients_list(), shape_extensions()),
-          .options = option_list(*options),
+          .options =
+              in_groups(option_list(*options),
+                        {{Group::kOutput, {"normalization", "csphase"}},
+                         {Group::kAdvanced, {"override", "gravity-constant", "reference-radius"}}}),
           .examples = {"rholm convert bumpy.h5 bumpy.sh --normalization schmidt",
                        "rholm convert bumpy.ply bumpy.obj"},
           .run = [options](Session& session) { return run(*options, session); }};

@@ -149,11 +149,12 @@ void check_room_to_read(std::uintmax_t bytes, const std::string& path, const Opt
     }
   }
   if (!refused) return;
-  throw Error(ErrorCode::kOutOfMemory,
-              fmt::format("{} cannot be worked through where it lies, and needs {}; only a binary "
-                          "PLY file of triangles that are closed, turned outwards and star-shaped "
-                          "can be larger than memory, with the method edge and without --weld",
-                          display_name(path), *refused));
+  throw Error(
+      ErrorCode::kOutOfMemory,
+      fmt::format("{} cannot be expanded without a copy in memory, and needs {}. Only a binary PLY "
+                  "file of triangles that are closed, oriented outwards and star-shaped can be "
+                  "larger than memory, with the method edge and without --weld",
+                  display_name(path), *refused));
 }
 
 // Encodes a stream. Input that does not fit in memory is kept in a file.
@@ -209,8 +210,8 @@ Expanded expand_input(const Options& options, const ExpandOptions& wanted, const
 void check_reached(const Options& options, const Expanded& expanded) {
   if (expanded.tolerance && !expanded.tolerance->met) {
     throw Error(ErrorCode::kNotConverged,
-                fmt::format("the tolerance of {} is not kept by degree {}, which was written: the "
-                            "error is {}; a higher --max-degree may do",
+                fmt::format("the tolerance of {} is not reached by degree {}: the error is {}. The "
+                            "file is written; try a higher --max-degree",
                             text_of(expanded.tolerance->allowed),
                             expanded.transform.expansion.coefficients.degree(),
                             text_of(expanded.tolerance->reached)));
@@ -218,8 +219,8 @@ void check_reached(const Options& options, const Expanded& expanded) {
   const std::optional<FastReport>& fast = expanded.transform.fast;
   if (!fast || fast->reached) return;
   throw Error(ErrorCode::kNotConverged,
-              fmt::format("the wanted precision of {} was not reached in what was written: the "
-                          "error is {}; --engine direct is slower and exact",
+              fmt::format("the wanted precision of {} is not reached: the error is {}. The file is "
+                          "written; --engine direct is slower and exact",
                           text_of(options.expand.values.precision), text_of(fast->error)));
 }
 
@@ -230,10 +231,10 @@ int run(const Options& options, const ExpandBy& by, Session& session) {
   options.memory.keep(session);
   const bool has_degree = degree_of(options).has_value();
   if (has_degree && options.tolerance.tolerance) {
-    throw UsageError("--degree L or --tolerance E: only one of the two can be kept");
+    throw UsageError("--degree and --tolerance exclude each other; give only one of the two");
   }
   if (!has_degree && !options.tolerance.tolerance) {
-    throw UsageError("--degree L or --tolerance E: one of the two is needed");
+    throw UsageError("give --degree L or --tolerance E");
   }
   if (options.method.starts_with(kMonteCarlo)) {
     const std::string places = options.method.substr(kMonteCarlo.size());
@@ -241,8 +242,8 @@ int run(const Options& options, const ExpandBy& by, Session& session) {
   }
   if (is_given_to_monte_carlo(options)) {
     throw UsageError(
-        "--samples, --deviation and --most-samples go with the methods "
-        "monte-carlo-edge and monte-carlo-triangle");
+        "--samples, --deviation and --most-samples need the method monte-carlo-edge or "
+        "monte-carlo-triangle");
   }
   const ExpandOptions wanted = expand_options(options);
   const CoefficientsOutput output =
@@ -259,9 +260,9 @@ int run(const Options& options, const ExpandBy& by, Session& session) {
   if (run.expanded.flipped) session.note(kFlipped);
   if (!run.expanded.star.star_shaped) {
     session.warn(
-        "the surface is not star-shaped: the coefficients are those of the signed sum of its "
-        "radii. They do not give back the body: its volume, area and errors do not follow from "
-        "them. 'rholm compress' makes a model that does");
+        "the surface is not star-shaped; the coefficients are those of the signed sum of its "
+        "radii. The volume, area and errors of the body do not follow from them; 'rholm compress' "
+        "makes a model of the body");
   }
   const Stopwatch writing;
   write_coefficients_output(run.expanded.transform.expansion, output, convention, session);
@@ -287,21 +288,22 @@ std::vector<std::string> method_names() {
 }
 
 std::vector<Option> transform_options(Options& o) {
-  return {{.name = "method",
-           .value = "METHOD",
-           .help = "edge (the default): the radius, over edges and faces; gauge: 1/radius, over "
-                   "edges alone; curl: the radius over edges alone, slow; area: the radius by "
-                   "plain cubature, for comparison; monte-carlo-edge, monte-carlo-triangle: by "
-                   "random points, with a deviation of each coefficient",
-           .target = &o.method,
-           .choices = method_names()},
-          field_option_of(o.expand, "engine"),
-          center_option(o.center),
-          field_option_of(o.chart, "signed"),
-          field_option_of(o.expand, "precision"),
-          {.name = "no-errors",
-           .help = "do not measure and predict the errors of the surface",
-           .target = &o.no_errors}};
+  return {
+      {.name = "method",
+       .value = "METHOD",
+       .help = "edge: the radius, by integrals over edges and faces; gauge: 1/radius, by integrals "
+               "over edges alone; curl: the radius, by integrals over edges alone, slow; area: the "
+               "radius, by cubature, for comparison; monte-carlo-edge, monte-carlo-triangle: "
+               "random points, with a standard deviation for each coefficient; edge by default",
+       .target = &o.method,
+       .choices = method_names()},
+      field_option_of(o.expand, "engine"),
+      center_option(o.center),
+      field_option_of(o.chart, "signed"),
+      field_option_of(o.expand, "precision"),
+      {.name = "no-errors",
+       .help = "skip the measurement and the prediction of the errors",
+       .target = &o.no_errors}};
 }
 
 // Returns the option without its default: a degree or a tolerance is required.
@@ -312,7 +314,7 @@ Option degree_option(Options& o) {
 }
 
 std::vector<Option> option_list(Options& o) {
-  const std::string random = "Monte Carlo: ";
+  const std::string random = "with a Monte Carlo method, ";
   std::vector<Option> list = {{.name = "SHAPE",
                                .help = "file of a closed mesh, or - for standard input",
                                .target = &o.input,
@@ -349,35 +351,35 @@ Command expand_command() {
 
 Command expand_command_by(const ExpandBy& by) {
   auto options = std::make_shared<Options>();
-  return {
-      .name = "expand",
-      .summary = "From a mesh to its coefficients",
-      .description =
-          "Expands the radius of a star-shaped mesh (or 1/radius, with --method gauge) in "
-          "real spherical harmonics. The mesh is the surface, exactly: no grid, no "
-          "resampling; the number of quadrature nodes follows from --precision and the size "
-          "of the edges.\n\nThe error of the surface is measured and predicted, and kept in the "
-          "model. With --tolerance the smallest degree is found whose error is small "
-          "enough.\n\nIdentical vertices are joined, a mesh that is inside out is "
-          "turned, and said. A mesh that is not star-shaped is refused with exit code 3: "
-          "'rholm compress' makes a model of any shape. With --signed it is expanded nevertheless: "
-          "along "
-          "each direction the radii at which the surface faces outwards count as they are, those "
-          "at which it faces inwards negative. The sum is what the integrals over the mesh give, "
-          "and says how alike two such surfaces are; volume, area and errors of the body do not "
-          "follow from it.\n\nThe model file keeps all there is "
-          "to know; of the "
-          "other formats the header says what it can, and the numbers are 4-pi normalised "
-          "without Condon-Shortley phase unless told otherwise.",
-      .options = option_list(*options),
-      .examples = {"rholm expand bumpy.ply --degree 32 -o bumpy.h5",
-                   "rholm expand bumpy.ply --tolerance 1e-3 --unit diagonal --norm max -o "
-                   "bumpy.h5",
-                   "rholm expand bumpy.ply --degree 8 --format shtools -o -"},
-      .run = [options, by](Session& session) { return run(*options, by, session); },
-      .if_not_star =
-          "'rholm compress' makes a model of any shape; --center auto looks for a centre",
-      .per_shape = PerShape{.extension = "h5"}};
+  return {.name = "expand",
+          .summary = "Compute the coefficients of a star-shaped mesh",
+          .description =
+              "Expands the radius of a star-shaped closed mesh in real spherical harmonics. The "
+              "integrals are over the mesh itself, without a grid and without resampling. Give "
+              "--degree, or --tolerance to find the smallest degree that is accurate "
+              "enough.\n\nThe error of the surface is measured and predicted, and stored in the "
+              "model file. The number of quadrature nodes follows from --precision and the size of "
+              "the edges. Identical vertices are joined. A mesh that is inside out is turned, with "
+              "a note.\n\nA mesh that is not star-shaped is refused with exit code 3; 'rholm "
+              "compress' makes a model of any shape. With --signed such a mesh is expanded "
+              "nevertheless. In each direction the radii count as positive where the surface faces "
+              "outwards, and as negative where it faces inwards. Their sum is the result of the "
+              "integrals over the mesh, and can compare two such surfaces. Volume, area and errors "
+              "of the body do not follow from it.\n\nA model file (.h5) stores everything. The "
+              "headers of the other formats store what they have room for. Their numbers are 4-pi "
+              "normalised without Condon-Shortley phase by default.",
+          .options = in_groups(
+              option_list(*options),
+              {{Group::kAdvanced, {"center", "length-unit", "no-errors"}},
+               {Group::kAccuracy, {"degree", "tolerance", "unit"}},
+               {Group::kPaper, {"method", "samples", "deviation", "most-samples", "seed"}}}),
+          .examples = {"rholm expand bumpy.ply --degree 32 -o bumpy.h5",
+                       "rholm expand bumpy.ply --tolerance 1e-3 --unit diagonal --norm max -o "
+                       "bumpy.h5",
+                       "rholm expand bumpy.ply --degree 8 --format shtools -o -"},
+          .run = [options, by](Session& session) { return run(*options, by, session); },
+          .if_not_star = "Try --center auto, or make a model of any shape with 'rholm compress'",
+          .per_shape = PerShape{.extension = "h5"}};
 }
 
 }  // namespace rholm::cli

@@ -19,16 +19,17 @@ namespace {
 
 MonteCarloOptions monte_carlo_options(const ExpandCommandOptions& options, SamplePlaces places) {
   const std::optional<int> degree = degree_of(options);
-  if (!degree) throw UsageError("Monte Carlo needs --degree: it has no --tolerance");
+  if (!degree) throw UsageError("a Monte Carlo method needs --degree L, and excludes --tolerance");
   const Given<ExpandOptions>& transform = options.expand;
   if ((transform.has("engine") && transform.values.engine == Engine::kFast) ||
       transform.has("precision")) {
     throw UsageError(
-        "Monte Carlo is direct and has a --deviation, no --engine fast, no --precision");
+        "a Monte Carlo method is direct; it excludes --engine fast and --precision, and has "
+        "--deviation");
   }
   const Given<MonteCarloOptions>& given = options.monte_carlo;
   if (given.has("samples") && (given.has("deviation") || given.has("most_samples"))) {
-    throw UsageError("--samples is a fixed number: without --deviation and --most-samples");
+    throw UsageError("--samples, a fixed number, excludes --deviation and --most-samples");
   }
   MonteCarloOptions wanted = given.values;
   wanted.degree = *degree;
@@ -98,8 +99,8 @@ int expand_by_monte_carlo(const ExpandCommandOptions& options, SamplePlaces plac
   }
   if (!found.reached) {
     throw Error(ErrorCode::kNotConverged,
-                fmt::format("the wanted deviation was not reached with {} points each, which were "
-                            "written: it is {}; more --most-samples may do",
+                fmt::format("the wanted deviation is not reached with {} points each: it is {}. "
+                            "The file is written; try a larger --most-samples",
                             found.samples, text_of_deviation(found)));
   }
   return 0;

@@ -78,11 +78,11 @@ void check_usage(const Options& o) {
   const std::optional<NamedParameter> given = given_for_cutoff(o);
   if (given && o.window_name != given->window.name) {
     throw UsageError(
-        fmt::format("--{} goes with --window {}", given->parameter.name, given->window.name));
+        fmt::format("--{} needs --window {}", given->parameter.name, given->window.name));
   }
   if (given && (o.low_pass || o.high_pass || !o.band.empty())) {
     throw UsageError(
-        fmt::format("--{} says how strong the {} window is, a degree does too: give one",
+        fmt::format("--{} and a degree both set the strength of the {} window; give one",
                     given->parameter.name, given->window.name));
   }
   const int wanted = given.has_value() + o.low_pass.has_value() + o.high_pass.has_value() +
@@ -92,11 +92,10 @@ void check_usage(const Options& o) {
     for (const auto& [window, parameter] : parameters_for_cutoff()) {
       ways += fmt::format(", or --window {} --{}", window.name, parameter.name);
     }
-    throw UsageError(
-        fmt::format("one of --low-pass, --high-pass, --band, --gain{}, is needed", ways));
+    throw UsageError(fmt::format("give one of --low-pass, --high-pass, --band, --gain{}", ways));
   }
   if (o.sharpen && !(given || o.low_pass)) {
-    throw UsageError("--sharpen goes with --low-pass, which says from which degree on");
+    throw UsageError("--sharpen needs --low-pass, the first degree to sharpen");
   }
 }
 
@@ -190,8 +189,9 @@ int run(const Options& options, Session& session) {
   const Expansion after = filter(before, wanted.gains, wanted.name);
   const Figures figures = figures_of(wanted, before, after, session);
   if (figures.smallest.value_or(1) <= 0) {
-    session.warn(fmt::format("the {} is {} somewhere: the surface crosses its centre",
-                             to_string(after.function), text_of(*figures.smallest)));
+    session.warn(fmt::format(
+        "the {} is {} in some direction, where the surface crosses its centre; try --window heat",
+        to_string(after.function), text_of(*figures.smallest)));
   }
   write_coefficients_output(after, output, convention, session);
   if (options.to.json) {
@@ -224,15 +224,17 @@ Option parameter_option(const WindowParameter& parameter, Options& o) {
           .target =
               std::visit([&](auto field) -> Target { return &(o.window.*field); }, parameter.field),
           .min = parameter.min,
-          .max = parameter.max};
+          .max = parameter.max,
+          .group = Group::kAdvanced};
 }
 
 // Returns --window, and the parameters of windows, each once.
 std::vector<Option> window_options_of(Options& o) {
-  Option window = {.name = "window",
-                   .value = "WINDOW",
-                   .help = fmt::format("how it falls from 1 to 0: {} (the default)", o.window_name),
-                   .target = &o.window_name};
+  Option window = {
+      .name = "window",
+      .value = "WINDOW",
+      .help = fmt::format("decay of the gain from 1 to 0: {} (the default)", o.window_name),
+      .target = &o.window_name};
   std::vector<Option> list;
   for (const WindowInfo& info : windows()) {
     window.choices.emplace_back(info.name);
@@ -257,7 +259,7 @@ std::vector<Option> filter_options(Options& o) {
        .max = kMaxDegree},
       {.name = "high-pass",
        .value = "L",
-       .help = "keep degrees from L on: all but what --low-pass L-1 keeps",
+       .help = "keep degrees from L on, and remove what --low-pass L-1 keeps",
        .target = &o.high_pass,
        .min = 1,
        .max = kMaxDegree},
@@ -268,18 +270,19 @@ std::vector<Option> filter_options(Options& o) {
        .check = parse_band},
       {.name = "gain",
        .value = "FILE",
-       .help = "gains from a text file: lines with a degree and a number; other degrees stay",
+       .help =
+           "text file of gains: lines with a degree and a factor; other degrees keep the factor 1",
        .target = &o.gain_file,
        .offer = Offer::kAnyFile}};
   append(list, window_options_of(o));
   append(list, {{.name = "sharpen",
                  .value = "A",
-                 .help = "add A times what the low-pass filter would take away",
+                 .help = "add A times the part that the low-pass filter removes",
                  .target = &o.sharpen,
                  .min = -1,
                  .max = 1000},
                 {.name = "keep-mean",
-                 .help = "leave degree 0 as it is, so that details lie on a sphere",
+                 .help = "keep degree 0 unchanged, so that details lie on a sphere",
                  .target = &o.keep_mean}});
   return list;
 }
@@ -306,22 +309,21 @@ std::string overshoots() {
 
 Command filter_command() {
   auto options = std::make_shared<Options>();
-  return {.name = "filter",
-          .summary = "Smooth or sharpen coefficients, degree by degree",
-          .description =
-              "Multiplies all coefficients of a degree by one factor, so that the result does not "
-              "depend on how the shape is turned. Detail of wavelength 2 pi/l radians belongs to "
-              "degree l.\n\nA sharp edge rings after a filter, the more the steeper the filter "
-              "falls. The report says by how much a step of the radius is overshot; at L = 64 it "
-              "is: " +
-              overshoots() +
-              ". The heat window also keeps a positive radius positive. What the model knew of its "
-              "errors is dropped.",
-          .options = option_list(*options),
-          .examples = {"rholm filter bumpy.h5 --low-pass 12 --window heat -o smooth.h5",
-                       "rholm filter bumpy.h5 --low-pass 8 --sharpen 0.5 --json -o sharp.h5"},
-          .run = [options](Session& session) { return run(*options, session); },
-          .per_shape = PerShape{.extension = "h5"}};
+  return {
+      .name = "filter",
+      .summary = "Smooth or sharpen coefficients, degree by degree",
+      .description =
+          "Multiplies the coefficients of each degree by one factor. The result does not depend on "
+          "the orientation of the shape. Degree l has detail of wavelength 2 pi/l radians. Stored "
+          "errors of the model are dropped.\n\nA steep filter causes ringing at sharp edges. The "
+          "report gives the overshoot at a step of the radius. At L = 64 it is: " +
+          overshoots() + ". The heat window keeps a positive radius positive.",
+      .options = in_groups(option_list(*options), {{Group::kAccuracy, {"window"}},
+                                                   {Group::kAdvanced, {"gain", "keep-mean"}}}),
+      .examples = {"rholm filter bumpy.h5 --low-pass 12 --window heat -o smooth.h5",
+                   "rholm filter bumpy.h5 --low-pass 8 --sharpen 0.5 --json -o sharp.h5"},
+      .run = [options](Session& session) { return run(*options, session); },
+      .per_shape = PerShape{.extension = "h5"}};
 }
 
 }  // namespace rholm::cli

@@ -34,8 +34,9 @@ bool parse_line(std::string text, Line& line) {
   line.gain = std::strtod(gain.c_str(), &end_of_gain);
   if (gain.empty() || !more.empty() || *end_of_degree != 0 || *end_of_gain != 0 || l < 0 ||
       l > kMaxDegree || !std::isfinite(line.gain)) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("a line must be a degree from 0 to {} and a finite gain", kMaxDegree));
+    throw Error(
+        ErrorCode::kInvalidInput,
+        fmt::format("a line must have a degree within 0 ... {} and a finite gain", kMaxDegree));
   }
   line.degree = static_cast<int>(l);
   return true;
@@ -63,7 +64,7 @@ std::vector<double> read_gains(const std::string& path, int degree) {
     any = true;
     if (line.degree > degree) continue;
     if (named[line.degree]) {
-      throw Error(ErrorCode::kInvalidInput, fmt::format("{}, line {}: degree {} has a gain already",
+      throw Error(ErrorCode::kInvalidInput, fmt::format("{}, line {}: degree {} already has a gain",
                                                         path, number, line.degree));
     }
     named[line.degree] = true;
@@ -72,9 +73,11 @@ std::vector<double> read_gains(const std::string& path, int degree) {
   if (file.bad()) throw Error(ErrorCode::kIo, fmt::format("{} cannot be read", path));
   if (!file.eof()) {
     throw Error(ErrorCode::kInvalidInput,
-                fmt::format("{} has a line of more than {} letters", path, kMaxLine));
+                fmt::format("{} has a line of more than {} characters", path, kMaxLine));
   }
-  if (!any) throw Error(ErrorCode::kInvalidInput, fmt::format("{} names no gain", path));
+  if (!any)
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{} contains no gain; write lines with a degree and a factor", path));
   return gains;
 }
 

@@ -104,9 +104,9 @@ std::string manifold_text(const Inspection& i) {
 
 // Areas and volumes of shapes of size 1e150 or 1e-150 are outside the range of doubles.
 std::string measure_text(double value, bool must_differ_from_zero) {
-  if (std::isinf(value)) return "beyond 1.8e308, the largest number: take another unit of length";
+  if (std::isinf(value)) return "above 1.8e308, the largest number; use another unit of length";
   if (value == 0 && must_differ_from_zero) {
-    return "below 4.9e-324, the smallest number: take another unit of length";
+    return "below 4.9e-324, the smallest number; use another unit of length";
   }
   return text_of(value);
 }
@@ -116,14 +116,14 @@ std::string advice_text(const MeshReport& report) {
   const Inspection& i = report.inspection;
   std::string text;
   if (report.closes_at) {
-    text += line("borders", fmt::format("lie within {0:.2g} of each other: --weld {0:.2g} joins "
-                                        "them",
-                                        *report.closes_at));
+    text +=
+        line("borders", fmt::format("are within {0:.2g} of each other; --weld {0:.2g} joins them",
+                                    *report.closes_at));
   }
   const bool damaged = i.boundary_edges + i.non_manifold_edges + i.non_manifold_vertices +
                            i.misoriented_edges + i.degenerate_triangles + i.duplicate_triangles >
                        0;
-  if (damaged && i.triangles > 0) text += line("mended by", "rholm repair");
+  if (damaged && i.triangles > 0) text += line("repair with", "rholm repair");
   return text;
 }
 
@@ -229,7 +229,7 @@ int report_shape(const Options& options, const ShapeFile& file) {
 }
 
 std::string survey_text(const MeshView& mesh, const MeshSurvey& survey, double needed) {
-  const auto gib = fmt::format("not looked at: some {:.2g} GiB would be needed", needed / 0x1p30);
+  const auto gib = fmt::format("unknown: about {:.2g} GiB are needed", needed / 0x1p30);
   return line("vertices", fmt::format("{}", mesh.n_vertices)) +
          line("faces", fmt::format("{}", mesh.n_triangles)) +
          line("closed", survey.closed ? "yes" : "no, or not oriented, or its vertices not joined") +
@@ -359,7 +359,7 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   const std::string convention = fmt::format(
       "{}, csphase {}", to_string(file.convention.normalization), file.convention.csphase);
   const auto [measures, why_not] = measures_of(expansion, session.context());
-  if (!why_not.empty()) session.note(fmt::format("no volume and area: {}", why_not));
+  if (!why_not.empty()) session.note(fmt::format("volume and area are unknown: {}", why_not));
   Json json;
   json["file"] = options.input;
   json["kind"] = "coefficients";
@@ -405,7 +405,7 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   }
   if (expansion.signed_sum) {
     text += line("signed sum", "of a surface that is not star-shaped");
-    text += line("volume, area", "not known: those of the sum are not the body's");
+    text += line("volume, area", "unknown: the values of the sum are not those of the body");
   }
   text += expansion.errors ? errors_text(*expansion.errors) : unmeasured_text(expansion);
   options.json ? print_json(json) : print_text(text);
@@ -431,7 +431,7 @@ int run(const Options& options, Session& session) {
 std::vector<Option> option_list(Options& o) {
   std::vector<Option> list = {
       {.name = "SHAPE",
-       .help = "file of a shape or of coefficients, or - for standard input",
+       .help = "file of a mesh, of points or of coefficients, or - for standard input",
        .target = &o.input,
        .required = true,
        .offer = Offer::kShapesAndCoefficients},
@@ -448,20 +448,18 @@ std::vector<Option> option_list(Options& o) {
 Command info_command() {
   auto options = std::make_shared<Options>();
   return {.name = "info",
-          .summary = "What a file holds: a mesh, points or coefficients",
+          .summary = "Describe a file: a mesh, points or coefficients",
           .description =
-              "Says what is in a file and whether it is fit for more: of a mesh whether it is "
-              "closed, manifold and consistently oriented, its components, genus, area and "
-              "volume; of points their number and whether they have normals; of coefficients "
-              "degree, centre, convention, and " +
+              "Prints what a file contains and what can be done with it. For a mesh: whether it is "
+              "closed, manifold and oriented, its components, genus, area and volume. For points: "
+              "their number and whether they have normals. For coefficients: degree, centre, "
+              "convention, and " +
               descriptor_names() +
-              " of the surface. The content decides what a file is, not its name."
-              "\n\nA binary PLY mesh that needs more than --max-memory is looked at where it lies, "
-              "which says "
-              "nothing of its topology but whether it is closed."
-              "\n\nA mesh that is open or inside out is information, not an error: the exit code "
-              "is 0.",
-          .options = option_list(*options),
+              " of the surface.\n\nThe content of the file decides its kind, and its name does not "
+              "matter. An open mesh or one that is inside out is no error: the exit code is "
+              "0.\n\nA binary PLY mesh that needs more memory than --max-memory is read in place. "
+              "Its topology is then left out, except whether it is closed.",
+          .options = in_groups(option_list(*options), {{Group::kData, {"weld"}}}),
           .examples = {"rholm info bumpy.ply", "rholm info bumpy.ply --json"},
           .run = [options](Session& session) { return run(*options, session); },
           .per_shape = PerShape{}};

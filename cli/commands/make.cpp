@@ -39,7 +39,7 @@ constexpr int kDefaultSubdivisions = 5;  // 10 242 vertices: smooth to look at, 
 void check_options(const Options& o) {
   const auto only_for = [&](bool given, const char* option, std::vector<std::string> kinds) {
     if (!given || std::find(kinds.begin(), kinds.end(), o.kind) != kinds.end()) return;
-    throw UsageError(fmt::format("a {} has no {}", o.kind, option));
+    throw UsageError(fmt::format("{1} does not apply to '{0}'", o.kind, option));
   };
   only_for(o.subdivisions.has_value(), "--subdivisions", {"sphere", "ellipsoid", "bumpy"});
   only_for(!o.axes.empty(), "--axes", {"ellipsoid"});
@@ -61,9 +61,10 @@ Vec3 parse_edges(const std::string& option, const std::string& text) {
 std::vector<double> parse_radii(const std::string& option, const std::string& text) {
   std::vector<double> radii = parse_positive(option, text, 2);
   if (radii[0] > radii[1]) return radii;
-  throw UsageError(fmt::format(
-      "{} is '{}'; the radius of the centre line must be above that of the tube, as in 1,0.4",
-      option, text));
+  throw UsageError(
+      fmt::format("{} is '{}'; the first radius, of the centre line, must be larger than the "
+                  "radius of the tube, for example 1,0.4",
+                  option, text));
 }
 
 std::array<int, 2> parse_segments(const std::string& option, const std::string& text) {
@@ -120,14 +121,14 @@ int run(const Options& options, Session& session) {
 std::vector<Option> option_list(Options& o) {
   std::vector<Option> options = {
       {.name = "KIND",
-       .help = "sphere, ellipsoid, box, torus, bumpy, or sample: random points on MESH",
+       .help = "sphere, ellipsoid, box, torus, bumpy, or sample for random points of MESH",
        .target = &o.kind,
        .required = true,
        .choices = {"sphere", "ellipsoid", "box", "torus", "bumpy", "sample"}},
       sample_operand(o.sample),
       {.name = "subdivisions",
        .value = "N",
-       .help = "of sphere, ellipsoid, bumpy: 10 4^N + 2 vertices; 5 by default",
+       .help = "for sphere, ellipsoid and bumpy: number of vertices, 10 4^N + 2; 5 by default",
        .target = &o.subdivisions,
        .min = 0,
        .max = 12},
@@ -143,39 +144,39 @@ std::vector<Option> option_list(Options& o) {
        .check = parse_edges},
       {.name = "cells",
        .value = "N",
-       .help = "squares per edge of the box; 1 by default",
+       .help = "squares along each edge of the box; 1 by default",
        .target = &o.cells,
        .min = 1,
        .max = 4096},
       {.name = "radii",
        .value = "R,r",
-       .help = "of the torus: centre line and tube; 1,0.4 by default",
+       .help = "radii of the torus: centre line and tube; 1,0.4 by default",
        .target = &o.radii,
        .check = parse_radii},
       {.name = "segments",
        .value = "NxM",
-       .help = "of the torus: around the axis and around the tube; 96x48 by default",
+       .help = "faces of the torus around its axis and around its tube; 96x48 by default",
        .target = &o.segments,
        .check = parse_segments},
       {.name = "amplitude",
        .value = "A",
-       .help = "height of the bumps, 0 ... 0.99; 0.2 by default",
+       .help = "height of the bumps of bumpy; 0.2 by default",
        .target = &o.amplitude,
        .min = 0,
        .max = 0.99},
       {.name = "seed",
        .value = "S",
-       .help = "which bumps, which points; 1 by default",
+       .help = "seed of the random bumps or points; 1 by default",
        .target = &o.seed,
        .min = 0},
       {.name = "translate",
        .value = "X,Y,Z",
-       .help = "move the shape; it is centred at the origin, or where MESH is, otherwise",
+       .help = "vector by which the shape is moved; 0,0,0 by default",
        .target = &o.translate,
        .check = parse_vector}};
   for (Option& option : sample_options(o.sample)) options.push_back(std::move(option));
   options.push_back(output_option(
-      o.output, fmt::format("to write: {}; - for standard output", extensions_by_holding())));
+      o.output, fmt::format("file to write: {}; - for standard output", extensions_by_holding())));
   options.push_back(format_option(o.format, shape_format_names()));
   options.push_back(ascii_option(o.ascii));
   return options;
@@ -187,17 +188,20 @@ Command make_command() {
   auto options = std::make_shared<Options>();
   return {
       .name = "make",
-      .summary = "Shapes with a known answer, to try things on",
+      .summary = "Make a test shape or sample points from a mesh",
       .description =
-          "Writes a closed mesh, its faces counter-clockwise from outside: the unit sphere, "
-          "an ellipsoid, a box, a torus (which is not star-shaped), or a bumpy sphere "
-          "(which is).\n\n'make sample MESH' writes points instead, as a scanner might give "
-          "them: random on the surface, uniform by area, or in the rows of a --pattern, or what "
-          "--scans scanners around it see; with the normals of the faces; on demand with "
-          "errors, gaps and density that varies, all of them random numbers of "
-          "--seed. Colours and other attributes of MESH are interpolated. Lengths are parts of "
-          "the diagonal of the bounding box of MESH.",
-      .options = option_list(*options),
+          "Writes a closed mesh with a known shape: a unit sphere, an ellipsoid, a box, a torus "
+          "(not star-shaped) or a bumpy sphere (star-shaped). 'make sample MESH' writes points of "
+          "a mesh instead, as a scanner would measure them.\n\nThe sampled points are random and "
+          "uniform by area, or in the rows of a --pattern, or as --scans scanners around the mesh "
+          "see them. They have the normals of the faces. Noise, gaps and variable density are "
+          "random numbers of --seed. Colours and other attributes of the mesh are interpolated. "
+          "Lengths are fractions of the diagonal of its bounding box.",
+      .options =
+          in_groups(option_list(*options), {{Group::kAccuracy, {"subdivisions", "points"}},
+                                            {Group::kAdvanced,
+                                             {"seed", "translate", "cells", "radii", "segments",
+                                              "holes", "largest-component", "no-normals"}}}),
       .examples = {"rholm make bumpy -o bumpy.ply",
                    "rholm make ellipsoid --axes 3,2,1 --subdivisions 6 -o ellipsoid.ply",
                    "rholm make sample bumpy.ply --points 20000 --noise 0.002 -o points.ply",

@@ -20,38 +20,41 @@ std::vector<double> parse_holes(const std::string& option, const std::string& te
       values[1] <= 1) {
     return values;
   }
-  throw UsageError(fmt::format(
-      "{} is '{}'; it must be a whole number 0 ... 1000 and a radius 0 ... 1", option, text));
+  throw UsageError(
+      fmt::format("{} is '{}'; it must be a whole number within 0 ... 1000 and a radius within 0 "
+                  "... 1, for example 5,0.1",
+                  option, text));
 }
 
 }  // namespace
 
 Option sample_operand(SampleArguments& arguments) {
   return {.name = "MESH",
-          .help = "of sample: file of the mesh to take points of, or - for standard input",
+          .help = "for sample: file of the mesh, or - for standard input",
           .target = &arguments.mesh,
           .offer = Offer::kShapes};
 }
 
 std::vector<Option> sample_options(SampleArguments& a) {
   std::vector<Option> list = field_options(a.options);
-  append(list, {{.name = "holes",
-                 .value = "K,R",
-                 .help = "without points in K balls about random points of the surface, radius R "
-                         "of the diagonal",
-                 .target = &a.holes,
-                 .check = parse_holes},
-                {.name = "largest-component",
-                 .help = "of the part of MESH with the largest area only",
-                 .target = &a.largest_component},
-                {.name = "no-normals", .help = "points only", .target = &a.no_normals}});
-  for (Option& option : list) option.help = "of sample: " + option.help;
+  append(
+      list,
+      {{.name = "holes",
+        .value = "K,R",
+        .help = "leave out the points in K balls around random points of the surface, of radius R",
+        .target = &a.holes,
+        .check = parse_holes},
+       {.name = "largest-component",
+        .help = "use only the component of MESH with the largest area",
+        .target = &a.largest_component},
+       {.name = "no-normals", .help = "write points without normals", .target = &a.no_normals}});
+  for (Option& option : list) option.help = "for sample: " + option.help;
   return list;
 }
 
 void refuse_given(const SampleArguments& a, const std::string& kind) {
   const auto refuse = [&](bool given, const std::string& option) {
-    if (given) throw UsageError(fmt::format("a {} has no {}", kind, option));
+    if (given) throw UsageError(fmt::format("{1} does not apply to '{0}'", kind, option));
   };
   refuse(!a.mesh.empty(), "MESH");
   for_each_field<SampleOptions>([&](auto, const FieldInfo& info) {
@@ -69,18 +72,20 @@ PointCloud make_sample(const SampleArguments& a, std::uint64_t seed, Session& se
   options.normals = !a.no_normals;
   options.seed = seed;
   const bool rows = options.pattern != SamplePattern::kRandom;
-  if (!(norm(options.pattern_axis) > 0)) throw UsageError("--pattern-axis has no direction");
+  if (!(norm(options.pattern_axis) > 0))
+    throw UsageError("--pattern-axis is 0,0,0; it must be a direction");
   if (!rows && (a.options.has("pattern_ratio") || a.options.has("pattern_axis"))) {
-    throw UsageError("--pattern-ratio and --pattern-axis are those of a --pattern");
+    throw UsageError("--pattern-ratio and --pattern-axis need --pattern");
   }
   if (options.scans == 0) {
-    if (options.pattern == SamplePattern::kLines) throw UsageError("lines need --scans K");
+    if (options.pattern == SamplePattern::kLines)
+      throw UsageError("--pattern lines needs --scans K");
     if (a.options.has("misalignment") || a.options.has("scan_noise") || options.sensor) {
       throw UsageError("--misalignment, --scan-noise and --sensor need --scans K");
     }
   } else if (rows && options.pattern != SamplePattern::kLines) {
-    throw UsageError(
-        fmt::format("scans have lines or random points, no {}", to_string(options.pattern)));
+    throw UsageError(fmt::format("--scans needs the pattern random or lines, and --pattern is {}",
+                                 to_string(options.pattern)));
   }
   if (!a.holes.empty()) {
     const std::vector<double> holes = parse_holes("--holes", a.holes);

@@ -12,11 +12,11 @@ namespace rholm::cli {
 Command man_page_command(const std::string& program, PageOfDate page) {
   auto date = std::make_shared<std::string>("1970-01-01");
   return {.name = "man-page",
-          .summary = "Write the manual page",
-          .description = "Writes the manual page in troff's man macros to standard output.",
+          .summary = "Print the manual page",
+          .description = "Prints the manual page in the man macros of troff.",
           .options = {{.name = "date",
                        .value = "YYYY-MM-DD",
-                       .help = "the date it bears",
+                       .help = "date on the page",
                        .target = date.get()}},
           .examples = {program + " man-page --date 2000-01-01 | man -l -"},
           .run =

@@ -35,7 +35,7 @@ PointCloud points_of(ShapeFile file, const std::string& path, Session& session) 
   say_what_was_read(file, path, session);
   if (auto* cloud = std::get_if<PointCloud>(&file.shape)) return std::move(*cloud);
   Mesh mesh = std::get<Mesh>(std::move(file.shape));
-  session.note(fmt::format("{} is a mesh: its {} vertices are taken as points", display_name(path),
+  session.note(fmt::format("{} is a mesh; its {} vertices are used as points", display_name(path),
                            mesh.vertices.size()));
   std::erase_if(mesh.attributes, [](const Attribute& a) {
     return a.name == "nx" || a.name == "ny" || a.name == "nz";
@@ -66,7 +66,8 @@ std::string report_text(const OrientReport& report, bool by_sight, bool had_norm
 
 int run(const Options& options, Session& session) {
   const OrientOptions& wanted = options.orient;
-  if (wanted.center && wanted.sensor) throw UsageError("--center and --sensor exclude each other");
+  if (wanted.center && wanted.sensor)
+    throw UsageError("--center and --sensor exclude each other; give one of them");
   const ShapeFormat format = points_output(options.output, options.format, options.json);
   check_writable(options.output);
   PointCloud cloud =
@@ -86,8 +87,8 @@ int run(const Options& options, Session& session) {
   }
   if (report.unsure > kTooUnsure) {
     throw Error(ErrorCode::kNotConverged,
-                fmt::format("the side of {:.3g} % of the normals, which are written, is unsure; "
-                            "--center or --sensor decide it",
+                fmt::format("the orientation of {:.3g} % of the normals is uncertain; the file is "
+                            "written. Give --center or --sensor",
                             100 * report.unsure));
   }
   return 0;
@@ -113,20 +114,21 @@ std::vector<Option> option_list(Options& o) {
 Command orient_command() {
   auto options = std::make_shared<Options>();
   return {.name = "orient",
-          .summary = "Normals for points, all pointing outwards",
+          .summary = "Compute outward normals of points",
           .description =
-              "Fits a normal to the nearest neighbours of every point, as many as the noise of "
-              "the points asks for, between rows where points lie in rows, beside sharp edges to "
-              "those of one side. Signs are carried from neighbour to neighbour, and between parts "
-              "that do not touch decided by the winding number of the rest; where that says that "
-              "they are wrong, in thin or sparse places, by a field that all points share. "
-              "--center or --sensor decide them at once where one place sees all, and attributes "
-              "sensor_x, sensor_y, sensor_z where each point has been seen from its "
-              "own.\n\nThe report says how many components there are, how many normals are new or "
-              "turned round, and how sure their signs are: from 0 for a plane, which has no "
-              "inside, to 1. Points far from all others count as unsure. Colours and other "
-              "attributes stay as they are.",
-          .options = option_list(*options),
+              "Computes a normal for each point by a fit to its nearest neighbours, and orients "
+              "all normals outwards. The report says how many normals are new or reversed, and how "
+              "certain the orientation is.\n\nThe number of neighbours follows from the noise of "
+              "the points. Points in rows take neighbours from several rows, and points at sharp "
+              "edges take neighbours of one side. The orientation spreads from neighbour to "
+              "neighbour. Between separate components, the winding number decides. Where it "
+              "contradicts, in thin or sparse places, a field shared by all points decides. "
+              "--center and --sensor decide if one place sees the whole surface. The attributes "
+              "sensor_x, sensor_y, sensor_z give the sensor of each point.\n\nThe certainty is "
+              "between 0, for a plane, which has no inside, and 1. Points far from all others "
+              "count as uncertain. Colours and other attributes stay unchanged.",
+          .options = in_groups(option_list(*options), {{Group::kData, {"center", "sensor"}},
+                                                       {Group::kOutput, {"confidence"}}}),
           .examples = {"rholm orient points.ply -o oriented.ply",
                        "rholm orient points.ply --center 0,0,0 --json -o radial.ply"},
           .run = [options](Session& session) { return run(*options, session); },

@@ -108,40 +108,43 @@ int run(const Options& options, Session& session) {
 Command partition_command() {
   auto options = std::make_shared<Options>();
   Options& o = *options;
-  return {.name = "partition",
-          .summary = "The caps of a shape in colours",
-          .description =
-              "Covers a shape with few large caps, as 'rholm compress' does, and writes it "
-              "with each vertex in the colour of the cap of the largest weight there. Caps that "
-              "touch have different hues. With '--show degrees' the colour is that of the cap's "
-              "degree, from dark blue for the lowest to yellow for the highest.\n\n"
-              "The other views are of the patches of 'compress --fit integral', cut by a "
-              "kd-tree until normals stay within a cone: the points of each patch, joined by their "
-              "Delaunay triangles on its best-fitting sphere; these triangles, apart; or the same "
-              "on the spheres.",
-          .options = {{.name = "SHAPE",
-                       .help = "file of a mesh, or of points with normals, or - for standard input",
-                       .target = &o.input,
-                       .required = true,
-                       .offer = Offer::kShapes},
-                      {.name = "show",
-                       .help = "what is drawn; caps by default",
-                       .target = &o.show,
-                       .choices = {"caps", "degrees", "patches", "triangles", "spheres"}},
-                      columns_option(o.columns),
-                      {.name = "tolerance",
-                       .value = "E",
-                       .help = "rms distance of the caps, of the diagonal; 0.001 by default",
-                       .target = &o.tolerance,
-                       .above = 0},
-                      field_option_of(o.patches, "min_cosine"),
-                      output_option(o.output, "shape to write: .ply; - for standard output"),
-                      format_option(o.format, {"ply"}),
-                      json_option(o.json)},
-          .examples = {"rholm partition bumpy.ply --tolerance 1e-2 -o caps.ply",
-                       "rholm partition bumpy.ply --show spheres -o spheres.ply"},
-          .run = [options](Session& session) { return run(*options, session); },
-          .per_shape = PerShape{.extension = "ply"}};
+  return {
+      .name = "partition",
+      .summary = "Colour a shape by the caps of its model",
+      .description =
+          "Covers a shape with few large caps, as 'rholm compress' does, and writes it with a "
+          "colour for each cap. A vertex has the colour of the cap with the largest "
+          "weight.\n\nNeighbouring caps have different hues. With --show degrees the colour is the "
+          "degree of the cap, from dark blue for the lowest to yellow for the highest.\n\nThe "
+          "other views show the patches of 'compress --fit integral'. A kd-tree splits the shape "
+          "until the normals of each patch stay within a cone. Patches: the points of each patch, "
+          "joined by their Delaunay triangles on its best-fitting sphere. Triangles: these "
+          "triangles apart. Spheres: the triangles on the spheres.",
+      .options = in_groups(
+          {{.name = "SHAPE",
+            .help = "file of a mesh, or of points with normals, or - for standard input",
+            .target = &o.input,
+            .required = true,
+            .offer = Offer::kShapes},
+           {.name = "show",
+            .help = "what to draw; caps by default",
+            .target = &o.show,
+            .choices = {"caps", "degrees", "patches", "triangles", "spheres"}},
+           columns_option(o.columns),
+           {.name = "tolerance",
+            .value = "E",
+            .help = "rms distance of the caps, as a fraction of the diagonal; 0.001 by default",
+            .target = &o.tolerance,
+            .above = 0},
+           field_option_of(o.patches, "min_cosine"),
+           output_option(o.output, "shape to write: .ply; - for standard output"),
+           format_option(o.format, {"ply"}),
+           json_option(o.json)},
+          {{Group::kAccuracy, {"tolerance"}}, {Group::kPaper, {"min-cosine"}}}),
+      .examples = {"rholm partition bumpy.ply --tolerance 1e-2 -o caps.ply",
+                   "rholm partition bumpy.ply --show spheres -o spheres.ply"},
+      .run = [options](Session& session) { return run(*options, session); },
+      .per_shape = PerShape{.extension = "ply"}};
 }
 
 }  // namespace rholm::cli

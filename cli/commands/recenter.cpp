@@ -93,10 +93,9 @@ int run(const Options& options, Session& session) {
 std::vector<Option> option_list(Options& o) {
   Option center = center_option(o.center);
   center.help =
-      "volume (the default): the centroid of the solid, or as near to it as the whole surface is "
-      "seen; auto, kernel, slope, cosine: as for meshes, of a fine mesh of the surface; centroid: "
-      "of the "
-      "surface; none: the origin of the file's coordinates";
+      "volume: the centroid of the solid, or the nearest point from which the whole surface is "
+      "visible; auto, kernel, slope, cosine: as for meshes, for a fine mesh of the surface; "
+      "centroid: the centroid of the surface; none: the origin; volume by default";
   std::vector<Option> list = {model_operand(o.input)};
   list.push_back(center);
   append(list, coefficients_output_options(o.to, "file of coefficients to write"));
@@ -107,22 +106,21 @@ std::vector<Option> option_list(Options& o) {
 
 Command recenter_command() {
   auto options = std::make_shared<Options>();
-  return {
-      .name = "recenter",
-      .summary = "The same surface, expanded about another point",
-      .description =
-          "Writes the coefficients of the same surface as seen from another centre, of the same "
-          "degree; the surface stays where it is. What the change takes to higher degrees is "
-          "lost: the report says how far the way there and back differs from the model, root "
-          "mean square over all directions. What was known of the model's own errors is "
-          "dropped.\n\nA given centre to which the surface turns its back is refused. 'rholm "
-          "align' "
-          "does this by itself.",
-      .options = option_list(*options),
-      .examples = {"rholm recenter bumpy.h5 -o centred.h5",
-                   "rholm recenter bumpy.h5 --center 0.05,0,0 --json -o moved.h5"},
-      .run = [options](Session& session) { return run(*options, session); },
-      .per_shape = PerShape{.extension = "h5"}};
+  return {.name = "recenter",
+          .summary = "Expand the same surface about another centre",
+          .description =
+              "Computes the coefficients of the same surface about another centre, up to the same "
+              "degree. The surface does not move. Detail that moves to higher degrees is lost, and "
+              "the report gives its size.\n\nThe size is the root mean square difference, over all "
+              "directions, after a change of the centre there and back. Stored errors of the model "
+              "are dropped. A given centre from which the whole surface is not visible is refused. "
+              "'rholm align' changes the centre itself.",
+          .options = in_groups(option_list(*options), {{Group::kData, {"center"}}}),
+          .examples = {"rholm recenter bumpy.h5 -o centred.h5",
+                       "rholm recenter bumpy.h5 --center 0.05,0,0 --json -o moved.h5"},
+          .run = [options](Session& session) { return run(*options, session); },
+          .if_not_star = "Take another --center, or leave out --center",
+          .per_shape = PerShape{.extension = "h5"}};
 }
 
 }  // namespace rholm::cli

@@ -157,8 +157,7 @@ int run(const Options& options, const TileWorkers& by, Session& session) {
 std::vector<Option> option_list(Options& o) {
   std::vector<Option> options = {
       {.name = "POINTS",
-       .help = "file of points, or - for standard input; normals are computed if there are "
-               "none",
+       .help = "file of points, or - for standard input; missing normals are computed",
        .target = &o.input,
        .required = true,
        .offer = Offer::kShapes}};
@@ -166,7 +165,8 @@ std::vector<Option> option_list(Options& o) {
   append(options,
          {{.name = "resolution",
            .value = "N",
-           .help = "cubes of the grid along the longest side; by default from the spacing",
+           .help = "number of grid cubes along the longest side; by default from the spacing of "
+                   "the points",
            .target = &o.resolution,
            .min = 4,
            .max = 65536},
@@ -174,13 +174,12 @@ std::vector<Option> option_list(Options& o) {
           max_memory_option(o.memory),
           {.name = "work-dir",
            .value = "DIR",
-           .help =
-               "where tiles are kept meanwhile, and what of standard input does not fit in memory; "
-               "by default that of the system's temporary files",
+           .help = "folder for tiles and for the part of standard input that does not fit in "
+                   "memory; by default the folder for temporary files",
            .target = &o.memory.work_dir},
           {.name = "model",
            .value = "FILE",
-           .help = "write the caps to a model file, .h5, as well; rholm synthesize reads it",
+           .help = "also write the caps to this model file (.h5), which rholm synthesize reads",
            .target = &o.model,
            .offer = Offer::kAnyFile}});
   append(options, mesh_output_options(o.output, o.format, o.ascii));
@@ -202,20 +201,24 @@ Command reconstruct_command() {
 
 Command reconstruct_command_by(RunTiles run_tiles, std::function<bool()> several) {
   auto options = std::make_shared<Options>();
-  return {.name = "reconstruct",
-          .summary = "From points to a closed surface",
-          .description =
-              "Covers points with overlapping caps, each a function on a sphere of its own fitted "
-              "to points and normals, blends them and extracts the surface: closed, 2-manifold, "
-              "oriented outwards, with normals. Size of caps, noise and resolution are chosen from "
-              "the data; outliers are left out, holes are closed smoothly, and colours and other "
-              "properties of the points are carried over.",
-          .options = option_list(*options),
-          .examples = {"rholm reconstruct points.ply -o surface.ply",
-                       "rholm reconstruct points.ply --holes keep --json -o surface.obj"},
-          .run = [options, by = TileWorkers{std::move(run_tiles), std::move(several)}](
-                     Session& session) { return run(*options, by, session); },
-          .per_shape = PerShape{.extension = "ply", .one_file = "model"}};
+  return {
+      .name = "reconstruct",
+      .summary = "Make a closed surface from points",
+      .description =
+          "Covers points with overlapping caps and extracts a surface: closed, 2-manifold, "
+          "oriented outwards, with normals. Cap size, noise and resolution are chosen from the "
+          "data.\n\nEach cap is a function on its own sphere, fitted to points and normals, "
+          "and the caps are blended. Outliers are removed, holes are closed smoothly, and "
+          "colours and other attributes of the points are kept.",
+      .options = in_groups(option_list(*options), {{Group::kData, {"holes"}},
+                                                   {Group::kAccuracy, {"tolerance", "resolution"}},
+                                                   {Group::kAdvanced, {"model", "work-dir"}},
+                                                   {Group::kPaper, {"blend"}}}),
+      .examples = {"rholm reconstruct points.ply -o surface.ply",
+                   "rholm reconstruct points.ply --holes keep --json -o surface.obj"},
+      .run = [options, by = TileWorkers{std::move(run_tiles), std::move(several)}](
+                 Session& session) { return run(*options, by, session); },
+      .per_shape = PerShape{.extension = "ply", .one_file = "model"}};
 }
 
 }  // namespace rholm::cli

@@ -22,7 +22,7 @@ constexpr double kSaid = 0.02;  // share of unsure signs above which a warning i
 constexpr double kSaidArea = 0.7;
 
 std::string mended_text(const ReconstructReport& r) {
-  return fmt::format("{} of {} normals contradicted those around them, and were turned",
+  return fmt::format("{} of {} normals contradicted their neighbours and were reversed",
                      r.mended_normals, r.points - r.dropped_points);
 }
 
@@ -35,22 +35,22 @@ std::string list_of(const std::vector<Vec3>& points) {
 // Throws if points lie on no surface.
 void judge_places(const ReconstructReport& r) {
   if (!(r.points_off_surface > kMostOffSurface)) return;
-  throw Error(ErrorCode::kNotConverged,
-              fmt::format("{:.3g} % of the points lie off the surface, through all of what is "
-                          "between its walls or around it, first at {}: they fill a volume, which "
-                          "has no surface, or their noise hides how thick the body is; the "
-                          "surface, which is written, is wrong there (give points of the surface, "
-                          "or remove most of the noise)",
-                          100 * r.points_off_surface, list_of(r.places_off_surface)));
+  throw Error(
+      ErrorCode::kNotConverged,
+      fmt::format("{:.3g} % of the points are away from the surface, throughout the space between "
+                  "its walls or around it, first at {}. They fill a volume, which has no surface, "
+                  "or their noise exceeds the thickness of the body. The file is written, and is "
+                  "wrong there; give points of the surface, or remove the noise",
+                  100 * r.points_off_surface, list_of(r.places_off_surface)));
 }
 
 // Notes the changes to given normals.
 void note_normals(const ReconstructReport& r, Session& session) {
   if (r.crooked_normals > kMostCrooked) {
-    session.note(fmt::format(
-        "{:.3g} % of the given normals are more than 45 degrees off the surface: all are computed "
-        "instead",
-        100 * r.crooked_normals));
+    session.note(
+        fmt::format("{:.3g} % of the given normals are more than 45 degrees off the surface; all "
+                    "normals are computed instead",
+                    100 * r.crooked_normals));
   }
   if (r.mended_normals > 0) {
     session.note(mended_text(r));
@@ -61,9 +61,9 @@ void note_normals(const ReconstructReport& r, Session& session) {
 void judge_normals(const ReconstructReport& r) {
   if (r.crossing_length > kMostCrossing) {
     throw Error(ErrorCode::kNotConverged,
-                fmt::format("sheets of the points cross each other, near {}: they bound no body; "
-                            "the surface, which is written, is wrong there (cut the points into "
-                            "bodies that do not cross, and reconstruct each)",
+                fmt::format("sheets of the points cross each other, first near {}, and bound no "
+                            "body. The file is written, and is wrong there; split the points into "
+                            "bodies that do not cross, and reconstruct each",
                             list_of(r.crossings)));
   }
   const auto n = static_cast<double>(r.points);
@@ -71,20 +71,20 @@ void judge_normals(const ReconstructReport& r) {
     // Undecided parts have no point that is known to be wrong.
     const std::string first =
         r.contradictions.empty() ? "" : ", first at " + list_of(r.contradictions);
-    throw Error(ErrorCode::kNotConverged,
-                fmt::format("the normals of {} points contradict those around them{}: "
-                            "sheets cross there, or the signs of given normals cannot be decided; "
-                            "the surface, which is written, may be wrong ('rholm orient "
-                            "--keep-directions' finds signs anew)",
-                            r.contradicting_normals, first));
+    throw Error(
+        ErrorCode::kNotConverged,
+        fmt::format("the normals of {} points contradict their neighbours{}: sheets cross there, "
+                    "or the signs of given normals are uncertain. The file is written, and may be "
+                    "wrong; 'rholm orient --keep-directions' computes new signs",
+                    r.contradicting_normals, first));
   }
   if (r.inward_normals > kMostInward) {
     throw Error(
         ErrorCode::kNotConverged,
-        fmt::format("{:.3g} % of the given normals point into the solid that the others "
-                    "bound, and it cannot be decided which are right; the surface, which is "
-                    "written, may be wrong",
-                    100 * r.inward_normals));
+        fmt::format(
+            "{:.3g} % of the given normals point into the solid that the others bound. The file is "
+            "written, and may be wrong; leave the normals out, or give correct ones",
+            100 * r.inward_normals));
   }
 }
 
@@ -176,37 +176,37 @@ void judge(const ReconstructReport& report, bool filled, Session& session) {
   judge_normals(report);
   const double unsure = report.unsure;
   const std::string side =
-      fmt::format("the side of {:.3g} % of the normals is unsure", 100 * unsure);
+      fmt::format("the orientation of {:.3g} % of the normals is uncertain", 100 * unsure);
   if (unsure > kTooUnsure) {
-    throw Error(
-        ErrorCode::kNotConverged,
-        side +
-            ": the surface, which is written, may be wrong all over; give normals, or where "
-            "points were measured from (--sensor, attributes sensor_x, "
-            "sensor_y, sensor_z); points that fill a volume have no sides");
+    throw Error(ErrorCode::kNotConverged,
+                side +
+                    ". The file is written, and may be wrong everywhere; give normals, or the "
+                    "positions of the sensors (--sensor, or attributes sensor_x, sensor_y, "
+                    "sensor_z). Points that fill a volume have no surface");
   }
   if (unsure > kSaid) {
-    session.warn(side + ": thin or sparse parts may be wrong; --confidence shows where");
+    session.warn(side + ": thin or sparse parts may be wrong; --confidence shows them");
   }
   const double seen = report.area - report.closed_area;
   const double share = seen / report.points_area;
   const std::string much = fmt::format(
-      "the surface has {:.3g} times the area that the points stand for: they contradict each "
-      "other, "
-      "as double walls or scans that are off do",
+      "the surface has {:.3g} times the area of the points. The points contradict each other, as "
+      "double walls or misaligned scans do",
       share);
   if (share < kLeastArea || share > kMostArea) {
-    throw Error(ErrorCode::kNotConverged, much + "; it is written, but may be wrong all over");
+    throw Error(ErrorCode::kNotConverged,
+                much + "; the file is written, and may be wrong everywhere");
   }
   if (share < kSaidArea) session.warn(much);
   if (report.closed_area > report.points_area) {
     session.warn(
-        "more of the surface closes holes than there are points for: the points are open, "
-        "as of one side; --holes keep leaves them so");
+        "the area that closes holes exceeds the area of the points: the points are open, for "
+        "example from one side; --holes keep leaves the holes open");
   }
   if (filled && report.volume < 0) {
     throw Error(ErrorCode::kNotConverged,
-                "the surface, which is written, encloses a negative volume: normals point inwards");
+                "the surface encloses a negative volume, because normals point inwards; the file "
+                "is written. Reverse the normals, or leave them out");
   }
 }
 

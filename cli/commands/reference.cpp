@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/commands/commands.h"
+#include "cli/grammar/help.h"
 #include "cli/options/field_options.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/session.h"
@@ -118,7 +119,7 @@ std::string format_table(const std::vector<Info>& formats) {
     rows.push_back({code(info.file.name), joined(extensions), joined(ways), joined(held_by(info)),
                     info.file.help});
   }
-  return markdown_table({"format", "extensions", "is", "holds", "what it is"}, rows);
+  return markdown_table({"format", "extensions", "is", "holds", "description"}, rows);
 }
 
 std::string shape_format_section() {
@@ -197,7 +198,7 @@ std::string field_section(const std::string& title, const std::string& text,
          default_of(standard.*member), choices.empty() ? range_text(info) : choices, info.help});
   });
   return fmt::format("## {}\n\n{}\n\n{}", title, text,
-                     markdown_table({"field", "option", "default", "values", "what it is"}, rows));
+                     markdown_table({"field", "option", "default", "values", "meaning"}, rows));
 }
 
 std::string reconstruct_section() {
@@ -318,7 +319,7 @@ std::string tolerance_section() {
       "`--tolerance`.");
 }
 
-std::string encode_section() {
+std::string expand_section() {
   return field_section<ExpandOptions>(
       "Options of the expansion of a mesh",
       "`ExpandOptions` in C++; arguments of `rholm.expand` in Python; options of `rholm expand`, "
@@ -395,10 +396,57 @@ std::string result_section() {
   return "## Results\n\nResults are structs in C++ and classes of the same names in Python. "
          "Lengths "
          "are in the unit of the shape.\n\n" +
-         markdown_table({"result", "field", "what it is"}, rows);
+         markdown_table({"result", "field", "meaning"}, rows);
 }
 
-constexpr ReferenceSection kSections[] = {window_section,
+// Returns "L, 0 ... 16384" or "edge, gauge"; empty for a switch.
+std::string values_text(const Option& option) {
+  if (!option.choices.empty()) return joined(option.choices);
+  std::string text = value_name(option);
+  if (text.empty()) return text;
+  const auto number = [](double value) { return fmt::format("{}", value); };
+  if (option.above) text += ", above " + number(*option.above);
+  if (option.min && option.max)
+    return text + ", " + number(*option.min) + " ... " + number(*option.max);
+  if (option.min) text += ", from " + number(*option.min);
+  if (option.max) text += ", at most " + number(*option.max);
+  return text;
+}
+
+// Returns "`-o, --output`", or an operand.
+std::string option_cell(const Option& option) {
+  if (option.letter == 0) return code(option.typed());
+  return code(fmt::format("-{}, {}", option.letter, option.typed()));
+}
+
+// Returns the operands and all options of a command, group by group.
+std::string option_table(const Command& command) {
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const char* group, const std::vector<Option>& options) {
+    for (const Option& option : options) {
+      rows.push_back({group, option_cell(option), values_text(option), option.help});
+    }
+  };
+  add("Operand", operands_of(command));
+  for (const GroupInfo& info : kGroups) add(info.title, described_options(command, info.group));
+  return markdown_table({"group", "option", "values", "meaning"}, rows);
+}
+
+std::string commands_section() {
+  std::string text =
+      "## Commands\n\nThe first screen of `rholm COMMAND --help` has the options of the groups "
+      "Data, Accuracy and Output, and `rholm COMMAND --help all` has all options.\n";
+  for (const Command& command : all_commands()) {
+    if (command.hidden) continue;
+    text += fmt::format("\n### {}\n\n{}.\n\n```text\n{}\n```\n\n{}\n\n{}", typed_name(command),
+                        command.summary, usage_line(command, 100), command.description,
+                        option_table(command));
+  }
+  return text;
+}
+
+constexpr ReferenceSection kSections[] = {commands_section,
+                                          window_section,
                                           descriptor_section,
                                           shape_format_section,
                                           coefficients_format_section,
@@ -410,7 +458,7 @@ constexpr ReferenceSection kSections[] = {window_section,
                                           command_section<AlignOptions, kAlignName>,
                                           sample_section,
                                           transform_section,
-                                          encode_section,
+                                          expand_section,
                                           center_section,
                                           file_section,
                                           tolerance_section,
@@ -453,8 +501,10 @@ std::string markdown_table(const std::vector<std::string>& headings,
 
 Command reference_command() {
   return {.name = "reference",
-          .summary = "Write the reference page",
-          .description = "Writes docs/reference.md, the tables of the library, to standard output.",
+          .summary = "Print the reference page",
+          .description =
+              "Prints docs/reference.md, made from the tables of the library and the commands of "
+              "the program.",
           .options = {},
           .examples = {"rholm reference"},
           .run =

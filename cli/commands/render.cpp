@@ -69,17 +69,16 @@ constexpr double kSmall = 0.05;
 
 void check_options(const Options& options) {
   if (options.output == "-" && options.format.empty()) {
-    throw UsageError("standard output has no extension: say --format png");
+    throw UsageError("standard output has no extension; give --format png");
   }
   if (options.output != "-" && options.format.empty() && extension_of(options.output) != ".png") {
-    throw UsageError(
-        fmt::format("'{}' must end in .png, the one format of pictures", options.output));
+    throw UsageError(fmt::format("'{}' must end in .png", options.output));
   }
   if (options.color == "error" && options.against.empty()) {
     throw UsageError("--color error needs --against SHAPE, the surface to measure from");
   }
   if (!options.against.empty() && options.color != "error") {
-    throw UsageError("--against is the surface of --color error, which is missing");
+    throw UsageError("--against needs --color error");
   }
 }
 
@@ -106,9 +105,7 @@ RenderOptions render_options(const Options& options, std::size_t panels) {
     wanted.up = parse_direction("--up", options.up);
     if (along_view(wanted.up)) {
       throw UsageError(
-          fmt::format("--up is '{}', the direction of --view or its opposite: another "
-                      "one is needed",
-                      options.up));
+          fmt::format("--up is '{}', parallel to --view; give another direction", options.up));
     }
   } else if (along_view(wanted.up)) {
     wanted.up = {0, 1, 0};  // seen from above or below, as on a map
@@ -176,8 +173,8 @@ void color_by_own(const Options& options, Session& session, Scene& scene) {
     panel.colors =
         panel.points != nullptr ? vertex_colors(*panel.points) : vertex_colors(*panel.mesh);
     if (!panel.colors.empty()) continue;
-    session.warn(fmt::format("panel {} of {} has no red, green, blue: it stays plain", i + 1,
-                             options.inputs.size()));
+    session.warn(fmt::format("panel {} of {} has no attributes red, green, blue and stays plain",
+                             i + 1, options.inputs.size()));
   }
 }
 
@@ -203,10 +200,9 @@ void note_small(const Options& options, const Scene& scene, Session& session) {
     smallest = std::min(smallest, size);
   }
   if (options.fit == "each" || !(smallest < kSmall * largest)) return;
-  session.note(
-      fmt::format("the smallest shape has {:.2g} of the size of the largest, and all are "
-                  "drawn at one scale: --fit each fills every picture",
-                  smallest / largest));
+  session.note(fmt::format(
+      "the smallest shape has {:.2g} of the size of the largest; --fit each fills every panel",
+      smallest / largest));
 }
 
 int run(const Options& options, Session& session) {
@@ -230,64 +226,65 @@ int run(const Options& options, Session& session) {
 std::vector<Option> picture_options(Options& o) {
   return {
       {.name = "INPUT",
-       .help = "files of meshes, points or coefficients; several stand side by side",
+       .help = "files of meshes, points or coefficients",
        .target = &o.inputs,
        .required = true,
        .offer = Offer::kShapesAndCoefficients},
       {.name = "size",
        .value = "WxH",
-       .help = "pixels of the whole picture; 1024x768 by default, 400x460 for each of several",
+       .help =
+           "size of the picture in pixels; 1024x768 by default, 400x460 for each of several panels",
        .target = &o.size,
        .check = [](const std::string& option,
                    const std::string& text) { parse_size(option, text, kMinSize, kMaxSize); }},
       {.name = "color",
-       .help = "error: by the distance to the surface of --against, with a scale bar; own: the "
-               "colours that a file has, red, green, blue at its vertices or points",
+       .help = "error: colour by the distance to the surface of --against, with a scale bar; own: "
+               "colours red, green, blue from the file; none by default",
        .target = &o.color,
        .choices = {"none", "error", "own"}},
       {.name = "against",
        .value = "SHAPE",
-       .help = "mesh or coefficients to measure the error from",
+       .help = "mesh or coefficients from which --color error measures distances",
        .target = &o.against,
        .offer = Offer::kShapesAndCoefficients},
       {.name = "scale-max",
        .value = "D",
-       .help = "distance at the top of the scale bar; by default the largest there is",
+       .help = "distance at the top of the scale bar; by default the largest distance",
        .target = &o.scale_max,
        .above = 0},
       {.name = "degree",
        .value = "L[,L...]",
-       .help = "cut coefficients off at these degrees, one picture for each",
+       .help = "degrees at which coefficients are cut off, with one panel for each",
        .target = &o.degrees,
        .check = parse_degrees},
       {.name = "labels",
        .value = "TEXT[,TEXT...]",
-       .help = "what stands below each picture, instead of file and degree",
+       .help = "text below each panel; by default the file and its degree",
        .target = &o.labels},
       {.name = "view",
        .value = "X,Y,Z",
-       .help = "direction of sight, from the eye into the scene; -0.55,0.75,-0.4 by default",
+       .help = "direction from the eye into the scene; -0.55,0.75,-0.4 by default",
        .target = &o.view,
        .check = parse_direction},
       {.name = "up",
        .value = "X,Y,Z",
-       .help = "direction that points up in the picture; 0,0,1 by default, or 0,1,0 where that "
-               "is the direction of sight",
+       .help = "direction that points up in the picture; 0,0,1 by default, or 0,1,0 if the view is "
+               "along 0,0,1",
        .target = &o.up,
        .check = parse_direction},
       {.name = "fit",
-       .help = "scale: all at one scale (the default); each: every one as large as it fits",
+       .help = "scale: one scale for all panels; each: every panel filled; scale by default",
        .target = &o.fit,
        .choices = {"scale", "each"}},
       {.name = "flat",
-       .help = "show the faces of a mesh, even where its file has normals, which make it smooth",
+       .help = "show the faces of a mesh, even if its file has normals",
        .target = &o.flat},
       field_option_of(o.render, "perspective"),
       field_option_of(o.render, "fine"),
       {.name = "subdivisions",
        .value = "N",
-       .help = "icosphere on which coefficients are sampled; by default the smallest N of 5 "
-               "... 8 with 16 (L+1)^2 vertices",
+       .help = "subdivisions of the icosphere that samples coefficients; by default the smallest N "
+               "from 5 to 8 with 16 (L+1)^2 vertices",
        .target = &o.subdivisions,
        .min = 0,
        .max = 12},
@@ -308,18 +305,18 @@ Command render_command() {
   auto options = std::make_shared<Options>();
   return {
       .name = "render",
-      .summary = "A picture of meshes, points and models",
+      .summary = "Draw a picture of meshes, points or models",
       .description =
-          "Draws meshes, points, and the surfaces of coefficients, as a shaded PNG picture. "
-          "Several "
-          "inputs, or several degrees of one, stand side by side at one scale, or with --fit each "
-          "as large as they fit. Points are balls as large as their distance. A mesh whose file "
-          "has normals is shaded by them, smooth where they "
-          "are and creased where they differ; --flat shows its faces. Pictures of more than four "
-          "million pixels take four rays a pixel instead of nine. Pixels of one surface share "
-          "their "
-          "light and edges only take several rays, unless with --fine.",
-      .options = option_list(*options),
+          "Draws meshes, points and the surfaces of coefficients as a PNG picture. Several inputs, "
+          "or several degrees of one model, stand side by side at the same scale.\n\nPoints are "
+          "balls as large as the distance between points. A mesh whose file has normals is shaded "
+          "by these normals; --flat shows its faces. Pictures of more than four million pixels "
+          "take four rays per pixel instead of nine. Pixels inside a surface share their light and "
+          "take one ray, unless --fine is given.",
+      .options = in_groups(
+          option_list(*options),
+          {{Group::kOutput, {"size", "color", "view"}},
+           {Group::kAdvanced, {"scale-max", "labels", "up", "fit", "flat", "subdivisions"}}}),
       .examples =
           {"rholm render bumpy.h5 --degree 2,8,32 --size 720x240 -o levels.png",
            "rholm render bumpy.h5 bumpy.ply --fit each --size 480x240 -o both.png",

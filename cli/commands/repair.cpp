@@ -138,33 +138,31 @@ std::string report_text(const RepairReport& r) {
 // Warns of remaining defects, with advice.
 void warn_of_rest(const RepairReport& r, const Options& options, Session& session) {
   if (r.large_holes > 0) {
-    session.warn(fmt::format("{} left open: more than --max-hole {} edges, the largest has {}",
-                             counted(r.large_holes, "hole"), options.repair.max_hole,
-                             r.largest_hole));
+    session.warn(
+        fmt::format("{} left open: larger than the {} edges of --max-hole, and the largest has {}",
+                    counted(r.large_holes, "hole"), options.repair.max_hole, r.largest_hole));
   }
   if (r.sheets > 0) {
     session.warn(
-        fmt::format("{} left open: a cover would have more than 3/4 of the area of its "
-                    "part, which is an open sheet",
+        fmt::format("{} left open: an open sheet, whose cover would have more than 3/4 of its area",
                     counted(r.sheets, "border")));
   }
   if (r.one_sided_parts > 0) {
-    session.warn(
-        fmt::format("{} left as they are: surfaces with one side only, as a Moebius "
-                    "strip, cannot be oriented",
-                    counted(r.one_sided_parts, "part")));
+    session.warn(fmt::format(
+        "{} left unchanged: surfaces with one side, for example Moebius strips, cannot be oriented",
+        counted(r.one_sided_parts, "part")));
   }
   if (r.after.degenerate_triangles > 0) {
-    session.warn(fmt::format("{} thinner than rounding left",
+    session.warn(fmt::format("{} thinner than rounding left unchanged",
                              counted(r.after.degenerate_triangles, "face")));
   }
   if (r.after.non_manifold_edges + r.after.non_manifold_vertices > 0) {
-    session.warn(fmt::format("not manifold still: {}, {}",
+    session.warn(fmt::format("still not manifold: {}, {}",
                              counted(r.after.non_manifold_edges, "edge"),
                              counted(r.after.non_manifold_vertices, "vertex", "vertices")));
   }
   if (r.closes_at) {
-    session.warn(fmt::format("borders lie within {:.2g} of each other: --weld {:.2g} joins them",
+    session.warn(fmt::format("borders are within {:.2g} of each other; --weld {:.2g} joins them",
                              *r.closes_at, *r.closes_at));
   }
 }
@@ -177,7 +175,7 @@ int run(const Options& options, Session& session) {
   stop_if_interrupted();
   if (result.mesh.triangles.empty()) {
     throw Error(ErrorCode::kInvalidInput,
-                fmt::format("{} has no face with an area: nothing is left to write",
+                fmt::format("{} has no face with an area, and nothing can be written",
                             display_name(options.input)));
   }
   write_shape_output(result.mesh, options.output, {format, options.ascii}, session);
@@ -205,19 +203,19 @@ Command repair_command() {
   auto options = std::make_shared<Options>();
   return {
       .name = "repair",
-      .summary = "A damaged mesh mended: welded, oriented, small holes closed",
+      .summary = "Repair a damaged mesh: join vertices, orient faces, close holes",
       .description =
-          "Joins vertices, drops duplicate faces, faces thinner than the rounding of their "
-          "coordinates and vertices in no face, "
-          "separates sheets that touch where three or more faces meet in an edge or several fans "
-          "in a vertex (they move apart by a millionth of the diagonal, or the next reader would "
-          "join them again), turns the faces of each part alike and closed parts outwards, and "
-          "closes small holes with flat faces. A closed part within another is the wall of a "
-          "cavity and faces inwards. Colours and other properties stay.\n\nThe report counts what "
-          "was done and says what 'info' would say, before and after. What is left is said: "
-          "larger holes, borders of open sheets (a cover would have more than 3/4 of their area), "
-          "surfaces with one side only. The exit code is 0 then too.",
-      .options = option_list(*options),
+          "Joins vertices, removes duplicate and degenerate faces and vertices without a face, "
+          "orients all faces, and closes small holes. The report counts the changes and describes "
+          "the mesh before and after.\n\nDegenerate faces are thinner than the rounding of their "
+          "coordinates. Sheets that touch at an edge of three or more faces, or at a vertex, are "
+          "separated. They move apart by a millionth of the diagonal, because the next reader "
+          "would join them again. Closed components face outwards; a closed component inside "
+          "another one is the wall of a cavity and faces inwards. Holes are closed with flat "
+          "faces. Colours and other attributes stay unchanged.\n\nWarnings name defects that "
+          "remain: larger holes, borders of open sheets (a cover would have more than 3/4 of their "
+          "area), and surfaces with one side. The exit code is 0 in these cases too.",
+      .options = in_groups(option_list(*options), {{Group::kAccuracy, {"weld", "max-hole"}}}),
       .examples = {"rholm repair bumpy.ply -o repaired.ply",
                    "rholm repair bumpy.ply --weld 1e-6 --max-hole 20 --json -o repaired.ply"},
       .run = [options](Session& session) { return run(*options, session); },

@@ -54,18 +54,17 @@ struct Subject {
 void check_options(const Options& options) {
   const std::string extension = extension_of(options.output);
   if (options.output == "-" && options.format.empty()) {
-    throw UsageError("standard output has no extension: say --format html");
+    throw UsageError("standard output has no extension; give --format html");
   }
   if (options.output != "-" && options.format.empty() && extension != ".html" &&
       extension != ".htm") {
-    throw UsageError(
-        fmt::format("'{}' must end in .html, the one format of reports", options.output));
+    throw UsageError(fmt::format("'{}' must end in .html or .htm", options.output));
   }
   if (options.degree && options.tolerance.tolerance) {
-    throw UsageError("--degree L or --tolerance E: only one of the two can be kept");
+    throw UsageError("--degree and --tolerance exclude each other; give only one of the two");
   }
   if (options.shape == "-" && options.input == "-") {
-    throw UsageError("standard input can be read once: the model or --shape, not both");
+    throw UsageError("standard input can be only one of the model and --shape");
   }
 }
 
@@ -135,8 +134,8 @@ void not_kept(const std::string& what, Subject& subject) {
 void add_verdicts(const Expanded& expanded, const ExpandOptions& wanted, Subject& subject) {
   const std::optional<FastReport>& fast = expanded.transform.fast;
   if (fast && !fast->reached) {
-    not_kept(fmt::format("the error of the coefficients is {}, above the wanted {}; "
-                         "'rholm expand --engine direct' makes a model that is exact",
+    not_kept(fmt::format("the error of the coefficients is {}, and the wanted error is {}; 'rholm "
+                         "expand --engine direct' makes an exact model",
                          text_of(fast->error), text_of(wanted.precision)),
              subject);
   }
@@ -146,7 +145,7 @@ void add_verdicts(const Expanded& expanded, const ExpandOptions& wanted, Subject
   const std::string error = fmt::format("{} error ({})", to_string(wanted.tolerance->norm),
                                         to_string(wanted.tolerance->measure));
   if (!tolerance.met) {
-    not_kept(fmt::format("the tolerance of {} was not kept by degree {}: the {} is {}",
+    not_kept(fmt::format("the tolerance of {} was not reached by degree {}: the {} is {}",
                          text_of(tolerance.allowed), degree, error, text_of(tolerance.reached)),
              subject);
   } else {
@@ -163,7 +162,7 @@ void add_verdicts(const Expanded& expanded, const ExpandOptions& wanted, Subject
 
 Subject subject_of_shape(const Options& options, Mesh mesh, Session& session) {
   if (!options.shape.empty()) {
-    throw UsageError(fmt::format("{} is a shape itself: --shape is for coefficients",
+    throw UsageError(fmt::format("{} is a shape; --shape needs coefficients as input",
                                  display_name(options.input)));
   }
   Expanded expanded = expand(mesh, expand_options(options), session.context());
@@ -205,15 +204,15 @@ std::optional<ReportCommand> model_command(const Options& options, const Expansi
 Subject subject_of_model(const Options& options, CoefficientsFile file, Session& session) {
   if (options.degree || options.tolerance.tolerance || !options.center.empty() ||
       !options.length_unit.empty()) {
-    throw UsageError(fmt::format(
-        "{} holds coefficients: --degree, --tolerance, --center and --length-unit are for "
-        "shapes, which are expanded first",
-        display_name(options.input)));
+    throw UsageError(
+        fmt::format("{} contains coefficients; --degree, --tolerance, --center and --length-unit "
+                    "apply to shapes, which are expanded first",
+                    display_name(options.input)));
   }
   Subject subject;
   for (const std::string& assumed : file.assumed) {
     subject.page.notes.push_back(
-        fmt::format("The file of coefficients does not say everything; assumed was: {}.", assumed));
+        fmt::format("The file of coefficients does not state everything; assumed: {}.", assumed));
   }
   subject.expansion = std::move(file.expansion);
   std::string choices;
@@ -249,14 +248,15 @@ std::optional<ReportCommand> atlas_command(const Options& options, const AtlasMo
 
 std::string page_of_atlas(const Options& options, Session& session) {
   if (options.interactive) {
-    throw UsageError(fmt::format("{} holds an atlas of caps: --interactive is for expansions",
-                                 display_name(options.input)));
+    throw UsageError(
+        fmt::format("{} contains an atlas of caps; --interactive applies to expansions",
+                    display_name(options.input)));
   }
   if (options.degree || options.tolerance.tolerance || !options.center.empty() ||
       options.weld > 0 || !options.length_unit.empty()) {
     throw UsageError(
-        fmt::format("{} holds an atlas of caps: --degree, --tolerance, --center, --weld and "
-                    "--length-unit are for shapes, which are analysed first",
+        fmt::format("{} contains an atlas of caps; --degree, --tolerance, --center, --weld and "
+                    "--length-unit apply to shapes, which are expanded first",
                     display_name(options.input)));
   }
   const AtlasModel model = read_atlas(options.input);
@@ -302,20 +302,19 @@ int run(const Options& options, Session& session) {
 std::vector<Option> input_options(Options& o) {
   return {
       {.name = "INPUT",
-       .help = "file of coefficients, an atlas, or a closed mesh, which is analysed first; - for "
-               "standard input",
+       .help = "file of coefficients, of an atlas, or of a closed mesh, or - for standard input",
        .target = &o.input,
        .required = true,
        .offer = Offer::kShapesAndCoefficients},
       {.name = "shape",
        .value = "SHAPE",
-       .help = "the mesh that the coefficients are of: its picture, where the model differs, "
-               "and the largest errors",
+       .help = "mesh of which the input is a model, for its picture, a map of the differences and "
+               "the largest errors",
        .target = &o.shape,
        .offer = Offer::kShapes},
       {.name = "degree",
        .value = "L",
-       .help = "of the transform of a mesh; 64 by default",
+       .help = "degree to which a mesh is expanded; 64 by default",
        .target = &o.degree,
        .min = 0,
        .max = kMaxDegree}};
@@ -330,7 +329,8 @@ std::vector<Option> shape_and_page_options(Options& o) {
       length_unit_option(o.length_unit),
       size,
       {.name = "interactive",
-       .help = "the surface of an expansion can be turned in the page, and cut off at any degree",
+       .help =
+           "add the surface of an expansion, which the reader can turn and cut off at any degree",
        .target = &o.interactive},
       output_option(o.output, "page to write: .html; - for standard output"),
       format_option(o.format, {"html"})};
@@ -348,25 +348,24 @@ std::vector<Option> option_list(Options& o) {
 
 Command report_command() {
   auto options = std::make_shared<Options>();
-  return {
-      .name = "report",
-      .summary = "All about a model on one page, with pictures",
-      .description =
-          "Writes a page of HTML that needs no other file and no network: pictures of the shape "
-          "and of the model at a few degrees, a map of where they differ, the spectrum, a "
-          "table of degrees and their errors, what is known of the error and how, figures, "
-          "conventions, and the commands that make model and page again. It can be read on a "
-          "screen of any width and on paper.\n\nA mesh is analysed first, with the method edge. "
-          "Coefficients are taken as they are; with --shape they are set beside the mesh they "
-          "are of; an atlas of caps likewise. With --interactive the page also has the surface "
-          "itself, to be turned "
-          "and to be seen to any degree; it still needs no other file and no network. There are no "
-          "dates in the page: the same input gives the same bytes.",
-      .options = option_list(*options),
-      .examples = {"rholm report bumpy.ply --degree 32 --size 160 -o report.html",
-                   "rholm report bumpy.h5 --shape bumpy.ply --size 160 -o report.html"},
-      .run = [options](Session& session) { return run(*options, session); },
-      .if_not_star = "'rholm compress' makes a model of it, to report on with --shape"};
+  return {.name = "report",
+          .summary = "Write a web page about a model, with pictures",
+          .description =
+              "Writes an HTML page about a model that needs no other file and no network. It shows "
+              "pictures, a map of the errors, the spectrum, a table of degrees and errors, and the "
+              "commands that make the model again.\n\nA mesh is first expanded by the method edge. "
+              "Coefficients and atlases are taken unchanged; --shape adds a comparison with their "
+              "mesh. With --interactive the reader can turn the surface and choose its degree. The "
+              "page contains no date: the same input gives the same bytes. It fits screens of any "
+              "width, and paper.",
+          .options =
+              in_groups(option_list(*options), {{Group::kAccuracy, {"degree", "tolerance", "unit"}},
+                                                {Group::kOutput, {"interactive", "size"}},
+                                                {Group::kAdvanced, {"length-unit"}}}),
+          .examples = {"rholm report bumpy.ply --degree 32 --size 160 -o report.html",
+                       "rholm report bumpy.h5 --shape bumpy.ply --size 160 -o report.html"},
+          .run = [options](Session& session) { return run(*options, session); },
+          .if_not_star = "Make a model with 'rholm compress' and report on it with --shape"};
 }
 
 }  // namespace rholm::cli

@@ -34,13 +34,13 @@ constexpr double kDegrees = std::numbers::pi / 180;
 
 void check_usage(const Options& o) {
   if (o.axis.empty() == o.angle.has_value()) {
-    throw UsageError("--axis X,Y,Z and --angle DEG go together");
+    throw UsageError("--axis X,Y,Z and --angle DEG must be given together");
   }
   const int wanted = o.angle.has_value() + !o.euler.empty() + !o.matrix.empty() + o.principal_axes +
                      !o.mirror.empty();
   if (wanted != 1) {
     throw UsageError(
-        "one of --axis and --angle, --euler, --matrix, --principal-axes, --mirror is needed");
+        "give one of --axis with --angle, --euler, --matrix, --principal-axes and --mirror");
   }
 }
 
@@ -128,42 +128,43 @@ int run(const Options& options, Session& session) {
 }
 
 std::vector<Option> turn_options(Options& o) {
-  return {model_operand(o.input),
-          {.name = "axis",
-           .value = "X,Y,Z",
-           .help = "direction of the axis, of any length; with --angle",
-           .target = &o.axis,
-           .check = parse_direction},
-          {.name = "angle",
-           .value = "DEG",
-           .help = "angle about the axis, in degrees, by the right hand's rule",
-           .target = &o.angle,
-           .min = -1e6,
-           .max = 1e6},
-          {.name = "euler",
-           .value = "A,B,C",
-           .help = "in degrees: by C about z, then by B about y, then by A about z",
-           .target = &o.euler,
-           .check = parse_vector},
-          {.name = "matrix",
-           .value = "M",
-           .help = "nine numbers, row by row: x becomes M x",
-           .target = &o.matrix,
-           .check = parse_matrix},
-          {.name = "principal-axes",
-           .help = "the longest axis of degree 2 to x, the shortest to z; where two are equal the "
-                   "third alone, where all are (a sphere, a cube) nothing is turned",
-           .target = &o.principal_axes},
-          {.name = "mirror",
-           .help = "change the sign of one coordinate instead",
-           .target = &o.mirror,
-           .choices = {"x", "y", "z"}},
-          {.name = "about",
-           .value = "POINT",
-           .help = "the point that stays: origin (of the file's coordinates, the default), "
-                   "center (of the expansion), or X,Y,Z",
-           .target = &o.about,
-           .check = check_about}};
+  return {
+      model_operand(o.input),
+      {.name = "axis",
+       .value = "X,Y,Z",
+       .help = "direction of the rotation axis; with --angle",
+       .target = &o.axis,
+       .check = parse_direction},
+      {.name = "angle",
+       .value = "DEG",
+       .help = "rotation angle in degrees, counter-clockwise when the axis points to the viewer",
+       .target = &o.angle,
+       .min = -1e6,
+       .max = 1e6},
+      {.name = "euler",
+       .value = "A,B,C",
+       .help = "Euler angles in degrees: rotate by C about z, then by B about y, then by A about z",
+       .target = &o.euler,
+       .check = parse_vector},
+      {.name = "matrix",
+       .value = "M",
+       .help = "rotation matrix as nine numbers, row by row",
+       .target = &o.matrix,
+       .check = parse_matrix},
+      {.name = "principal-axes",
+       .help = "rotate the longest principal axis of degree 2 to x and the shortest to z. If two "
+               "axes are equal, only the third is rotated; if all are equal, nothing is",
+       .target = &o.principal_axes},
+      {.name = "mirror",
+       .help = "change the sign of this coordinate instead",
+       .target = &o.mirror,
+       .choices = {"x", "y", "z"}},
+      {.name = "about",
+       .value = "POINT",
+       .help = "fixed point: origin of the coordinates, center of the expansion, or X,Y,Z; origin "
+               "by default",
+       .target = &o.about,
+       .check = check_about}};
 }
 
 std::vector<Option> option_list(Options& o) {
@@ -176,20 +177,21 @@ std::vector<Option> option_list(Options& o) {
 
 Command rotate_command() {
   auto options = std::make_shared<Options>();
-  return {.name = "rotate",
-          .summary = "Turn or mirror coefficients, exactly",
-          .description =
-              "Turns a model about an axis without making its surface: the coefficients of the "
-              "turned shape are computed from those of the shape, exact to rounding (1e-12 at "
-              "degree 512, where it takes a tenth of a second). The energy of each degree stays, "
-              "and with it what is known of the errors.\n\nThe centre of the expansion moves with "
-              "the shape; --about center keeps it.",
-          .options = option_list(*options),
-          .examples = {"rholm rotate bumpy.h5 --axis 0,0,1 --angle 30 -o turned.h5",
-                       "rholm rotate bumpy.h5 --principal-axes --json -o laid.h5",
-                       "rholm rotate bumpy.h5 --mirror x -o image.h5"},
-          .run = [options](Session& session) { return run(*options, session); },
-          .per_shape = PerShape{.extension = "h5"}};
+  return {
+      .name = "rotate",
+      .summary = "Rotate or mirror coefficients exactly",
+      .description =
+          "Rotates a model without making its surface. The coefficients of the rotated shape are "
+          "computed from the coefficients of the shape. The rotation is exact up to rounding, and "
+          "the errors of the model stay valid.\n\nThe rounding error is 1e-12 at degree 512, where "
+          "a rotation takes a tenth of a second. The energy of each degree stays the same. The "
+          "centre of the expansion moves with the shape, unless --about center is given.",
+      .options = in_groups(option_list(*options), {{Group::kAdvanced, {"matrix", "about"}}}),
+      .examples = {"rholm rotate bumpy.h5 --axis 0,0,1 --angle 30 -o turned.h5",
+                   "rholm rotate bumpy.h5 --principal-axes --json -o laid.h5",
+                   "rholm rotate bumpy.h5 --mirror x -o image.h5"},
+      .run = [options](Session& session) { return run(*options, session); },
+      .per_shape = PerShape{.extension = "h5"}};
 }
 
 }  // namespace rholm::cli

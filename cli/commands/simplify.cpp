@@ -111,14 +111,14 @@ std::vector<Option> option_list(Options& o) {
       mesh_operand(o.input),
       {.name = "faces",
        .value = "auto|N|P%",
-       .help = "how many are left: N of them, P per cent, or as few as change the surface by "
-               "at most 1/50 of its mean edge (auto, the default)",
+       .help = "number of faces to keep: N of them, P per cent, or auto; auto by default. With "
+               "auto the surface changes by at most 1/50 of its mean edge",
        .target = &o.faces,
        .check = parse_faces},
       {.name = "max-error",
        .value = "D",
-       .help = "stop where a vertex would move farther than D from the planes it stands for "
-               "(root mean square), in the shape's unit",
+       .help = "largest rms distance of a vertex from the planes of its original faces, in the "
+               "unit of the shape; no limit by default",
        .target = &o.max_error,
        .min = 0}};
   append(list, mesh_output_options(o.output, o.format, o.ascii));
@@ -131,14 +131,13 @@ std::vector<Option> option_list(Options& o) {
 Command simplify_command() {
   auto options = std::make_shared<Options>();
   return {.name = "simplify",
-          .summary = "Fewer faces for the same surface",
+          .summary = "Reduce the number of faces of a mesh",
           .description =
-              "Edges shrink to one of their ends, those first that change the surface least. A "
-              "surface stays what it is: closed and manifold where it was, of the same genus, with "
-              "the same borders; vertices that stay keep their place and their properties.\n\nIt "
-              "stops at the number of faces asked for, or where an error would become larger than "
-              "--max-error, whichever comes first.",
-          .options = option_list(*options),
+              "Collapses edges of a mesh, beginning with the edges that change the surface least. "
+              "It stops at the wanted number of faces, or where the error would exceed "
+              "--max-error.\n\nA closed or manifold surface stays closed or manifold, with the "
+              "same genus and borders. The remaining vertices keep their positions and attributes.",
+          .options = in_groups(option_list(*options), {{Group::kAccuracy, {"faces", "max-error"}}}),
           .examples = {"rholm simplify bumpy.ply -o fewer.ply",
                        "rholm simplify bumpy.ply --faces 20% --json -o fewer.ply",
                        "rholm simplify bumpy.ply --faces 5000 --max-error 0.01 -o fewer.ply"},

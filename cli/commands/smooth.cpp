@@ -76,7 +76,7 @@ void print_report(const Options& options, const Patch& patch, const Moved& moved
 
 int run(const Options& options, Session& session) {
   if (options.patch.repair && options.patch.fitting == PatchFitting::kMean) {
-    throw UsageError("--repair needs a fitting that knows what stands out, not mean");
+    throw UsageError("--repair and --fitting mean exclude each other; use --fitting robust");
   }
   const std::vector<Region> regions = parse_regions(options.regions);
   const ShapeFormat format = mesh_output(options.output, options.format, options.json);
@@ -89,11 +89,11 @@ int run(const Options& options, Session& session) {
   stop_if_interrupted();
   write_shape_output(mesh, options.output, {format, options.ascii}, session);
   if (patch.unreached > 0) {
-    session.warn(fmt::format("{} of the region were left: no cap sees them",
+    session.warn(fmt::format("{} of the region stay unchanged, because no cap reaches them",
                              counted(patch.unreached, "vertex", "vertices")));
   }
   if (options.patch.repair && patch.vertices.empty())
-    session.note("nothing stands out: nothing was moved");
+    session.note("no scratch or spike was found, and nothing was moved");
   print_report(options, patch, moved_by(patch, positions), diagonal, session);
   return 0;
 }
@@ -101,18 +101,20 @@ int run(const Options& options, Session& session) {
 std::vector<Option> edit_options(Options& o) {
   Option wavelength = field_option_of(o.patch, "wavelength");
   wavelength.required = true;
-  return {
-      {.name = "SHAPE",
-       .help = "file of a mesh, or of a model, whose surface is taken; - for standard input",
-       .target = &o.input,
-       .required = true,
-       .offer = Offer::kShapesAndCoefficients},
-      region_option("region", "where: ball, vertex, box, property or color, see above", o.regions),
-      wavelength,
-      field_option_of(o.update, "strength"),
-      field_option_of(o.patch, "fitting"),
-      field_option_of(o.patch, "repair"),
-      field_option_of(o.patch, "transition")};
+  return {{.name = "SHAPE",
+           .help = "file of a mesh, or of a model whose surface is taken, or - for standard input",
+           .target = &o.input,
+           .required = true,
+           .offer = Offer::kShapesAndCoefficients},
+          region_option(
+              "region",
+              "region to smooth: ball, vertex, box, property or color; --help all describes them",
+              o.regions),
+          wavelength,
+          field_option_of(o.update, "strength"),
+          field_option_of(o.patch, "fitting"),
+          field_option_of(o.patch, "repair"),
+          field_option_of(o.patch, "transition")};
 }
 
 std::vector<Option> option_list(Options& o) {
@@ -128,18 +130,19 @@ std::vector<Option> option_list(Options& o) {
 Command smooth_command() {
   auto options = std::make_shared<Options>();
   return {.name = "smooth",
-          .summary = "Detail taken from a region of a mesh",
+          .summary = "Smooth a region of a mesh",
           .description =
               std::string(
-                  "Covers the region with overlapping caps, fits harmonics to each up to the "
-                  "degree whose waves have the wavelength asked for, and moves vertices there, "
-                  "less and less in the transition around the region. Other vertices, triangles, "
-                  "colours stay as they are, to the last bit.\n\nScratches, cracks, spikes: "
-                  "--repair with a wavelength of two to three times their width. Where they are "
-                  "painted, --fitting around bridges them. Scan noise, pores: a wavelength above "
-                  "theirs.\n\n") +
+                  "Removes detail shorter than a wavelength from a region of a mesh. The edit "
+                  "fades in a transition around the region. All other vertices, the faces and the "
+                  "colours stay bit for bit the same.\n\nThe region is covered with overlapping "
+                  "caps. Harmonics are fitted to each cap, up to the degree of the wavelength. For "
+                  "scratches, cracks and spikes use --repair with two to three times their width "
+                  "as wavelength. Where they are marked by colour, --fitting around bridges them. "
+                  "For scan noise and pores use a wavelength above theirs.\n\n") +
               kRegionHelp,
-          .options = option_list(*options),
+          .options = in_groups(option_list(*options), {{Group::kData, {"region", "wavelength"}},
+                                                       {Group::kAccuracy, {"strength", "repair"}}}),
           .examples = {"rholm smooth bumpy.ply --region ball:0,0,1,0.4 --wavelength 0.3 "
                        "-o smooth.ply",
                        "rholm smooth bumpy.ply --region vertex:7,0.3 --wavelength 0.25 --repair "

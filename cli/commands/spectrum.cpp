@@ -163,12 +163,12 @@ std::vector<Option> option_list(Options& o) {
        .target = &o.input,
        .required = true,
        .offer = Offer::kCoefficients},
-      output_option(o.output, "plot to write: .svg, or a table as .csv; - for standard output",
-                    false),
+      output_option(o.output, "plot (.svg) or table (.csv) to write; - for standard output", false),
       format_option(o.format, {"svg", "csv"}),
       {.name = "tolerance",
        .value = "E",
-       .help = "rms over solid angle to draw and to find the degree of, in the shape's unit",
+       .help = "rms over solid angle, in the unit of the shape: drawn in the plot, and the degree "
+               "that reaches it is printed",
        .target = &o.tolerance,
        .above = 0}};
   append(list, input_convention_options(o.convention));
@@ -181,16 +181,15 @@ std::vector<Option> option_list(Options& o) {
 Command spectrum_command() {
   auto options = std::make_shared<Options>();
   return {.name = "spectrum",
-          .summary = "Energy per degree, as a table or a plot",
+          .summary = "Print or plot the energy of each degree",
           .description =
-              "Energy of a degree is the sum of its squared orthonormal coefficients; rms beyond "
-              "is the root mean square, over all directions, of what the degrees above hold. "
-              "For a model file of a star-shaped mesh this includes what lies above the file's "
-              "last degree, exactly. Where it is less than what the precision of the coefficients "
-              "tells, it is not known: the table says so, the JSON has null.\n\nWith -o the plot "
-              "is written and the table is not; --json "
-              "reports in either case.",
-          .options = option_list(*options),
+              "Prints the energy of each degree as a table, or writes a plot with -o. The energy "
+              "of a degree is the sum of its squared orthonormal coefficients.\n\n'rms beyond' is "
+              "the root mean square, over all directions, of the higher degrees. For the model "
+              "file of a star-shaped mesh it includes exactly the degrees above the last one of "
+              "the file. Where it is below the precision of the coefficients it is unknown: the "
+              "table says so, and the JSON has null.",
+          .options = in_groups(option_list(*options), {{Group::kAccuracy, {"tolerance"}}}),
           .examples = {"rholm spectrum bumpy.h5",
                        "rholm spectrum bumpy.h5 --tolerance 1e-3 -o spectrum.svg"},
           .run = [options](Session& session) { return run(*options, session); },

@@ -76,22 +76,22 @@ int run(const Options& options, Session& session) {
   std::optional<Browser> browser;
   if (!options.no_open) {
     browser.emplace(server.address(), folder);
-    if (!browser->opened()) session.note("no browser could be opened: open the address yourself");
+    if (!browser->opened()) session.note("no browser could be opened; open the address yourself");
   }
-  session.note("Ctrl-C ends it");
+  session.note("Ctrl-C ends the studio");
   server.run([&] { return interrupting_signal() != 0 || studio.quitting(); });
   return kDone;
 }
 
 std::vector<Option> option_list(Options& o) {
   return {{.name = "FILES",
-           .help = "shapes, models and sessions to begin with",
+           .help = "shapes, models and sessions to open",
            .target = &o.files,
            .offer = Offer::kShapesAndCoefficients},
           columns_option(o.columns),
           {.name = "port",
            .value = "N",
-           .help = "port of this machine to listen on; by default one that is free",
+           .help = "port to listen on; by default a free port",
            .target = &o.port,
            .min = 1,
            .max = 65535},
@@ -99,7 +99,7 @@ std::vector<Option> option_list(Options& o) {
           field_option_of(o.studio, "max_upload"),
           {.name = "page",
            .value = "DIR",
-           .help = "folder with the page, instead of the one that is installed",
+           .help = "folder of the page; by default the installed page",
            .target = &o.page}};
 }
 
@@ -108,15 +108,14 @@ std::vector<Option> option_list(Options& o) {
 Command studio_command() {
   auto options = std::make_shared<Options>();
   return {.name = "studio",
-          .summary = "Shapes worked on in the browser",
+          .summary = "Work with shapes in the browser",
           .description =
-              "Opens a page in the browser where shapes are looked at, expanded, smoothed, given "
-              "texture, made from points and saved, with all steps undone and redone at will, and "
-              "the commands that do the same.\n\nThe page is served on this machine only, to who "
-              "knows the address that is printed: keep it to yourself, it has a key in it. Ctrl-C, "
-              "or the page's own button, ends the studio with exit code 0; what is not saved is "
-              "lost then.",
-          .options = option_list(*options),
+              "Opens a page in the browser for work with shapes: view, expand, smooth, transfer "
+              "detail, reconstruct and save. Every step can be undone, and the page shows the "
+              "commands that do the same.\n\nThe page is served on this computer only. Its address "
+              "contains a key: keep it secret. Ctrl-C or the button of the page ends the studio "
+              "with exit code 0. Unsaved work is then lost.",
+          .options = in_groups(option_list(*options), {{Group::kAdvanced, {"page"}}}),
           .examples = {"rholm studio bumpy.ply"},
           .run = [options](Session& session) { return run(*options, session); }};
 }

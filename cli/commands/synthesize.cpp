@@ -53,10 +53,10 @@ void check_options(const Options& options, bool several) {
   const int samplings =
       options.subdivisions.has_value() + !options.grid.empty() + !options.like.empty();
   if (samplings > 1) {
-    throw UsageError("--subdivisions, --grid and --like exclude one another: give one of them");
+    throw UsageError("--subdivisions, --grid and --like exclude one another; give one of them");
   }
   if (several && options.output == "-") {
-    throw UsageError("several degrees make several files: -o must be a name, not -");
+    throw UsageError("several degrees make several files; -o must be a file name, not -");
   }
 }
 
@@ -65,14 +65,14 @@ int write_surface(const AtlasModel& model, const AtlasSynthesisOptions& wanted, 
   const Mesh surface = synthesize(model, wanted, session.context());
   stop_if_interrupted();
   if (model.rules && !model.rules->left_out.empty()) {
-    session.warn(fmt::format("{}: the surface had {}, which the model does not hold",
+    session.warn(fmt::format("{}: the model does not store {} of the surface",
                              display_name(o.input), left_out_text(*model.rules)));
   }
   write_shape_output(surface, o.output, {format, o.ascii}, session);
   if (model.rules && model.rules->tiles) {
     session.note(
-        fmt::format("{}: the surface was made in tiles: its vertices have another order "
-                    "there, and what closes holes may differ by some steps of the grid",
+        fmt::format("{}: the model was made in tiles. The vertices have another order, and the "
+                    "surface over holes may differ by some steps of the grid",
                     display_name(o.input)));
   }
   if (o.json) {
@@ -92,7 +92,7 @@ int write_surface(const AtlasModel& model, const AtlasSynthesisOptions& wanted, 
 int run_atlas(const Options& o, ShapeFormat format, Session& session) {
   if (!o.degrees.empty() || o.subdivisions || !o.grid.empty() || !o.like.empty()) {
     throw UsageError(
-        "--degree, --subdivisions, --grid and --like do not go with an atlas of caps: see "
+        "--degree, --subdivisions, --grid and --like do not apply to an atlas of caps; use "
         "--resolution and --degree-limit");
   }
   std::optional<SimplifyOptions> simplify;
@@ -129,7 +129,7 @@ int run(const Options& options, Session& session) {
   const ShapeFormat format = mesh_output(options.output, options.format, options.json);
   if (holds_atlas(options.input)) return run_atlas(options, format, session);
   if (options.resolution || options.degree_limit || !options.simplify.empty()) {
-    throw UsageError("--resolution, --degree-limit and --simplify go with an atlas of caps");
+    throw UsageError("--resolution, --degree-limit and --simplify apply only to an atlas of caps");
   }
   std::vector<int> degrees;
   if (!options.degrees.empty()) degrees = parse_degrees("--degree", options.degrees);
@@ -143,7 +143,7 @@ int run(const Options& options, Session& session) {
   if (degrees.empty()) degrees.push_back(highest);
   for (const int degree : degrees) {
     if (degree <= highest) continue;
-    session.warn(fmt::format("{} has coefficients up to degree {} only: {} is cut to it",
+    session.warn(fmt::format("{} has coefficients only up to degree {}; degree {} is reduced to it",
                              display_name(options.input), highest, degree));
   }
   const int needed = std::min(highest, *std::max_element(degrees.begin(), degrees.end()));
@@ -168,49 +168,49 @@ int run(const Options& options, Session& session) {
 
 std::vector<Option> synthesis_options(Options& o) {
   return {{.name = "MODEL",
-           .help = "file of coefficients",
+           .help = "file of coefficients or of an atlas",
            .target = &o.input,
            .required = true,
            .offer = Offer::kCoefficients},
           {.name = "degree",
            .value = "L[,L...]",
-           .help = "degrees at which the series is cut off; by default its own. Several degrees "
-                   "make several files: OUT-L4.ply, OUT-L16.ply",
+           .help = "degree at which the series is cut off; by default the degree of the file. "
+                   "Several degrees give several files: OUT-L4.ply, OUT-L16.ply",
            .target = &o.degrees,
            .check = parse_degrees},
           {.name = "subdivisions",
            .value = "N",
-           .help = "sample on an icosphere of 10 4^N + 2 vertices; by default the smallest N of 4 "
-                   "... 7 with 2 (L+1)^2 vertices",
+           .help = "subdivisions of an icosahedron: the mesh has 10 4^N + 2 vertices; by default "
+                   "the smallest N from 4 to 7 with 2 (L+1)^2 vertices",
            .target = &o.subdivisions,
            .min = 0,
            .max = 12},
           {.name = "grid",
            .value = "NTHETAxNPHI",
-           .help = "sample on rings of equal latitude and the poles instead",
+           .help = "use circles of latitude and the two poles instead",
            .target = &o.grid,
            .check = parse_rings},
           {.name = "like",
            .value = "SHAPE",
-           .help = "sample in the directions of this mesh's vertices, and keep its connectivity",
+           .help = "use the directions of the vertices of this mesh, and its faces",
            .target = &o.like,
            .offer = Offer::kShapes},
           {.name = "resolution",
            .value = "STEP",
-           .help = "of an atlas: edge of the grid's cubes, in the shape's unit; by default the one "
-                   "it was measured at",
+           .help = "for an atlas: edge of the cubes of the grid, in the unit of the shape; by "
+                   "default the edge at which the error was measured",
            .target = &o.resolution,
            .above = 0},
           {.name = "degree-limit",
            .value = "L",
-           .help = "of an atlas: caps of no higher degrees, fitted to its surface: less detail; a "
-                   "limit too low for caps to agree is refused with the least that will do",
+           .help = "for an atlas: limit the degree of the caps, for less detail. A limit at which "
+                   "caps contradict each other is refused with the least possible limit",
            .target = &o.degree_limit,
            .min = 0,
            .max = 24},
-          simplify_option(o.simplify,
-                          "none leaves it whole; by default as reconstruct was told, for "
-                          "a model of it, else none")};
+          simplify_option(
+              o.simplify,
+              "none keeps all faces; by default as the model says, and none without a rule")};
 }
 
 std::vector<Option> option_list(Options& o) {
@@ -226,11 +226,14 @@ std::vector<Option> option_list(Options& o) {
 Command synthesize_command() {
   auto options = std::make_shared<Options>();
   return {.name = "synthesize",
-          .summary = "From coefficients to a mesh",
+          .summary = "Make a mesh from coefficients",
           .description =
-              "Computes the surface of the coefficients, at one degree or at several in one "
-              "run (levels of detail). The mesh has the exact normals of the smooth surface.",
-          .options = option_list(*options),
+              "Computes the surface of coefficients or of an atlas of caps. Several degrees give "
+              "several files, which are levels of detail. The mesh has the exact normals of the "
+              "smooth surface.",
+          .options = in_groups(option_list(*options),
+                               {{Group::kAccuracy, {"degree", "subdivisions", "resolution"}},
+                                {Group::kAdvanced, {"simplify", "grid", "like", "degree-limit"}}}),
           .examples = {"rholm synthesize bumpy.h5 -o smooth.ply",
                        "rholm synthesize bumpy.h5 --degree 4,8,16 --grid 90x180 -o level.obj"},
           .run = [options](Session& session) { return run(*options, session); },

@@ -48,7 +48,7 @@ TransferUpdate update_of(const Options& o) {
   TransferUpdate wanted = o.update;
   if (o.rotate != "auto") wanted.angle = parse_numbers("--rotate", o.rotate, 1)[0] * kDegree;
   if (wanted.mode == TransferMode::kCoefficients && (wanted.repeat || wanted.remove_own)) {
-    throw UsageError("--mode coefficients knows neither --repeat nor --remove-own");
+    throw UsageError("--mode coefficients excludes --repeat and --remove-own");
   }
   return wanted;
 }
@@ -92,7 +92,7 @@ int run(const Options& options, Session& session) {
   const TransferUpdate wanted = update_of(options);
   const ShapeFormat format = mesh_output(options.output, options.format, options.json);
   if (options.from == "-" && options.to == "-") {
-    throw UsageError("standard input is one file: --from and --to cannot both be -");
+    throw UsageError("standard input can be only one of --from and --to");
   }
   check_writable(options.output);
   const Mesh source = read_surface(options.from, session, options.convention);
@@ -107,10 +107,10 @@ int run(const Options& options, Session& session) {
   write_shape_output(analysis.mesh, options.output, {format, options.ascii}, session);
   const double coarse = report.target_edge / (report.source_edge * report.scale);
   if (!options.transfer.refine && coarse > kCoarse) {
-    session.note(fmt::format(
-        "edges of the target are {:.2g} times as long as those of the texture on it; --refine "
-        "splits them",
-        coarse));
+    session.note(
+        fmt::format("edges of the target are {:.2g} times as long as the edges of the detail on "
+                    "it; --refine splits them",
+                    coarse));
   }
   print_report(options, report, wanted.angle.value_or(report.angle),
                moved_vertices(analysis.patch, positions), session);
@@ -125,19 +125,21 @@ std::vector<Option> edit_options(Options& o) {
        .target = &o.from,
        .required = true,
        .offer = Offer::kShapesAndCoefficients},
-      region_option("from-region", "where the detail is: ball, vertex, box, property, color",
-                    o.from_regions),
+      region_option(
+          "from-region",
+          "region of the detail: ball, vertex, box, property or color; --help all describes them",
+          o.from_regions),
       {.name = "to",
        .value = "TARGET",
-       .help = "mesh or model that gets it, or - for standard input",
+       .help = "mesh or model that receives the detail, or - for standard input",
        .target = &o.to,
        .required = true,
        .offer = Offer::kShapesAndCoefficients},
-      region_option("to-region", "where it is laid", o.to_regions),
+      region_option("to-region", "region that receives the detail", o.to_regions),
       {.name = "rotate",
        .value = "DEG",
-       .help = "turn of the detail, counter-clockwise from outside; auto (default) is where it "
-               "is most like the target's own",
+       .help = "angle of the detail in degrees, counter-clockwise from outside; auto: best match "
+               "with the detail of the target; auto by default",
        .target = &o.rotate,
        .check = check_angle}};
   append(list, field_options(o.transfer));
@@ -159,16 +161,16 @@ Command transfer_command() {
   auto options = std::make_shared<Options>();
   return {
       .name = "transfer",
-      .summary = "Detail of a patch laid on a patch of another mesh",
+      .summary = "Copy the detail of a region to another mesh",
       .description =
-          std::string(
-              "Takes the height of the source region above its smooth base and lays it on the "
-              "smooth base of the target region: turned about the middle to where both are most "
-              "alike, scaled, faded around the region. Other vertices stay as they are, to the "
-              "last bit, and so does the connectivity without --refine. Regions should be about "
-              "as wide as long and be visible from one side.\n\n") +
+          std::string("Takes the height of a source region above its smooth base, and adds it to "
+                      "the smooth base of a target region. The detail is scaled, rotated to the "
+                      "best match, and fades around the region. All other vertices stay bit for "
+                      "bit the same.\n\nWithout --refine the faces stay the same. Regions should "
+                      "be about as long as wide, and visible from one side.\n\n") +
           kRegionHelp,
-      .options = option_list(*options),
+      .options =
+          in_groups(option_list(*options), {{Group::kAccuracy, {"scale", "height", "refine"}}}),
       .examples = {"rholm transfer --from bumpy.ply --from-region ball:1,0,0,0.5 --to smooth.ply "
                    "--to-region ball:0,0,1,0.3 -o textured.ply",
                    "rholm transfer --from bumpy.ply --from-region vertex:7,0.5 --to smooth.ply "

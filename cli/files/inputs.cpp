@@ -97,13 +97,13 @@ void say_what_it_means(const CoefficientsFile& file, const std::string& path, Se
                        const InputConvention& convention) {
   const std::vector<std::string> open = convention.left_open(file.assumed);
   if (!open.empty()) {
-    session.note(
-        fmt::format("{} does not say it, assumed: {}", display_name(path), fmt::join(open, ", ")));
+    session.note(fmt::format("{} does not state its convention; assumed: {}", display_name(path),
+                             fmt::join(open, ", ")));
   }
   if (file.expansion.function == RadialFunction::kOther) {
     const std::string relative =
         file.expansion.gravity ? ", " + text_of(*file.expansion.gravity) : "";
-    session.note(fmt::format("{} is {}: its coefficients are taken as they are{}{}{}",
+    session.note(fmt::format("{} is {}; its coefficients are used unchanged{}{}{}",
                              display_name(path), not_a_shape(file), relative,
                              file.passed_over.empty() ? "" : ", without ",
                              fmt::join(file.passed_over, ", ")));
@@ -115,7 +115,7 @@ CoefficientsFile read_coefficients_of(const Source& source, Session& session,
   if (source.stream && source.guess == Guess::kModel) {
     throw Error(ErrorCode::kUnsupported,
                 fmt::format("{} is a model file (HDF5), which cannot be read from a stream; give "
-                            "its name instead",
+                            "the name of the file",
                             display_name(source.path)));
   }
   if (source.stream) {
@@ -127,12 +127,12 @@ CoefficientsFile read_coefficients_of(const Source& source, Session& session,
 void check_surface(const CoefficientsFile& file, const std::string& path) {
   if (file.expansion.function != RadialFunction::kOther) return;
   throw Error(ErrorCode::kUnsupported,
-              fmt::format("{} is {}: its coefficients are not the radius of a surface; 'spectrum', "
-                          "'filter', 'rotate' and 'convert' take them{}",
+              fmt::format("{} is {}; its coefficients are not the radius of a surface, and only "
+                          "'spectrum', 'filter', 'rotate' and 'convert' accept them{}",
                           display_name(path), not_a_shape(file),
-                          file.product.empty() ? ""
-                                               : "; if they are radii all the same, write "
-                                                 "'product_type shape' into its header"));
+                          file.product.empty()
+                              ? ""
+                              : "; if they are radii, write 'product_type shape' into its header"));
 }
 
 bool is_coefficients(Guess guess) {
@@ -142,7 +142,7 @@ bool is_coefficients(Guess guess) {
 void check_shape(Guess guess, const std::string& path) {
   if (!is_coefficients(guess)) return;
   throw Error(ErrorCode::kInvalidInput,
-              fmt::format("{} holds coefficients, and a shape is needed; make one with 'rholm "
+              fmt::format("{} contains coefficients, and a shape is needed; make one with 'rholm "
                           "synthesize {} -o OUT.ply'",
                           display_name(path), shell_word(path)));
 }
@@ -152,7 +152,7 @@ CoefficientsFile read_file(const std::string& path, Session& session,
   const Source source = look_at(path);
   if (source.guess == Guess::kShape) {
     throw Error(ErrorCode::kInvalidInput,
-                fmt::format("{} is a shape, and coefficients are needed; make them with 'rholm "
+                fmt::format("{} is a shape, and coefficients are needed; compute them with 'rholm "
                             "expand {} --degree L -o OUT.h5'",
                             display_name(path), shell_word(path)));
   }
@@ -195,13 +195,15 @@ Option columns_option(std::string& columns) {
   return {.name = "columns",
           .value = "LIST",
           .help =
-              "what the columns of a text table are, as in x,y,z,r,g,b,nx,ny,nz,-: also a, or "
-              "lat,lon,radius (degrees north and east) for x,y,z; - passes over one, another word "
-              "names an attribute. By default the header and the values tell, and it is said",
+              "meaning of the columns of a text table, for example x,y,z,r,g,b,nx,ny,nz,-. Also a "
+              "for opacity, and lat,lon,radius in degrees for x,y,z; - skips a column, and another "
+              "word names an attribute; by default from the header and the values, with a note",
           .target = &columns,
-          .check = [](const std::string& option, const std::string& text) {
-            check_by(option, text, [&] { check_columns(text.empty() ? "," : text); });
-          }};
+          .check =
+              [](const std::string& option, const std::string& text) {
+                check_by(option, text, [&] { check_columns(text.empty() ? "," : text); });
+              },
+          .group = Group::kAdvanced};
 }
 
 Option mesh_operand(std::string& path) {
@@ -294,8 +296,8 @@ Mesh mesh_of(ShapeFile file, const std::string& path, Session& session) {
   say_what_was_read(file, path, session);
   if (const auto* cloud = std::get_if<PointCloud>(&file.shape)) {
     throw Error(ErrorCode::kInvalidInput,
-                fmt::format("{} holds {} points without faces, and a mesh is needed; 'rholm "
-                            "reconstruct' makes a surface of them",
+                fmt::format("{} contains {} points without faces, and a mesh is needed; make one "
+                            "with 'rholm reconstruct'",
                             display_name(path), cloud->points.size()));
   }
   return std::get<Mesh>(std::move(file.shape));

@@ -14,25 +14,25 @@ void bring_to_unit(Expansion& expansion, const std::string& path, const std::str
   if (expansion.unit == unit) return;
   if (expansion.unit.empty() || unit.empty()) {
     const bool first = expansion.unit.empty();
-    session.warn(
-        fmt::format("{} says no unit of length and {} says {}: they are taken to be the "
-                    "same",
-                    display_name(first ? path : other_path),
-                    display_name(first ? other_path : path), first ? unit : expansion.unit));
+    session.warn(fmt::format(
+        "{} does not state its unit of length, and {} states {}; the same unit is assumed for both",
+        display_name(first ? path : other_path), display_name(first ? other_path : path),
+        first ? unit : expansion.unit));
     return;
   }
   const auto own = metres_of(expansion.unit), wanted = metres_of(unit);
   if (!own || !wanted) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("{} is in {} and {} in {}, and it is not known how many {} one {} is: "
-                            "make both in one unit, named alike by --length-unit",
-                            display_name(path), expansion.unit, display_name(other_path), unit,
-                            unit, expansion.unit));
+    throw Error(
+        ErrorCode::kInvalidInput,
+        fmt::format("{} is in {} and {} is in {}, and the number of {} in one {} is unknown; write "
+                    "both files in the same unit, with the same --length-unit",
+                    display_name(path), expansion.unit, display_name(other_path), unit, unit,
+                    expansion.unit));
   }
   if (*own != *wanted) {
-    session.note(fmt::format("{} is in {} and {} in {}: its lengths are taken times {:.15g}",
-                             display_name(path), expansion.unit, display_name(other_path), unit,
-                             *own / *wanted));
+    session.note(fmt::format(
+        "{} is in {} and {} is in {}; the lengths of the first are multiplied by {:.15g}",
+        display_name(path), expansion.unit, display_name(other_path), unit, *own / *wanted));
     expansion = scaled(expansion, *own / *wanted);
   }
   expansion.unit = unit;

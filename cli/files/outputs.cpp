@@ -23,9 +23,9 @@ namespace rholm::cli {
 namespace {
 
 [[noreturn]] void throw_unknown_format(const std::string& path, const std::string& known) {
-  if (path == "-") throw UsageError("standard output has no extension: say --format");
-  throw UsageError(fmt::format(
-      "'{}' has no extension that names a format; known are {}, or say --format", path, known));
+  if (path == "-") throw UsageError("standard output has no extension; give --format");
+  throw UsageError(
+      fmt::format("'{}' has no known extension; use one of {}, or --format", path, known));
 }
 
 // Returns the metadata of the numbers as words.
@@ -63,18 +63,21 @@ Option output_option(std::string& path, const std::string& help, bool required) 
           .target = &path,
           .required = required,
           .offer = Offer::kAnyFile,
-          .meaning = output_named};
+          .meaning = output_named,
+          .group = Group::kOutput};
 }
 
 Option format_option(std::string& format, std::vector<std::string> choices) {
   return {.name = "format",
           .help = "format of the output; by default the extension of the file decides",
           .target = &format,
-          .choices = std::move(choices)};
+          .choices = std::move(choices),
+          .group = Group::kAdvanced};
 }
 
 Option ascii_option(bool& ascii, Holding holding) {
-  return {.name = "ascii", .help = ascii_help(holding), .target = &ascii};
+  return {
+      .name = "ascii", .help = ascii_help(holding), .target = &ascii, .group = Group::kAdvanced};
 }
 
 std::vector<Option> mesh_output_options(std::string& path, std::string& format, bool& ascii) {
@@ -98,7 +101,7 @@ std::vector<Option> coefficients_output_options(CoefficientsOutputOptions& targe
 
 void check_not_shared(const std::string& path, bool json) {
   if (path == "-" && json) {
-    throw UsageError("-o - and --json both want standard output: give one of them a file");
+    throw UsageError("-o - and --json both write to standard output; give -o a file name");
   }
 }
 
@@ -119,7 +122,7 @@ ShapeFormat mesh_output(const std::string& path, const std::string& format, bool
   const ShapeFormat found = shape_output(path, format, json);
   if (shape_format_info(found).faces) return found;
   throw UsageError(fmt::format(
-      "{} has no faces, and a mesh has them: take {}",
+      "{} has no faces, and a mesh has faces; use {}",
       format.empty() ? fmt::format("'{}' is a file of points, which", path) : "--format " + format,
       shape_extensions(Holding::kFaces, "or")));
 }
@@ -128,7 +131,7 @@ ShapeFormat points_output(const std::string& path, const std::string& format, bo
   const ShapeFormat found = shape_output(path, format, json);
   const ShapeFormatInfo& info = shape_format_info(found);
   if (info.points) return found;
-  throw UsageError(fmt::format("{} has triangles only, no points: take {}", info.file.title,
+  throw UsageError(fmt::format("{} has only faces and no points; use {}", info.file.title,
                                shape_extensions(Holding::kPoints, "or")));
 }
 
@@ -149,8 +152,8 @@ CoefficientsOutput coefficients_output(const std::string& path, const std::strin
 void check_rewindable(const std::string& path) {
   if (path != "-" && !is_special(path)) return;
   throw UsageError(fmt::format(
-      "a model file (HDF5) cannot go to {}: give it a file of its own",
-      path == "-" ? "standard output" : fmt::format("'{}', which cannot be rewound", path)));
+      "a model file (HDF5) cannot be written to {}; give the name of a regular file",
+      path == "-" ? "standard output" : fmt::format("'{}', which is a pipe or a device", path)));
 }
 
 void check_writable(const std::string& path) {
@@ -174,7 +177,7 @@ void check_writable(const std::string& path) {
   std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (folder.empty()) folder = ".";
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw Error(ErrorCode::kIo, fmt::format("{} cannot be written: folder {}: {}", path,
+    throw Error(ErrorCode::kIo, fmt::format("{} cannot be written in folder {}: {}", path,
                                             folder.string(), std::strerror(errno)));
   }
 }
@@ -212,11 +215,11 @@ void write_coefficients_output(const Expansion& expansion, const CoefficientsOut
   const std::string name = output.path == "-" ? "standard output" : output.path;
   const CoefficientsFormatInfo& info = coefficients_format_info(*output.format);
   if (!info.meaning) {
-    session.note(fmt::format("{} has numbers alone and cannot say that they are of {}", name,
+    session.note(fmt::format("{} has only numbers and does not state their meaning: {}", name,
                              meaning_of(expansion, convention)));
   } else if (expansion.errors && !info.errors) {
-    session.note(
-        fmt::format("{} has no room for the errors of the model: a model file (.h5) has", name));
+    session.note(fmt::format(
+        "{} has no room for the errors of the model; a model file (.h5) stores them", name));
   }
 }
 

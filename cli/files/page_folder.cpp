@@ -28,8 +28,8 @@ std::string viewer_script() {
   const std::optional<std::string> folder = page_folder();
   if (!folder) {
     throw Error(ErrorCode::kUnsupported,
-                "interactive pages need the viewer, which is not installed with this program: "
-                "scripts/studio in the sources of rholm makes it");
+                "interactive pages need the viewer, which is not installed; 'scripts/studio' in "
+                "the sources of rholm builds it");
   }
   const std::vector<char> bytes = read_all_bytes(*folder + "/viewer/viewer.js");
   return {bytes.begin(), bytes.end()};

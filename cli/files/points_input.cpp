@@ -25,7 +25,7 @@ PointCloud points_of(ShapeFile file, const std::string& path, Session& session) 
   say_what_was_read(file, path, session);
   if (auto* cloud = std::get_if<PointCloud>(&file.shape)) return std::move(*cloud);
   Mesh& mesh = std::get<Mesh>(file.shape);
-  session.note(fmt::format("{} is a mesh: its {} vertices are taken as points", display_name(path),
+  session.note(fmt::format("{} is a mesh; its {} vertices are used as points", display_name(path),
                            mesh.vertices.size()));
   return points_of_mesh(std::move(mesh));
 }

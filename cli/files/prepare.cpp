@@ -34,7 +34,7 @@ Option center_option(std::string& center) {
 Option length_unit_option(std::string& unit) {
   return {.name = "length-unit",
           .value = "NAME",
-          .help = "unit of the mesh's lengths, as in km, to be written into the file",
+          .help = "name of the unit of length, for example km, which is stored in the file",
           .target = &unit,
           .check = [](const std::string& option, const std::string& text) {
             check_by(option, text, [&] { check_unit(text); });

@@ -29,10 +29,8 @@ struct Prepared {
 Prepared prepare(const Mesh& mesh, double weld_tolerance);
 
 // Note on a mesh that was inside out.
-inline constexpr const char* kFlipped =
-    "the mesh was inside out, it has been turned right side out";
+inline constexpr const char* kFlipped = "the mesh was inside out, and its faces were reversed";
 // Note on points whose normals all pointed inwards.
-inline constexpr const char* kTurned =
-    "all normals pointed inwards, they have been turned outwards";
+inline constexpr const char* kTurned = "all normals pointed inwards, and were reversed";
 
 }  // namespace rholm::cli

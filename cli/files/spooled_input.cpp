@@ -56,7 +56,7 @@ SpooledInput::SpooledInput(const std::string& path, std::size_t in_memory,
     map_ = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file_, 0);
     if (map_ == MAP_FAILED) {
       map_ = nullptr;
-      throw Error(ErrorCode::kIo, fmt::format("what was kept of {} in {} cannot be mapped: {}",
+      throw Error(ErrorCode::kIo, fmt::format("the copy of {} in {} cannot be mapped: {}",
                                               display_name(path), folder, reason()));
     }
   } catch (...) {
@@ -75,7 +75,7 @@ void SpooledInput::to_file(const std::string& folder) {
   if (file_ < 0) {
     throw Error(ErrorCode::kIo,
                 fmt::format("{} is larger than a quarter of --max-memory, and no file can be made "
-                            "in {} to keep it: {}; --work-dir names another folder",
+                            "in {} to hold it: {}; name another folder with --work-dir",
                             display_name(path_), folder, reason()));
   }
   write(memory_, folder);
@@ -90,11 +90,12 @@ void SpooledInput::write(std::span<const char> bytes, const std::string& folder)
     if (n > 0) {
       bytes = bytes.subspan(static_cast<std::size_t>(n));
     } else if (error != EINTR) {
-      throw Error(ErrorCode::kIo,
-                  fmt::format("{} cannot keep {}, of which {:.3g} GiB have come: {}; --work-dir "
-                              "names another folder",
-                              folder, display_name(path_), static_cast<double>(size_) / 0x1p30,
-                              std::strerror(error)));
+      throw Error(
+          ErrorCode::kIo,
+          fmt::format(
+              "{} has no room for {} after {:.3g} GiB: {}; name another folder with --work-dir",
+              folder, display_name(path_), static_cast<double>(size_) / 0x1p30,
+              std::strerror(error)));
     }
   }
 }

@@ -27,10 +27,10 @@ void warn_of_crossings(const Mesh& surface, const Mesh& sphere, const Vec3& cent
     crossings += dot(surface.vertices[i] - center, sphere.vertices[i]) <= 0;
   }
   if (crossings == 0) return;
-  session.warn(fmt::format(
-      "{}: the series has a radius r <= 0 at {} of {} vertices: the surface crosses its centre "
-      "there; another degree may not",
-      name, crossings, surface.vertices.size()));
+  session.warn(
+      fmt::format("{}: the series has a radius r <= 0 at {} of {} vertices, where the surface "
+                  "crosses its centre; try another degree",
+                  name, crossings, surface.vertices.size()));
 }
 
 Mesh surface_of(const Input& input, const std::string& path, std::optional<int> degree,

@@ -2,6 +2,7 @@
 // all use this description, so that they agree. Layer: cli.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -30,6 +31,20 @@ using Target =
 // Files that a shell offers for a value.
 enum class Offer { kNothing, kAnyFile, kShapes, kCoefficients, kShapesAndCoefficients };
 
+// Groups of options, in the order in which help lists them.
+enum class Group { kData, kAccuracy, kOutput, kAdvanced, kPaper };
+struct GroupInfo {
+  Group group;
+  const char* title;
+  bool on_first_screen;  // false: only --help all, the manual page and the reference show it
+};
+inline constexpr GroupInfo kGroups[] = {{Group::kData, "Data", true},
+                                        {Group::kAccuracy, "Accuracy", true},
+                                        {Group::kOutput, "Output", true},
+                                        {Group::kAdvanced, "Advanced", false},
+                                        {Group::kPaper, "Method of the paper", false}};
+inline const GroupInfo& info_of(Group group) { return kGroups[static_cast<std::size_t>(group)]; }
+
 struct Option {
   std::string name;        // "degree" means --degree; an operand is in capitals: "SHAPE"
   char letter = 0;         // 'o' means -o
@@ -47,6 +62,8 @@ struct Option {
   Offer offer = Offer::kNothing;
   // Returns the meaning of a text; by default the text itself.
   std::function<std::string(const std::string& text)> meaning = {};
+  // Options of the library's lists begin as kAdvanced; each command moves the common ones.
+  Group group = Group::kData;
 
   bool is_operand() const { return name.front() >= 'A' && name.front() <= 'Z'; }
   bool is_switch() const { return std::holds_alternative<bool*>(target); }
@@ -68,7 +85,7 @@ struct Command {
   std::vector<Option> options;
   std::vector<std::string> examples;       // whole command lines
   std::function<int(Session&)> run = {};   // returns the exit code
-  std::string if_not_star = {};            // advice for a shape that is not star-shaped
+  std::string if_not_star = {};            // next step for a shape that is not star-shaped
   bool hidden = false;                     // true: not in the list of commands
   std::optional<PerShape> per_shape = {};  // empty: not allowed in a batch
 };
@@ -76,11 +93,22 @@ struct Command {
 // Returns --threads and --quiet, which every command has.
 struct CommonOptions;
 std::vector<Option> common_options(CommonOptions& values);
+// Returns the command's own and the common options of one group, in the order of the command.
+// Their common targets are unused, so that the result is good for descriptions only.
+std::vector<Option> described_options(const Command& command, Group group);
+std::vector<Option> operands_of(const Command& command);
 
 // Returns --json, which every command with a report has.
 Option json_option(bool& json);
 
 // Appends `more` to `list`.
 void append(std::vector<Option>& list, std::vector<Option> more);
+
+// Moves the named options to a group. Throws std::logic_error for a name that `list` lacks.
+struct NamesInGroup {
+  Group group;
+  std::vector<std::string> names;
+};
+std::vector<Option> in_groups(std::vector<Option> list, const std::vector<NamesInGroup>& groups);
 
 }  // namespace rholm::cli

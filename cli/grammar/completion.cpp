@@ -39,7 +39,7 @@ std::vector<Option> offered_options(const Command& command) {
   static CommonOptions common;  // unused targets: only the options are needed
   std::vector<Option> options = command.options;
   for (const Option& option : common_options(common)) options.push_back(option);
-  options.push_back({.name = "help", .letter = 'h', .help = "what it does", .target = &help});
+  options.push_back({.name = "help", .letter = 'h', .help = "print help", .target = &help});
   return options;
 }
 

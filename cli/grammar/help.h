@@ -19,17 +19,21 @@ struct ProgramText {
 
 std::string version_text(const ProgramText& program);
 std::string program_help(const ProgramText& program, std::span<const Command> commands);
-std::string command_help(const Command& command);
+// The first screen has one paragraph and the common options; kAll has everything.
+enum class HelpExtent { kFirstScreen, kAll };
+std::string command_help(const Command& command, HelpExtent extent);
 
 // Returns the command as typed: "rholm expand", or the program alone for a single command.
 std::string typed_name(const Command& command);
 
-// Returns "rholm expand SHAPE --degree L [--method edge|gauge] -o OUT" in lines of at most `width`
-// characters; the second and later lines are indented.
+// Returns "rholm expand SHAPE -o OUT [options]": operands and required options, in lines of at most
+// `width` characters. The second and later lines are indented.
 std::string usage_line(const Command& command, std::size_t width);
 
 // Returns an option as help shows it: "-o, --output OUT", "--method edge|gauge", "SHAPE".
 std::string option_heading(const Option& option);
+// Returns the placeholder or the choices of a value: "L", "edge|gauge"; empty for a switch.
+std::string value_name(const Option& option);
 
 // Returns the manual page, in the man macros of troff. `date` is YYYY-MM-DD.
 std::string man_page(const ProgramText& program, std::span<const Command> commands,

@@ -48,11 +48,20 @@ std::string option_items(const std::vector<Option>& options) {
   return text;
 }
 
+// --threads and --quiet have a section of their own.
+bool is_common(const Option& option) { return option.name == "threads" || option.name == "quiet"; }
+
 std::string command_section(const Command& command) {
   std::string text = fmt::format(".SS {} {}\n", escaped(program_name()), command.name);
   text += ".nf\n" + escaped(usage_line(command, 76)) + "\n.fi\n.PP\n";
   text += escaped(command.summary) + ".\n.PP\n" + paragraphs(command.description);
-  text += option_items(command.options);
+  text += option_items(operands_of(command));
+  for (const GroupInfo& info : kGroups) {
+    std::vector<Option> options = described_options(command, info.group);
+    std::erase_if(options, is_common);
+    if (!options.empty())
+      text += fmt::format(".PP\n\\fI{}\\fR\n", info.title) + option_items(options);
+  }
   text += ".PP\nExample:\n.PP\n.nf\n";
   for (const std::string& example : command.examples) text += escaped("    " + example) + "\n";
   return text + ".fi\n";
@@ -78,20 +87,22 @@ std::string man_page(const ProgramText& program, std::span<const Command> comman
   text += paragraphs(program.description);
   text += ".SH OPTIONS OF EVERY COMMAND\n";
   text += option_items(common_options(common));
-  text += ".TP\n\\fB\\-\\-help\\fR\nWhat the command does, its options and an example.\n";
+  text +=
+      ".TP\n\\fB\\-\\-help\\fR [\\fBall\\fR]\nPrints what the command does, its common options and "
+      "examples; with \\fBall\\fR all options.\n";
   text += ".SH COMMANDS\n";
   for (const Command& command : commands) {
     if (!command.hidden) text += command_section(command);
   }
   text +=
       ".SH EXIT STATUS\n"
-      ".TP\n0\nDone.\n"
-      ".TP\n1\nFailure: a file cannot be read or written, memory is refused.\n"
+      ".TP\n0\nSuccess.\n"
+      ".TP\n1\nFailure: a file cannot be read or written, or memory is missing.\n"
       ".TP\n2\nThe command line is wrong.\n"
       ".TP\n3\nThe input is malformed, not supported, or not star\\-shaped.\n"
       ".TP\n4\nA precision was not reached.\n"
-      ".TP\n128 + N\nStopped by signal N: 130 by Ctrl\\-C; files that were there are whole.\n"
-      ".TP\n141\nWho read standard output has gone (SIGPIPE).\n"
+      ".TP\n128 + N\nEnded by signal N: 130 by Ctrl\\-C. Existing files stay complete.\n"
+      ".TP\n141\nThe reader of standard output has ended (SIGPIPE).\n"
       ".SH ENVIRONMENT\n"
       ".TP\n\\fBNO_COLOR\\fR\nIf set and not empty, messages have no colours.\n";
   return text;

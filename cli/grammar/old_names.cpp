@@ -1,6 +1,7 @@
 #include "cli/grammar/old_names.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -25,36 +26,66 @@ std::string note_of(std::string_view old_name, std::string_view name) {
   return fmt::format("{} is {} now; the next version refuses the old name", old_name, name);
 }
 
+// Words that no version had, or an option of another command, with the next step.
+struct Hint {
+  std::string_view word, advice;
+};
+constexpr Hint kCommandHints[] = {
+    {"analyse", "'rholm expand' computes coefficients"},
+    {"analysis", "'rholm expand' computes coefficients"},
+    {"encode", "'rholm expand' computes coefficients"},
+    {"transform", "'rholm expand' computes coefficients"},
+    {"decode", "'rholm synthesize' makes a mesh from coefficients"},
+    {"synthesise", "'rholm synthesize' makes a mesh from coefficients"},
+    {"atlas", "'rholm compress' makes an atlas of caps"},
+    {"decimate", "'rholm simplify' reduces the number of faces"},
+    {"mesh", "'rholm reconstruct' makes a mesh from points"},
+    {"view", "'rholm render' draws a picture and 'rholm studio' opens a page"},
+    {"fix", "'rholm repair' repairs a mesh"}};
+constexpr Hint kOptionHints[] = {{"--atlas", "'rholm compress' makes an atlas of caps"},
+                                 {"--lmax", "--degree is the highest degree"},
+                                 {"--triangles", "the parts of a mesh are called faces"}};
+
+template <std::size_t n>
+std::string hint_of(const Hint (&hints)[n], std::string_view word) {
+  for (const Hint& hint : hints) {
+    if (hint.word == word) return fmt::format("; {}", hint.advice);
+  }
+  return {};
+}
+
+constexpr std::string_view kAnalyze = "analyze";
+
 // Replaces "analyze", which became two commands: --atlas among its options chose the second one.
 // Returns a note if the word was replaced.
 std::vector<std::string> replace_analyze(std::string& word, std::vector<std::string>& options,
                                          std::size_t first) {
-  if (word != "analyze") return {};
+  if (word != kAnalyze) return {};
   const auto begin = options.begin() + static_cast<std::ptrdiff_t>(first);
   const auto atlas = std::find(begin, options.end(), "--atlas");
   if (atlas == options.end()) {
     word = "expand";
-    return {note_of("analyze", word)};
+    return {note_of(kAnalyze, word)};
   }
   word = "compress";
   options.erase(atlas);
-  return {note_of("analyze --atlas", "compress")};
+  return {note_of("analyze --atlas", word)};
 }
 
 // Replaces the old name in --command of a batch, whose options of the command follow "--".
 std::vector<std::string> replace_in_batch(std::vector<std::string>& words) {
+  constexpr std::string_view kOption = "--command";
   for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
-    constexpr std::string_view kJoined = "--command=";
-    if (words[i] == "--command=analyze") {
-      std::string name = words[i].substr(kJoined.size());
-      auto notes = replace_analyze(name, words, i + 1);
-      words[i] = std::string(kJoined) + name;
-      return notes;
-    }
-    if (words[i] == "--command" && i + 1 < words.size()) {
+    if (words[i] == kOption && i + 1 < words.size()) {
       std::string name = words[i + 1];
       auto notes = replace_analyze(name, words, i + 2);
       words[i + 1] = name;
+      return notes;
+    }
+    if (words[i].starts_with("--command=")) {
+      std::string name = words[i].substr(kOption.size() + 1);
+      auto notes = replace_analyze(name, words, i + 1);
+      words[i] = fmt::format("{}={}", kOption, name);
       return notes;
     }
   }
@@ -70,6 +101,9 @@ std::vector<std::string> replace_old_command(std::vector<std::string>& words) {
   words.front() = name;
   return notes;
 }
+
+std::string command_hint(std::string_view word) { return hint_of(kCommandHints, word); }
+std::string option_hint(std::string_view word) { return hint_of(kOptionHints, word); }
 
 std::vector<std::string> replace_old_names(const Command& command,
                                            std::vector<std::string>& words) {

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/grammar/old_names.h"
 #include "cli/grammar/suggest.h"
 #include "cli/grammar/values.h"
 
@@ -132,8 +133,9 @@ void check_names(const std::vector<Option>& options, std::span<const std::string
     const Option* option = option_of(options, name);
     if (option == nullptr) {
       const std::string typed = is_long ? name : word;
-      throw UsageError(
-          fmt::format("there is no option '{}'{}", typed, did_you_mean(typed, names_of(options))));
+      const std::string hint = option_hint(typed);
+      throw UsageError(fmt::format("there is no option '{}'{}", typed,
+                                   hint.empty() ? did_you_mean(typed, names_of(options)) : hint));
     }
     if (!option->is_switch() && word.size() == name.size())
       ++i;  // its value, even if it looks like an option

@@ -37,12 +37,11 @@ Outcome outcome_of(const std::function<int()>& work) {
             stopped ? "interrupted; nothing was written" : error.what()};
   } catch (const std::bad_alloc&) {
     if (memory_limit()) return {kFailure, beyond_memory_limit()};
-    return {kFailure,
-            "there is not enough memory for this; ask for a lower degree or fewer vertices"};
+    return {kFailure, "memory is exhausted; take a lower degree or a mesh with fewer vertices"};
   } catch (const std::filesystem::filesystem_error& error) {
     return {kFailure, fmt::format("{}: {}", error.path1().string(), error.code().message())};
   } catch (const std::exception& error) {
-    return {kFailure, fmt::format("unexpected: {}", error.what())};
+    return {kFailure, fmt::format("unexpected error: {}", error.what())};
   }
 }
 
@@ -62,7 +61,7 @@ int run_command(const Command& command, std::span<const std::string> words,
   } catch (const Error& error) {
     // The library's message is general; the command adds its own advice.
     if (error.code() != ErrorCode::kNotStarShaped || command.if_not_star.empty()) throw;
-    throw Error(error.code(), fmt::format("{} ({})", error.what(), command.if_not_star));
+    throw Error(error.code(), fmt::format("{}. {}.", error.what(), command.if_not_star));
   }
 }
 

@@ -53,8 +53,9 @@ std::vector<int> parse_degrees(const std::string& option, const std::string& tex
   for (const std::string& part : split(text, ',')) {
     int degree = 0;
     if (!read_number(part, degree) || degree < 0 || degree > kMaxDegree) {
-      throw UsageError(fmt::format("{} is '{}'; it must be degrees within 0 ... {}, as in 4,16,64",
-                                   option, text, kMaxDegree));
+      throw UsageError(
+          fmt::format("{} is '{}'; it must be degrees within 0 ... {}, for example 4,16,64", option,
+                      text, kMaxDegree));
     }
     degrees.push_back(degree);
   }
@@ -64,10 +65,8 @@ std::vector<int> parse_degrees(const std::string& option, const std::string& tex
 std::vector<int> parse_band(const std::string& option, const std::string& text) {
   std::vector<int> ends = parse_degrees(option, text);
   if (ends.size() == 2 && ends[0] <= ends[1]) return ends;
-  throw UsageError(
-      fmt::format("{} is '{}'; it must be two degrees, the lower one first, as in "
-                  "10,40",
-                  option, text));
+  throw UsageError(fmt::format(
+      "{} is '{}'; it must be two degrees, the lower one first, for example 10,40", option, text));
 }
 
 void check_by(const std::string& option, const std::string& text,
@@ -89,8 +88,8 @@ std::array<int, 2> parse_grid(const std::string& option, const std::string& text
     return grid;
   }
   throw UsageError(
-      fmt::format("{} is '{}'; it must be two numbers from {}x{} up, with a product of "
-                  "at most {}, as in 90x180",
+      fmt::format("{} is '{}'; it must be two numbers from {}x{} up, with a product of at most {}, "
+                  "for example 90x180",
                   option, text, min[0], min[1], kMaxGridVertices));
 }
 
@@ -102,8 +101,9 @@ std::array<int, 2> parse_size(const std::string& option, const std::string& text
       std::min(size[0], size[1]) >= min && std::max(size[0], size[1]) <= max) {
     return size;
   }
-  throw UsageError(fmt::format("{} is '{}'; it must be two numbers within {} ... {}, as in 640x480",
-                               option, text, min, max));
+  throw UsageError(
+      fmt::format("{} is '{}'; it must be two numbers within {} ... {}, for example 640x480",
+                  option, text, min, max));
 }
 
 std::vector<double> parse_numbers(const std::string& option, const std::string& text,

@@ -27,7 +27,8 @@ std::vector<Option> options_of(const std::string& prefix, std::string& normaliza
       option.choices.assign(names.begin(), names.end());
       option.target = &normalization;
     } else {
-      option.help = fmt::format("phase{}. {}; {} by default", where, option.help, standard.*member);
+      option.help = fmt::format("Condon-Shortley phase{}: {}; {} by default", where, option.help,
+                                standard.*member);
       option.choices = {"1", "-1"};
       option.target = &csphase;
     }
@@ -67,7 +68,7 @@ std::vector<std::string> InputConvention::left_open(const std::vector<std::strin
 
 std::vector<Option> input_convention_options(InputConvention& target) {
   return options_of("input-", target.normalization, target.csphase,
-                    ", of an input whose file does not say");
+                    ", for an input whose file does not state it");
 }
 
 std::string text_of(const Convention& convention) {

@@ -18,6 +18,7 @@ std::string default_text(double value) { return value == 0 ? "" : fmt::format("{
 Option option_of(const FieldInfo& info, const std::string& by_default) {
   const bool is_length = info.unit == FieldUnit::kLength;
   Option option{.name = option_name(info), .value = info.value, .help = info.help};
+  option.group = Group::kAdvanced;
   if (is_length) option.help += "; a fraction of the bounding box's diagonal";
   if (!by_default.empty()) option.help += fmt::format("; {} by default", by_default);
   if (std::isfinite(info.least)) (info.above ? option.above : option.min) = info.least;

@@ -64,19 +64,21 @@ void MemoryOptions::require(double needed, const std::string& what, double most)
 Option max_memory_option(MemoryOptions& options) {
   return {.name = "max-memory",
           .value = "GIB",
-          .help = "memory that may be used, at most; by default what the machine has",
+          .help = "most memory to use, in GiB; by default the memory of the machine",
           .target = &options.gib,
           .min = 1e-6,
-          .max = 1 << 20};
+          .max = 1 << 20,
+          .group = Group::kAdvanced};
 }
 
 std::vector<Option> memory_options(MemoryOptions& options) {
   return {max_memory_option(options),
           {.name = "work-dir",
            .value = "DIR",
-           .help = "folder for what of standard input does not fit in a quarter of it; by default "
-                   "that of the system's temporary files",
-           .target = &options.work_dir}};
+           .help = "folder for the part of standard input that does not fit in a quarter of "
+                   "--max-memory; by default the folder for temporary files",
+           .target = &options.work_dir,
+           .group = Group::kAdvanced}};
 }
 
 }  // namespace rholm::cli

@@ -19,7 +19,7 @@ std::vector<Region> parse_regions(const std::vector<std::string>& texts);
 // Forms of a region, for the descriptions of commands.
 inline constexpr const char* kRegionHelp =
     "A region is ball:X,Y,Z,RADIUS; vertex:INDEX,RADIUS, a disc along the surface around a vertex "
-    "(counted from 0); box:X0,Y0,Z0,X1,Y1,Z1; color:RRGGBB, vertices painted so in another "
-    "program; or property:NAME, a weight 0 ... 1 in the file. Several are taken together.";
+    "(counted from 0); box:X0,Y0,Z0,X1,Y1,Z1; color:RRGGBB, the vertices of this colour; or "
+    "property:NAME, an attribute with weights from 0 to 1. Several regions are joined.";
 
 }  // namespace rholm::cli

@@ -10,14 +10,13 @@
 namespace rholm::cli {
 
 Option simplify_option(std::string& text, const char* by_default) {
-  return {
-      .name = "simplify",
-      .value = "auto|N|P%|none",
-      .help = fmt::format("fewer faces for the same surface: N of them, P per cent, or as few as "
-                          "hardly change it (auto); {}",
-                          by_default),
-      .target = &text,
-      .check = parse_simplify};
+  return {.name = "simplify",
+          .value = "auto|N|P%|none",
+          .help = fmt::format("reduce the faces of the surface to N, to P per cent, or to as few "
+                              "as hardly change it (auto); {}",
+                              by_default),
+          .target = &text,
+          .check = parse_simplify};
 }
 
 std::optional<SimplifyOptions> parse_simplify(const std::string& option, const std::string& text) {
@@ -30,9 +29,10 @@ std::optional<SimplifyOptions> parse_simplify(const std::string& option, const s
   if (number && !per_cent && *number >= 4 && *number <= 4e9 && std::floor(*number) == *number) {
     return SimplifyOptions{.triangles = static_cast<std::size_t>(*number)};
   }
-  throw UsageError(fmt::format(
-      "{} is '{}'; it must be auto, a number of faces from 4, or a percentage, as in 10%", option,
-      text));
+  throw UsageError(
+      fmt::format("{} is '{}'; it must be auto, none, a number of faces from 4, or a percentage, "
+                  "for example 10%",
+                  option, text));
 }
 
 }  // namespace rholm::cli

@@ -7,7 +7,7 @@ namespace rholm::cli {
 std::optional<Tolerance> ToleranceOptions::parsed() const {
   if (!tolerance) {
     if (!rest.names.empty()) {
-      throw UsageError("--norm, --measure, --unit and --max-degree go with --tolerance");
+      throw UsageError("--norm, --measure, --unit and --max-degree need --tolerance");
     }
     return std::nullopt;
   }
@@ -21,13 +21,12 @@ std::optional<Tolerance> ToleranceOptions::parsed() const {
 }
 
 std::vector<Option> tolerance_options(ToleranceOptions& o) {
-  std::vector<Option> list = {
-      {.name = "tolerance",
-       .value = "E",
-       .help = "the smallest degree whose error is at most E, instead of --degree; exit code 4 if "
-               "--max-degree does not keep it",
-       .target = &o.tolerance,
-       .above = 0}};
+  std::vector<Option> list = {{.name = "tolerance",
+                               .value = "E",
+                               .help = "find the smallest degree whose error is at most E, instead "
+                                       "of --degree; exit code 4 if --max-degree does not reach it",
+                               .target = &o.tolerance,
+                               .above = 0}};
   append(list, field_options(o.rest));
   return list;
 }

@@ -46,7 +46,7 @@ void hang_up(int socket) {
 
 Connections::Connections(Options options) : options_(std::move(options)) {
   if (::pipe2(wake_, O_CLOEXEC | O_NONBLOCK) != 0) {
-    throw Error(ErrorCode::kIo, std::string("no pipe can be made: ") + std::strerror(errno));
+    throw Error(ErrorCode::kIo, std::string("a pipe cannot be made: ") + std::strerror(errno));
   }
   threads_.emplace_back([this] { watch(); });
   for (std::size_t i = 0; i < options_.workers; ++i) threads_.emplace_back([this] { work(); });

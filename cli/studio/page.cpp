@@ -47,14 +47,18 @@ Page read_page(const std::string& folder) {
   namespace fs = std::filesystem;
   std::error_code error;
   if (!fs::is_regular_file(fs::path(folder) / "index.html", error)) {
-    throw Error(ErrorCode::kIo, fmt::format("{} has no index.html: it is no page", folder));
+    throw Error(
+        ErrorCode::kIo,
+        fmt::format(
+            "{} has no index.html and is not a page; run 'scripts/studio' in the sources of rholm",
+            folder));
   }
   Page page;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file()) continue;
     if (page.size() == kMaxFiles) {
       throw Error(ErrorCode::kIo,
-                  fmt::format("{} has more than {} files: it is no page", folder, kMaxFiles));
+                  fmt::format("{} has more than {} files and is not a page", folder, kMaxFiles));
     }
     const std::string name = fs::relative(entry.path(), folder).generic_string();
     page[name] = file_of(name, read_all_bytes(entry.path().string()));

@@ -231,8 +231,7 @@ class StudioServer::Parts {
     if (!bound) {
       throw Error(
           ErrorCode::kIo,
-          fmt::format("port {} of this machine cannot be listened on: another program does, "
-                      "or it may not be used; leave out --port for one that is free",
+          fmt::format("port {} is in use or not allowed; leave out --port to use a free port",
                       options.port));
     }
     // The library's queue holds five connections, and closes further ones that arrive at once.
@@ -337,7 +336,7 @@ class StudioServer::Parts {
     const bool known = host == hosts_[0] || host == hosts_[1];
     if (!known || (request.has_header("Origin") && origin != "http://" + host) ||
         is_foreign(request, below(request).empty())) {
-      refuse(response, 403, "forbidden", "this is for the page of the studio only");
+      refuse(response, 403, "forbidden", "only the page of the studio may send requests");
       return false;
     }
     const bool in_pieces = request.has_header("Transfer-Encoding");
@@ -366,7 +365,7 @@ class StudioServer::Parts {
   void answer_post(const HttpRequest& request, HttpResponse& response,
                    const httplib::ContentReader& read) {
     if (request.is_multipart_form_data()) {
-      return refuse(response, 400, "bad_request", "a body is the bytes themselves, no form");
+      return refuse(response, 400, "bad_request", "the body must be plain bytes, not a form");
     }
     const std::uint64_t said = request.get_header_value<std::uint64_t>("Content-Length");
     const std::uint64_t most = most_of(request);
@@ -387,12 +386,13 @@ class StudioServer::Parts {
     });
     const std::size_t arrived = body.size();
     if (is_crowded) {
-      refuse(response, 503, "busy", "too much is being sent at once; send it again in a moment");
+      refuse(response, 503, "busy",
+             "too many requests at the same time; send it again in a moment");
     } else if (is_large && proved < most) {
       refuse(response, 411, "length_required",
-             fmt::format("a body of more than {} bytes must say its length first", proved));
+             fmt::format("a body of more than {} bytes needs a Content-Length", proved));
     } else if (!whole && !is_large) {
-      refuse(response, 400, "bad_request", "the body is not whole");
+      refuse(response, 400, "bad_request", "the body is incomplete");
     } else if (!whole) {
       refuse_large(request, response);
     } else {
@@ -410,7 +410,7 @@ class StudioServer::Parts {
     std::shared_ptr<StudioListener> listener = studio_.listen(session);
     if (!listener) return refuse(response, 404, "no_session", "there is no such session");
     if (streams_ >= kMaxStreams) {
-      return refuse(response, 503, "too_many_sessions", "too many pages are open; close one first");
+      return refuse(response, 503, "too_many_sessions", "too many pages are open; close one");
     }
     ++streams_;
     auto beat = std::make_shared<std::chrono::steady_clock::time_point>();

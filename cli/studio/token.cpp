@@ -13,7 +13,7 @@ namespace rholm::cli {
 std::string random_token() {
   std::array<unsigned char, 16> bytes = {};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
-    throw Error(ErrorCode::kIo, "the system gives no random numbers");
+    throw Error(ErrorCode::kIo, "the system provides no random numbers");
   }
   std::string token;
   for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);

@@ -18,8 +18,8 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
     return;
   }
   constexpr char kMessage[] =
-      "rholm: error: the file was shortened while it was read: wait until the program that writes "
-      "it is done, then try again\n";
+      "rholm: error: the file was shortened while it was read; wait until the other program has "
+      "written it, then try again\n";
   // A failure of this write cannot be reported.
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kMessage, sizeof(kMessage) - 1);
   _exit(kRefused);

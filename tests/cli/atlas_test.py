@@ -67,7 +67,7 @@ class Atlas(CliTest):
         """One face of an octahedron is flipped; all faces are flipped; points have normals inwards."""
         words = ["--tolerance", "0.1", "--max-degree", "4", "-o", "m.h5"]
         self.write("mixed.off", off(V, [F[0][::-1], *F[1:]]))
-        self.assertIn("faces have contradicting orientations at 3 edges",
+        self.assertIn("faces have opposite orientations at 3 edges",
                       self.rholm("compress", "mixed.off", *words, code=3).err)
         self.write("turned.off", off(V, [f[::-1] for f in F]))
         self.assertIn("inside out", self.rholm("compress", "turned.off", *words, "--max-numbers", "1000").err)

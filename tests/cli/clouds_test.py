@@ -72,7 +72,7 @@ class Clouds(CliTest):
             points, normals, turned = spoiled(body, way, share, 1200)
             done, shape = self.reconstruct(points, normals)
             self.assertEqual((done.code, self.fault(body, done, shape)), (0, ""), done)
-            self.assertIn("were turned", done.err)
+            self.assertIn("were reversed", done.err)
             if share < 0.45:
                 self.assertAlmostEqual(done.json()["mended_normals"], turned, delta=0.01 * turned)
 
@@ -84,7 +84,7 @@ class Clouds(CliTest):
             found = done.json()
             self.assertEqual((found["mended_normals"], found["contradicting_normals"],
                               found["inward_normals"]), (0, 0, 0), body)
-            self.assertNotIn("were turned", done.err)
+            self.assertNotIn("were reversed", done.err)
 
     def test_directions_at_random_are_computed_anew(self):
         rng = np.random.default_rng(1)
@@ -115,7 +115,7 @@ class Clouds(CliTest):
             make = getattr(clouds, name)
             done, _ = self.reconstruct(make(np.random.default_rng(13), n))
             self.assertEqual(done.code, 4, done)
-            self.assertRegex(done.err, r"lie off the surface.* first at( \(.*\);){2} \(.*\): they fill a volume")
+            self.assertRegex(done.err, r"are away from the surface.* first at( \(.*\);){2} \(.*\)\. They fill a volume")
 
     @nightly
     def test_tiles_refuse_points_that_fill_thin_bodies(self):
@@ -123,7 +123,7 @@ class Clouds(CliTest):
             points = getattr(clouds, name)(np.random.default_rng(14), 4000)
             done, _ = self.reconstruct(points, None, "--tile-points", "1000")
             self.assertEqual(done.code, 4, done)
-            self.assertIn("they fill a volume", done.err)
+            self.assertIn("They fill a volume", done.err)
 
     @nightly
     def test_walls_nearer_than_noise_allows_are_refused(self):
@@ -136,7 +136,7 @@ class Clouds(CliTest):
                 done, shape = self.reconstruct(points, given)
                 self.assertEqual((done.code, self.fault("plate", done, shape)), (code, ""), done)
                 if code == 4:
-                    self.assertIn("noise hides how thick the body is", done.err)
+                    self.assertIn("noise exceeds the thickness of the body", done.err)
 
     def test_sheets_that_cross_are_refused_with_places(self):
         for name, n, noise in (("crossing_planes", 1500, 0.005), ("crossing_spheres", 2000, 0)):
@@ -168,7 +168,7 @@ class Clouds(CliTest):
             points, normals, turned = spoiled(body, way, share, 4000)
             done, shape = self.reconstruct(points, normals, "--tile-points", "1000")
             self.assertEqual((done.code, self.fault(body, done, shape)), (0, ""), done)
-            self.assertIn("were turned", done.err)
+            self.assertIn("were reversed", done.err)
             self.assertGreater(done.json()["tiles"], 3)
             one = self.reconstruct(points, normals)[0].json()
             self.assertEqual((done.json()["mended_normals"], done.json()["contradicting_normals"]),
@@ -178,7 +178,7 @@ class Clouds(CliTest):
         points, normals, _ = spoiled("bowl", "half", 0.45, 4000)
         done, _ = self.reconstruct(points, normals, "--tile-points", "1000")
         self.assertEqual(done.code, 4, done)
-        self.assertRegex(done.err, r"contradict those around them, first at( \(.*\);){2} \(.*\):")
+        self.assertRegex(done.err, r"contradict their neighbours, first at( \(.*\);){2} \(.*\):")
 
     @nightly
     def test_tiles_compute_directions_at_random_anew(self):
@@ -202,7 +202,7 @@ class Clouds(CliTest):
         self.write("p.xyz", clouds.text(points, normals))
         done = self.rholm("reconstruct", "p.xyz", "-o", "s.ply")
         self.assertNotIn("inwards", done.out + done.err)
-        self.assertRegex(done.err, r"\d+ of 1500 normals contradicted those around them, and were turned")
+        self.assertRegex(done.err, r"\d+ of 1500 normals contradicted their neighbours and were reversed")
 
     def test_normals_that_are_all_zero_are_none(self):
         points, normals = clouds.sphere(np.random.default_rng(5), 100)

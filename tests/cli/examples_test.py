@@ -53,7 +53,7 @@ class Examples(CliTest):
         self.assertLessEqual(set(first), set(commands))
         for command in first + [name for name in commands if name not in first]:
             text = self.rholm(command, "--help").out
-            for line in re.split(r"\nExamples?:\n", text)[1].splitlines():
+            for line in re.findall(r"^  (rholm .*)", re.split(r"\nExamples?:\n", text)[1], re.M):
                 with self.subTest(line):
                     if command == "studio":
                         self.start_and_end(line)

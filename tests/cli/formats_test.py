@@ -23,7 +23,7 @@ COEFFICIENTS = ("align", "expand", "convert", "filter", "recenter", "rotate")
 class Formats(CliTest):
     def choices(self, command):
         """Returns the choices of --format in the help of a command."""
-        return re.search(r"--format ([\w|]+)", self.rholm(command, "--help").out)[1].split("|")
+        return re.search(r"--format ([\w|]+)", self.rholm(command, "--help", "all").out)[1].split("|")
 
     def test_choices_of_commands(self):
         for command in MESHES:
@@ -75,7 +75,7 @@ class Formats(CliTest):
         self.assertIn(".mad", self.rholm("convert", "a.off", "a.foo", code=2).err)
         self.assertIn("MADE", self.rholm("simplify", "bytes", "-o", "a.ply", code=3).err)
         self.assertIn(".mad", self.rholm("simplify", "a.off", "-o", "a.xyz", code=2).err)
-        self.assertIn("MADE has triangles only", self.rholm("make", "sample", "a.off", "-o", "p.mad", code=2).err)
+        self.assertIn("MADE has only faces", self.rholm("make", "sample", "a.off", "-o", "p.mad", code=2).err)
         self.assertIn(".fcy", self.rholm("expand", "a.off", "--degree", "2", "-o", "a.foo", code=2).err)
 
     def test_what_it_cannot_hold_is_said(self):

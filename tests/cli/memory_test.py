@@ -167,8 +167,8 @@ class Memory(CliTest):
         self.assertEqual(part["bounds"], whole["bounds"])
         for key in ("area", "volume"):
             self.assertAlmostEqual(part[key], whole[key], delta=1e-13 * whole[key])
-        self.assertIn("not looked at", self.rholm("info", "box.ply", *TINY).out)
-        self.assertNotIn("not looked at", self.rholm("info", "box.ply").out)
+        self.assertIn("unknown: about", self.rholm("info", "box.ply", *TINY).out)
+        self.assertNotIn("unknown: about", self.rholm("info", "box.ply").out)
 
     def test_info_of_points_is_the_same_a_piece_at_a_time(self):
         self.box()

@@ -146,7 +146,7 @@ class Analyze(CliTest):
     def test_a_tolerance_that_is_not_kept_is_exit_code_4(self):
         result = self.rholm("expand", "a.off", "--tolerance", "1e-9", "--max-degree", "9", "-o",
                             "a.h5", code=4)
-        self.assertIn("is not kept by degree 9", result.err)
+        self.assertIn("is not reached by degree 9", result.err)
         self.assertTrue((self.folder / "a.h5").exists())
 
     def test_a_precision_that_is_not_reached_is_exit_code_4(self):

@@ -104,7 +104,7 @@ class Render(CliTest):
             self.assertEqual((self.folder / "o.png").read_bytes()[:4], b"\x89PNG")
         self.write("c.ply", COLORED.format(n=1) + "0 0 0 9\n")
         said = self.rholm("render", "c.ply", "--color", "own", "--size", "64x48", "-o", "o.png").err
-        self.assertIn("no red, green, blue", said)
+        self.assertIn("no attributes red, green, blue", said)
 
 
 class Orient(CliTest):
@@ -203,7 +203,7 @@ class Orient(CliTest):
                    "3 0 1 2\n")
         result = self.rholm("orient", "m.ply", "--json", "-o", "o.ply")
         self.assertIn("'extra' with 1 row passed over", result.err)
-        self.assertIn("taken as points", result.err)
+        self.assertIn("used as points", result.err)
         self.assertEqual(result.json()["computed"], len(rows))
         names = [a["name"] for a in self.rholm("info", "o.ply", "--json").json()["attributes"]]
         self.assertIn("quality", names)

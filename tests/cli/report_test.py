@@ -136,7 +136,7 @@ class Report(CliTest):
                       page.text())
         self.assertIn("tolerance (rms)", page.text())
         page = self.page("a.ply", "--tolerance", "1e-9", "--max-degree", "4", code=4)
-        self.assertIn("was not kept by degree 4", page.text())
+        self.assertIn("was not reached by degree 4", page.text())
 
     def test_names_are_text_whatever_they_are(self):
         name = "<b>&\"'\u00fc\n.ply"

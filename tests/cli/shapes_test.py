@@ -102,9 +102,9 @@ class Repair(CliTest):
         ring = [(math.cos(a), math.sin(a), 0.1 * k)
                 for k, a in enumerate(2 * math.pi * i / 5 for i in range(5))]
         self.write("strip.off", off(ring, [(i, (i + 1) % 5, (i + 2) % 5) for i in range(5)]))
-        self.assertIn("one side only", self.rholm("repair", "strip.off", "-o", "same.off").err)
+        self.assertIn("surfaces with one side", self.rholm("repair", "strip.off", "-o", "same.off").err)
         self.write("sheet.off", off(V, F[:2]))
-        self.assertIn("which is an open sheet",
+        self.assertIn("an open sheet",
                       self.rholm("repair", "sheet.off", "-o", "same.off").err)
 
     def test_text_says_what_was_done(self):
@@ -330,7 +330,7 @@ class Size(CliTest):
                            "diagonal", "-o", "a.h5"],
                           ["partition", "shape.off", "--tolerance", 0.1 * size, "-o", "p.ply"]):
                 error = self.rholm(*words, code=3).err
-                self.assertIn("take another unit", error)
+                self.assertIn("use another unit", error)
                 self.assertNotIn("area 0", error)
 
 

@@ -42,14 +42,67 @@ class Help(CliTest):
 
     def test_help_of_each_command_has_usage_options_and_an_example(self):
         for command in COMMANDS:
+            for extent in ([], ["all"]):
+                text = self.rholm(command, "--help", *extent).out
+                self.assertEqual(text, self.rholm("help", command, *extent).out)
+                self.assertIn(f"\nUsage: rholm {command} ", text)
+                self.assertRegex(text, rf"\nExamples?:\n  rholm {command} ")
+                for line in text.splitlines():
+                    if not line.startswith("  rholm "):  # examples may be longer
+                        self.assertLessEqual(len(line), 80, line)
+
+    def every_command(self):
+        listed = self.rholm("help").out.split("Commands:\n")[1].split("\n\n")[0]
+        return [line.split()[0] for line in listed.splitlines()]
+
+    def groups(self, *words):
+        """Returns the options of a help text by the title of their group, in the order of the text."""
+        text = self.rholm(*words).out
+        groups = {}
+        for title, entries in re.findall(r"^(\w[\w ]*):\n((?:  .*\n)+)", text, re.M):
+            if not title.startswith("Example"):
+                groups[title] = re.findall(r"^  (?:-\w, )?(--[\w-]+|[A-Z]+)", entries, re.M)
+        return groups
+
+    def test_the_first_screen_fits_for_the_common_commands(self):
+        for command in ("info", "make", "expand", "synthesize", "spectrum", "compare", "convert", "render",
+                        "reconstruct", "repair"):
+            with self.subTest(command):
+                self.assertLessEqual(len(self.rholm(command, "--help").out.splitlines()), 40)
+
+    def test_help_all_has_every_option_once_and_the_groups_in_order(self):
+        titles = ["Operands", "Data", "Accuracy", "Output", "Advanced", "Method of the paper"]
+        completion = self.rholm("completion", "bash").out
+        for command in self.every_command():
+            with self.subTest(command):
+                everything = self.groups(command, "--help", "all")
+                self.assertEqual(list(everything), [title for title in titles if title in everything])
+                options = [option for title, names in everything.items() if title != "Operands" for option in names]
+                self.assertEqual(len(options), len(set(options)))
+                offered = re.search(rf"^    {command}\)\n.*?_rholm_words '([^']*)'", completion, re.M)[1].split()
+                self.assertEqual(set(options), {word for word in offered if word.startswith("--")} - {"--help"})
+                # The first screen leaves out the last two groups, and says how many options they have.
+                first = self.groups(command, "--help")
+                self.assertEqual(first, {title: names for title, names in everything.items() if title in titles[:4]})
+                more = len(options) - sum(len(names) for title, names in first.items() if title != "Operands")
+                last = self.rholm(command, "--help").out.splitlines()[-1]
+                self.assertEqual(last, f"rholm {command} --help all shows {more} more options.")
+
+    def test_required_options_are_on_the_first_screen(self):
+        for command in self.every_command():
             text = self.rholm(command, "--help").out
-            self.assertEqual(text, self.rholm("help", command).out)
-            self.assertIn(f"\nUsage: rholm {command} ", text)
-            self.assertIn("--threads N", text)
-            self.assertRegex(text, rf"\nExamples?:\n  rholm {command} ")
-            for line in text.splitlines():
-                if not line.startswith("  rholm "):  # examples may be longer
-                    self.assertLessEqual(len(line), 80, line)
+            usage = text.split("\nUsage: ")[1].split("\n\n")[0]
+            for option in re.findall(r" (--?\w[\w-]*)", usage):
+                self.assertRegex(text, rf"\n  {option}[ ,]", command)
+
+    def test_the_reference_has_every_command_and_option(self):
+        page = self.rholm("reference").out
+        section = page.split("\n## Commands\n")[1].split("\n## ")[0]
+        for command in self.every_command():
+            part = section.split(f"\n### rholm {command}\n")[1].split("\n### ")[0]
+            for title, names in self.groups(command, "--help", "all").items():
+                for name in names:
+                    self.assertEqual(len(re.findall(rf"^\|[^|]*\| `(?:-\w, )?{name}`", part, re.M)), 1, (command, name))
 
     def test_help_wins_over_wrong_options(self):
         self.rholm("expand", "--nonsense", "--help")
@@ -82,7 +135,7 @@ class WrongUsage(CliTest):
         self.refused("info", "a.off", "b.off", saying="b.off")
 
     def test_what_may_have_been_meant_is_said(self):
-        for words, meant in ((["analyse", "a.off"], "expand"), (["help", "recon"], "reconstruct"),
+        for words, meant in ((["expnad", "a.off"], "expand"), (["help", "recon"], "reconstruct"),
                              (["batch", "a.csv", "-o", "o.csv", "--command", "simplfy"], "simplify"),
                              (["expand", "a.off", "--degre", "8", "-o", "a.h5"], "--degree"),
                              (["expand", "--degre=8", "a.off", "-o", "a.h5"], "--degree"),
@@ -91,6 +144,15 @@ class WrongUsage(CliTest):
                                "egde"], "edge")):
             with self.subTest(words):
                 self.refused(*words, saying=f"did you mean '{meant}'?")
+        # Words of other programs and versions are answered with the command or option of this one.
+        for words, advice in ((["analyse", "a.off"], "'rholm expand' computes coefficients"),
+                              (["encode", "a.off"], "'rholm expand' computes coefficients"),
+                              (["help", "decimate"], "'rholm simplify' reduces"),
+                              (["expand", "a.off", "--atlas", "--tolerance", "1", "-o", "a.h5"],
+                               "'rholm compress' makes an atlas of caps"),
+                              (["expand", "a.off", "--lmax=8", "-o", "a.h5"], "--degree")):
+            with self.subTest(words):
+                self.refused(*words, saying=f"; {advice}")
         for words in (["xylophone", "a.off"], ["info", "a.off", "--colour-of-sky"],
                       ["expand", "a.off", "-o", "a.h5", "--degree", "4", "--method", "magic"]):
             with self.subTest(words):
@@ -248,14 +310,14 @@ class Talk(CliTest):
             self.assertIn("no.", said.splitlines()[-1])  # the file is missing
 
     def test_analyze_is_two_commands_now(self):
-        self.write("a.off", off(V, F))
+        self.write("a.off", off(*OCTAHEDRON))
         words = ["a.off", "--degree", "4", "-o"]
         said = self.rholm("analyze", *words, "old.h5").err
         self.assertIn("analyze is expand now; the next version refuses the old name", said)
         self.assertNotIn("is expand now", self.rholm("analyze", *words, "old.h5", "--quiet").err)
         self.assertEqual(self.rholm("help", "analyze").out, self.rholm("help", "expand").out)
         said = self.rholm("analyze", "none.off", "--atlas", "--tolerance", "1", "-o", "o.h5", code=1).err
-        self.assertIn("compress is compress now", said)
+        self.assertIn("analyze --atlas is compress now", said)
         self.assertIn("none.off", said.splitlines()[-1])
         self.write("list.csv", "path\na.off\n")
         for command in (["--command", "analyze"], ["--command=analyze"]):

@@ -117,7 +117,7 @@ class Usage(Batch):
         self.check(("--version",), 0, "rholm-mpi ")
         self.check(("--help",), 0, "Usage: rholm-mpi COMMAND")
         self.check(("help", "batch"), 0, "Usage: rholm-mpi batch MANIFEST")
-        self.check(("analyse",), 2, "there is no command 'analyse'; did you mean 'expand'? 'rholm-mpi help' lists them")
+        self.check(("analyse",), 2, "there is no command 'analyse'; 'rholm expand' computes coefficients\nTry 'rholm-mpi help'.")
         self.check(("batch", "shapes.csv", "-o", "r.csv", "--fast"), 2, "Try 'rholm-mpi batch --help'")
         self.check(("batch", "none.csv", "--command", "info", "-o", "r.csv"), 1, "none.csv")
         self.check(self.words("none/r.csv"), 1, "none/r.csv")
@@ -177,7 +177,7 @@ class Stopped(Batch):
             self.assertRegex(self.errors(run)[0], says)
 
     def check_went_on(self, before, stderr):
-        self.assertRegex(stderr, rf"{before} rows? done already")
+        self.assertRegex(stderr, rf"{before} rows? already done")
         self.assertEqual(self.bytes("all.h5"), self.bytes("one.h5"))
         self.check_no_litter("one.h5", "all.h5")
         (self.folder / "all.h5").unlink()

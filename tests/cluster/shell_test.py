@@ -58,7 +58,7 @@ class ShellFiles(MpiTest):
     def test_every_command_and_option_is_offered(self):
         scripts = {shell: self.script(shell).read_text() for shell in ("bash", "zsh", "fish")}
         for command in ("expand", "batch", "compare", "completion"):
-            run = self.finished(RHOLM_MPI, command, "--help", ranks=1)
+            run = self.finished(RHOLM_MPI, command, "--help", "all", ranks=1)
             self.assertEqual(run.code, 0, run)
             options = re.findall(r"^  (?:-\w, )?--([\w-]+)", run.stdout, re.M)
             self.assertIn("threads", options)
