@@ -24,10 +24,10 @@ namespace rholm {
 
 // Degree or tolerance of a model, and the permitted changes to the mesh.
 struct ExpandOptions {
-  int degree = TransformOptions{}.degree;  // these four as in TransformOptions
-  Method method = TransformOptions{}.method;
-  Engine engine = TransformOptions{}.engine;
-  double precision = TransformOptions{}.precision;
+  int degree = TransformOptions{}.degree;           // as in TransformOptions
+  Method method = TransformOptions{}.method;        // as in TransformOptions
+  Engine engine = TransformOptions{}.engine;        // as in TransformOptions
+  double precision = TransformOptions{}.precision;  // as in TransformOptions
   // If set, the smallest degree that keeps this tolerance replaces `degree`.
   std::optional<Tolerance> tolerance = {};
   bool errors = true;         // measure and predict Expansion::errors, for star-shaped surfaces
