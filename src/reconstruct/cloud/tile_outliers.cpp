@@ -15,7 +15,7 @@ constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 std::string name_of(std::size_t tile) { return "groups/" + std::to_string(tile); }
 
-// Points of the cloud that are of the halo: their tiles and places there.
+// Points of the cloud that belong to the halo, with their tiles and their places in them.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> names_of_halo(const TileScene& scene) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> names;
   for (const TileAndHalo::Part& part : scene.halo) {

@@ -16,7 +16,7 @@
 namespace rholm {
 namespace {
 
-// At least so many samples of each tile (chosen).
+// Least number of samples of each tile (chosen).
 constexpr std::size_t kSamplesOfTile = 16;
 constexpr const char* kJoined = "signs-joined";
 constexpr const char* kMended = "signs-mended";
