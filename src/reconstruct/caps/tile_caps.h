@@ -21,10 +21,10 @@ namespace rholm {
 // Extent of a set of caps, and how far their weights reach.
 struct CapExtent {
   std::uint64_t n = 0, coefficients = 0;
-  Bounds middles = {};   // of the middles of their supports
-  double half_axis = 0;  // the longest of their supports
-  double support = 0;    // the largest of their frames
-  double deviation = 0;  // the largest from their tangent planes
+  Bounds middles = {};   // box of the middles of their supports
+  double half_axis = 0;  // longest half axis of their supports
+  double support = 0;    // largest support of their frames
+  double deviation = 0;  // largest distance from their tangent planes
 
   // Returns the box of all places where the caps have a weight, for bands of at least `least_band`.
   Bounds reach(double least_band) const;
@@ -34,7 +34,7 @@ struct CapExtent {
 struct CapPatch {
   Vec3 point, normal;  // as CapFoot
   double support = 0;  // of its frame
-  double area = 0;     // that it was made for
+  double area = 0;     // area of the surface that it was made for
   double error = 0;    // Cap::error
 };
 

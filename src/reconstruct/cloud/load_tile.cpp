@@ -37,7 +37,7 @@ std::vector<float> put_normals(const PieceStore& store, std::size_t tile, TileAn
   cloud.points.resize(kept), cloud.normals.resize(kept);
   for (Attribute& attribute : cloud.attributes) attribute.values.resize(kept);
   read.n_own = own;
-  read.halo.clear();  // places are no longer those of the points
+  read.halo.clear();  // its places are no longer valid
   return confidence;
 }
 

@@ -27,8 +27,8 @@ class TileCloud {
   TileCloud(PointSource& source, PieceStore& store, const ReconstructOptions& options,
             std::uint64_t points_per_tile, Stages& stages, ReconstructReport& report);
 
-  // Sorts the points into tiles and removes those far from all others; computes their normals or
-  // mends those given; measures what sample() and size() tell. The report says what was done.
+  // Sorts points into tiles, removes isolated points, and computes normals or mends given normals.
+  // Then measures what sample() and size() return. The report says what was done.
   void prepare();
   // Measures again, after points have been removed.
   void measure_again();

@@ -41,7 +41,7 @@ class TileRemoval {
 };
 
 // Returns one flag per own point: 1 where the point is far from all others, alone or in a small
-// group (find_strays()). Each of the `looks` leaves out the points that those before have found.
+// group (find_strays()). Each of the `looks` leaves out the points that earlier looks have found.
 // `neighbors`, if it is given, gets graph_neighbors() of all points of the scene.
 std::vector<std::uint8_t> find_tile_strays(const TileScene& scene, int looks,
                                            const Context& context,

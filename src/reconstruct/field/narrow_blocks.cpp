@@ -65,7 +65,7 @@ void for_each_node(const NodeBits& bits, const Visit& visit) {
   throw Error(ErrorCode::kInvalidInput, "blocks of a grid that were put aside are damaged");
 }
 
-// The head at `bytes`, and how many bytes it and its values have.
+// Reads the head at `bytes`. Returns the number of bytes of the head and its values.
 std::size_t read_head(std::span<const std::byte> bytes, Head& head) {
   if (bytes.size() < sizeof(Head)) refuse();
   std::memcpy(&head, bytes.data(), sizeof(Head));

@@ -210,7 +210,7 @@ class HoleGrid {
       const auto reach_of = [&](const Hole& hole) {
         return reach_of_feet(hole, grid_.step) + extent.support + 8 * grid_.step;
       };
-      double edge = 0;  // of cells: only holes in those around a patch can be near
+      double edge = 0;  // of cells: only holes in adjacent cells can be near
       for (const Hole* hole : near) edge = std::max(edge, reach_of(*hole));
       const auto cell = [&](const Vec3& p) {
         const Vec3 q = (p - grid_.origin) / edge;

@@ -27,8 +27,8 @@ class TileHoles {
   // Returns the number of portions in this round.
   std::size_t n_portions() const { return round_.size(); }
   // Fills the holes of a portion, as fill_holes() does in the whole grid: "filling-ROUND/PORTION".
-  // Only the blocks around it are in memory, at most `max_blocks`. Their values are computed again
-  // from the caps near them.
+  // Only the blocks around it are in memory, at most `max_blocks`. Their values are read, or
+  // computed again from the caps near them.
   void close(std::size_t portion, std::size_t max_blocks, const SeenSpace* seen,
              const Context& context);
   bool is_closed(std::size_t portion) const;
@@ -53,8 +53,8 @@ class TileHoles {
   const TileWinding& winding_;
   std::size_t n_tiles_;
   std::size_t n_rounds_ = 0;
-  std::vector<Portion> round_;   // that this round closes
-  std::vector<Portion> closed_;  // of the rounds before, but for those that are closed again
+  std::vector<Portion> round_;   // portions that this round closes
+  std::vector<Portion> closed_;  // portions of earlier rounds that stay closed
   std::vector<std::string> gone_;
 };
 

@@ -16,8 +16,8 @@ namespace rholm {
 
 // One of some own points of a tile, evenly spread, that stand for all points.
 struct SamplePoint {
-  double spacing = 0;     // of neighbours or rows: spacing_of_circle()
-  double area = 0;        // that a point stands for, by those around
+  double spacing = 0;     // between neighbours or in rows: spacing_of_circle()
+  double area = 0;        // that a point stands for, from its neighbours
   double disc = 0;        // as balance_sides() has it
   double points = 0;      // number of points that it stands for
   std::size_t place = 0;  // in the order of the tree

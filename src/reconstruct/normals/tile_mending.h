@@ -24,11 +24,11 @@
 namespace rholm {
 
 struct TileMendingOptions {
-  bool mend = true;    // else contradictions are counted only
+  bool mend = true;    // false: contradictions are only counted
   bool closed = true;  // the surface is to be closed
-  // Points of one tile with those around it.
+  // Returns the points of one tile and its halo.
   std::function<std::shared_ptr<const TileScene>(std::size_t tile)> load;
-  // Their graph_neighbors(), or nothing.
+  // Returns graph_neighbors() of these points, or nothing.
   std::function<std::vector<std::uint32_t>(std::size_t tile)> neighbors;
   std::uint64_t points = 0;      // of all tiles
   std::uint64_t samples = 0;     // of all tiles
@@ -39,9 +39,9 @@ struct TileMendingOptions {
 struct TileMendingReport {
   std::uint64_t turned = 0;                   // points
   std::uint64_t all_inward = 0;               // 1: none contradicted the others, and all are turned
-  std::uint64_t contradicting = 0;            // points that still do
+  std::uint64_t contradicting = 0;            // points that still contradict others
   std::uint64_t named = 0;                    // number of them that are in `first`
-  std::array<Vec3, kNamedPoints> first = {};  // of these
+  std::array<Vec3, kNamedPoints> first = {};  // places of these points
   double inward = 0;                          // as in MendedSigns
 };
 

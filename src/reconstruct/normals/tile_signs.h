@@ -58,8 +58,8 @@ struct TileSigns {
   std::vector<std::uint8_t> edges = {};    // see PieceAgreement
   std::vector<Across> across = {};         // see PieceAgreement; between own points
   std::vector<Shared> shared = {};         // by tiles
-  std::vector<std::uint32_t> places = {};  // of shared points among those of their tiles
-  std::vector<PieceCode> halo = {};        // of shared points, here
+  std::vector<std::uint32_t> places = {};  // of shared points, in their own tiles
+  std::vector<PieceCode> halo = {};        // of shared points, in this tile
   std::vector<PieceVotes> votes = {};
   std::vector<SideSample> samples = {};  // by pieces
 };

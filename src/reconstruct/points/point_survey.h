@@ -24,11 +24,11 @@ struct SurveyOptions {
 // Results that do not depend on the order of the points. Only layout.columns are in the order of
 // the file.
 struct Survey {
-  std::uint64_t points = 0;       // that are kept: finite, and no far strays
+  std::uint64_t points = 0;       // that are kept: finite, and not far from all others
   std::uint64_t not_finite = 0;   // a coordinate is NaN or infinite
   std::uint64_t far_strays = 0;   // see shape/points/strays.h; by the box of the sample
   std::uint64_t dropped = 0;      // by the reader of the file, as they are not finite
-  FarBall ball = {};              // beyond which these are
+  FarBall ball = {};              // outside of it points are far from all others
   Bounds bounds = {};             // of the points that are kept
   PointLayout layout = {};        // of all; normals: one of a kept point is finite and not zero
   double n_different = 0;         // points, about

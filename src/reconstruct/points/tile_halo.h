@@ -1,4 +1,4 @@
-// The points of a tile and those around it. Layer: reconstruct, private.
+// The points of a tile and its halo. Layer: reconstruct, private.
 #pragma once
 
 #include <cstddef>

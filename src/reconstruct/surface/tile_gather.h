@@ -57,7 +57,7 @@ class GatheredPart {
   };
   struct Corner {
     TileSurface::VertexOfTile name;
-    std::uint32_t vertex = 0;  // of the changed mesh
+    std::uint32_t vertex = 0;  // vertex of the changed mesh
   };
   struct NewTriangles;
   struct Left;

@@ -53,7 +53,7 @@ class TileParts {
   struct Links {
     std::vector<std::uint32_t> shared, foreign;  // components, in the order of TileMesh's lists
     std::vector<Component> components;
-    std::vector<std::uint64_t> vertices;  // own ones of each component
+    std::vector<std::uint64_t> vertices;  // number of own vertices of each component
   };
   // Part of a tile's triangles in the normal of another tile's vertex, which has none of its own.
   struct Lent {

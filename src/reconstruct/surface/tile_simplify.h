@@ -24,8 +24,8 @@
 namespace rholm {
 
 struct TileSimplifyOptions {
-  SimplifyOptions stops = {};   // at least one
-  std::uint64_t triangles = 0;  // of the whole, given
+  SimplifyOptions stops = {};   // at least one is set
+  std::uint64_t triangles = 0;  // number of triangles of the given surface
   double step = 1;              // of the grid
   std::size_t group = 64;       // tiles whose strips are in memory at a time
 };
@@ -80,9 +80,9 @@ class TileSimplify {
   std::uint64_t most_ = 0;                   // triangles wanted, 0: the error decides
   std::vector<Name> shared_ = {};            // ascending
   std::vector<std::uint64_t> targets_ = {};  // of each tile
-  std::size_t level_ = 0;                    // that is worked on
+  std::size_t level_ = 0;                    // level that is worked on
   std::string round_ = {};                   // of its meshes
-  std::uint64_t to_go_ = 0;                  // triangles that are too many when it begins
+  std::uint64_t to_go_ = 0;                  // excess of triangles when the level begins
   bool is_done_ = false;                     // by a run before
 };
 

@@ -23,7 +23,7 @@ namespace {
 constexpr double kAround = 3.5 + 8 + 1.5;
 // A triangle's cube starts in a block whose middle lies up to 3.5 steps from there.
 constexpr double kWithin = 3.5 + 1 + 1.5;
-constexpr std::size_t kTogether = 16;  // blocks, of 2 KiB each; chosen: those of a hole are near
+constexpr std::size_t kTogether = 16;  // blocks of 2 KiB; chosen: a hole's blocks are near
 constexpr std::size_t kNoLimit = std::size_t{1} << 40;
 
 std::string name_of(const char* what, std::size_t tile) {

@@ -113,8 +113,8 @@ class TileSurface {
   const TileCaps& caps_;
   const TileWinding& winding_;
   GridFrame frame_;
-  std::vector<std::string> rounds_ = {};  // that are done
-  std::string round_ = {};                // that is written
+  std::vector<std::string> rounds_ = {};  // rounds that are done
+  std::string round_ = {};                // round that is written
 };
 
 }  // namespace rholm
