@@ -21,9 +21,9 @@
 
 namespace rholm {
 
-// Support of a cap: the points x that satisfy, with (p, q, h) = x - seed along the frame's axes,
-//   s^2 = xx (p - px)^2 + 2 xy (p - px)(q - py) + yy (q - py)^2 + (h / support)^2 < 1:
-// This is the ellipse of the cap's points: where the cap has no points it has no weight.
+// Support of a cap: the points x with s < 1. With (p, q, h) = x - seed along the frame's axes,
+//   s^2 = xx (p - px)^2 + 2 xy (p - px)(q - py) + yy (q - py)^2 + (h / support)^2.
+// The ellipse contains the cap's points: the cap has no weight where it has no points.
 struct CapSupport {
   double px = 0, py = 0;          // centre of the ellipse
   double xx = 0, xy = 0, yy = 0;  // quadratic form of the ellipse, in 1/unit^2

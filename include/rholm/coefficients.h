@@ -2,8 +2,8 @@
 //
 // All coefficients inside the library refer to the real orthonormal harmonics without
 // Condon-Shortley phase (method 1). The function is
-//   f(u) = sum_{l=0}^{L} sum_{m=0}^{l} [ C_lm cos(m phi) + S_lm sin(m phi) ] N_m P_lm(cos theta),
-// where N_m scales P_lm so that the square of each basis function integrates to 1 over the sphere.
+//   f(u) = sum_{l=0}^{L} sum_{m=0}^{l} [ C_lm cos(m phi) + S_lm sin(m phi) ] N_m P_lm(cos theta).
+// Here N_m scales P_lm so that the square of each basis function integrates to 1 over the sphere.
 #pragma once
 
 #include <cstddef>

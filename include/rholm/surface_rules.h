@@ -31,7 +31,7 @@ struct SeenCubes {
   std::vector<std::uint8_t> bits;
 };
 
-// Rules by which reconstruct() extracted a surface from its caps. With them synthesize() makes the
+// Rules of a surface that reconstruct() extracted from its caps. With them synthesize() makes the
 // same surface again: to the bit at the grid's own step, if there was a single tile.
 struct SurfaceRules {
   HolePolicy holes = HolePolicy::kFill;          // as ReconstructOptions::holes

@@ -41,7 +41,7 @@ bool is_once(const std::filesystem::path& path) {
          (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error));
 }
 
-// A mesh, and what cannot be read in portions.
+// Reconstructs a mesh, or a file that cannot be read in portions.
 Reconstruction of_whole_file(const std::filesystem::path& points, const std::string& columns,
                              const ReconstructOptions& options, const Context& context) {
   ShapeFile file = read_shape(points, {.columns = columns}, context);

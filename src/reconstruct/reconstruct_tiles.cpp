@@ -26,26 +26,26 @@
 namespace rholm {
 namespace {
 
-// Bytes for each point of a tile with its halo, on two threads: 1019 of a sphere in four tiles of
-// 250 000 points (scripts/memory-figures), more of rough bodies and of larger tiles
-// (bench/tiles). And for each point of all tiles, where handles are cut: measured on 100 million
-// points of a rough body (bench/tiles). Smooth ones take a few bytes.
+// Bytes for each point of a tile with its halo, on two threads. They are 1019 of a sphere in four
+// tiles of 250 000 points (scripts/memory-figures), more of rough bodies and of larger tiles
+// (bench/tiles). Bytes for each point of all tiles, where handles are cut: measured on 100 million
+// points of a rough body (bench/tiles). Points of smooth bodies take a few bytes.
 constexpr std::uint64_t kMemoryOfPoint = 1750, kMemoryOfAny = 22;
 // Runs have taken up to 1.21 times the memory that was foreseen (373 MiB of 307). Chosen: several
-// tiles have as much again for tables; those of 16 384 points did not do with 1.34 times.
+// tiles get as much again for tables; 1.34 times was not enough for tiles of 16 384 points.
 constexpr double kForecastError = 1.25, kSeveralTiles = 2;
-// The least limit that is named as enough: what does not grow with tiles takes most of it. Of
-// 40 000 points, tiles of 2900 were made within 12.3 MiB, and tiles of 1000 needed more than 8.2
+// The least limit that is named as enough; most of it does not grow with tiles. For 40 000 points,
+// tiles of 2900 were made within 12.3 MiB, and tiles of 1000 needed more than 8.2
 // (tests/cli/reconstruct_test.py). Chosen: above what was enough.
 constexpr double kLeastMemory = 13 << 20;
-// For each point with its normal: what is stored of it and of its part of the surface, most at a
-// time, and that part in the output (scripts/memory-figures).
+// Bytes for each point with its normal: the most that is stored of its part of the surface and of
+// itself, and its part in the output (scripts/memory-figures).
 constexpr std::uint64_t kStoredOfPoint = 520, kWrittenOfPoint = 290;
-// The surface and its caps in memory: a vertex with its normal and two triangles has 72 bytes where
-// the output has 50, and caps have some 80 a point.
+// Bytes of the surface and its caps in memory: a vertex with its normal and two triangles has 72
+// bytes where the output has 50, and caps have about 80 per point.
 constexpr std::uint64_t kKeptOfPoint = kWrittenOfPoint * 72 / 50 + 80;
 
-// Of the disk where the surface will be; streams have none.
+// Checks the room on the disk for the file of the surface; streams need none.
 void check_room(const std::filesystem::path& mesh, std::uint64_t bytes) {
   const std::filesystem::path folder = mesh.has_parent_path() ? mesh.parent_path() : ".";
   std::error_code error;
@@ -62,7 +62,7 @@ void check_room(const std::filesystem::path& mesh, std::uint64_t bytes) {
                   static_cast<double>(space.available) / kGigabyte));
 }
 
-// What the file is, as far as that can be told without reading it.
+// Describes the file, as far as that is possible without reading it.
 std::string text_of(const std::filesystem::path& points) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(points, error)) return points.string();
@@ -73,7 +73,7 @@ std::string text_of(const std::filesystem::path& points) {
                      std::chrono::duration_cast<std::chrono::nanoseconds>(time).count());
 }
 
-// What points in memory are.
+// Describes points in memory.
 std::string text_of(const PointCloud& cloud) {
   std::uint32_t sum = 0;
   const auto add = [&sum](const auto& values) {
@@ -91,18 +91,18 @@ std::string text_of(const PointCloud& cloud) {
                      cloud.normals.size(), names.empty() ? " none" : names, sum);
 }
 
-// Whether what lies between the steps fits into memory with the rest.
+// Returns true if the data between the steps fit into memory with everything else.
 bool fits_in_memory(std::uint64_t points, const ReconstructOptions& options) {
   const TileForecast forecast = foresee_tiles(points, options.tile_points);
   const std::uint64_t kept = options.output.empty() ? kKeptOfPoint * points : 0;
   return forecast.memory + forecast.stored + kept < options.max_memory / 2;
 }
 
-// What is known between the steps: in a folder that the next run finds again, or in one that goes
-// with it, or in memory, as of one tile.
+// Store of the data between the steps. It is a folder that the next run finds again, a folder that
+// is removed at the end, or memory, as for one tile.
 class TileStore {
  public:
-  // `n` points, if that is known. `input` gives what a folder to resume from remembers of them.
+  // There are `n` points, if that is known. `input` describes them in a folder to resume from.
   TileStore(std::optional<std::uint64_t> n, const ReconstructOptions& options, bool is_shared,
             const std::function<std::string()>& input) {
     if (n && *n <= options.tile_points && !is_shared) {
@@ -137,14 +137,14 @@ class TileStore {
 
 constexpr double kGibibyte = 0x1p30;
 
-// To two digits, so that a limit of so much is enough.
+// Rounds up to two digits, so that a limit of this size is enough.
 double rounded_up(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
   return unit * std::ceil(value / unit);
 }
 
-// "take smaller tiles (--tile-points 4900)", which fit into so much memory; where none do, how much
-// memory would be enough.
+// Returns "take smaller tiles (--tile-points 4900)" for tiles that fit into the memory. If none do,
+// it says how much memory is enough.
 std::string advice_of_tiles(std::uint64_t max_memory) {
   constexpr double kOfPoint = kForecastError * kSeveralTiles * static_cast<double>(kMemoryOfPoint);
   const auto given = static_cast<double>(max_memory);
@@ -167,7 +167,7 @@ void check_only(std::uint64_t points, std::uint64_t max_memory) {
                           static_cast<double>(max_memory) / kGibibyte));
 }
 
-// What the points themselves decide is not known before.
+// Checks the memory that is known before the points themselves decide.
 void check_memory(std::uint64_t points, const ReconstructOptions& options) {
   const auto allowed = static_cast<double>(options.max_memory) / kGibibyte;
   const std::uint64_t of_tile = kMemoryOfPoint * std::min(points, options.tile_points);
@@ -189,7 +189,7 @@ void check_memory(std::uint64_t points, const ReconstructOptions& options) {
   }
 }
 
-// Of a process that reads none.
+// Source of a process that reads no points.
 class NoPoints final : public PointSource {
  public:
   void rewind() override {}

@@ -45,10 +45,10 @@
 namespace rholm {
 namespace {
 
-// Winding trees in memory at a time: those around one tile.
+// Number of winding trees in memory at a time: the trees around one tile.
 constexpr std::size_t kTrees = 24;
-// What the stages cost, us a point on one thread: measured on 4 million points (bench/tiles), but
-// for confidence and simplify, which are chosen.
+// Costs of the stages in us per point on one thread: measured on 4 million points (bench/tiles).
+// The costs of confidence and simplify are chosen.
 std::vector<StageCost> costs_of_caps(const ReconstructOptions& options) {
   std::vector<StageCost> all = {{"survey", 0.05}, {"signs", 0.8},    {"distribute", 0.1},
                                 {"sort", 0.2},    {"sample", 0.3},   {"cap size", 0.3},
@@ -195,7 +195,7 @@ class TileRun {
     if (!options_.output.empty()) made.mesh = {}, made.model = {};
   }
 
-  // Caps for the points, without those near the surface that belong to none.
+  // Fits caps to the points, without outliers near the surface.
   TileCaps fit() {
     const auto n = static_cast<double>(cloud_.n_points()),
                strays = static_cast<double>(report_.outliers);
@@ -376,7 +376,7 @@ class TileRun {
     if (is_open()) cut_open(surface);
   }
 
-  // Along the lines of sight to all points, where it is known from where they were measured.
+  // Finds the space along the lines of sight to all points, if their sensors are known.
   std::optional<TileSeen> look() {
     const bool known = std::all_of(kSensorAxes.begin(), kSensorAxes.end(),
                                    [&](const char* axis) { return cloud_.has_column(axis); });
@@ -401,7 +401,7 @@ class TileRun {
   }
 
   bool is_open() const { return options_.holes == HolePolicy::kKeep; }
-  // Whether a model is made: without an output it is part of the result.
+  // Returns true if a model is made; without an output it is part of the result.
   bool keeps_model() const { return options_.output.empty() || !options_.model.empty(); }
 
   void cut_open(TileSurface& surface) {
@@ -422,7 +422,7 @@ class TileRun {
     return whole;
   }
 
-  // The mesh, unless it goes to a file.
+  // Returns the mesh, unless it goes to a file.
   Mesh join_and_write(TileSurface& surface) {
     TileParts parts(store_, surface, n_);
     const TileParts::Whole whole = join_parts(parts, options_.min_component);
@@ -437,7 +437,7 @@ class TileRun {
     return write(simple);
   }
 
-  // Whether the points lie on the surface, from the vertices near some of them.
+  // Checks whether the points lie on the surface, from the vertices near some of them.
   void check_points(const TileParts& parts) {
     const auto look = [&](std::size_t tile) {
       TileMesh part = parts.kept_mesh(tile);
@@ -458,11 +458,11 @@ class TileRun {
     return {};
   }
 
-  // What closes holes has the share of the area that it had before it was simplified.
+  // Closed holes have the share of the area that they had before the surface was simplified.
   void set_sizes(const TileParts::Whole& whole, const TileParts::Whole& before) {
     whole_ = whole;
     report_.area = whole.area, report_.volume = whole.volume;
-    // About the middle: the same of any place where it is closed.
+    // Takes the volume about the middle: a closed surface has the same about any place.
     if (is_open()) {
       const Vec3 middle = 0.5 * cloud_.survey().bounds.min + 0.5 * cloud_.survey().bounds.max;
       report_.volume -= dot(middle - origin_, whole.area_vector) / 3;
@@ -495,7 +495,7 @@ class TileRun {
   }
 
   AtlasModel model_of(const TileCaps& caps) const {
-    // As an atlas, and twice as the file has them.
+    // The caps are in memory once as an atlas, and twice as in the file.
     const std::uint64_t bytes = 3 * (report_.caps * sizeof(Cap) + coefficients_ * sizeof(double));
     if (bytes > options_.max_memory) {
       throw Error(ErrorCode::kOutOfMemory,

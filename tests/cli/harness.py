@@ -231,7 +231,7 @@ def nightly(case):
     return case
 
 
-# Which size a case takes that has two: the larger one in nightly runs, and in those of all cases.
+# True if cases with two sizes take the larger one: in nightly runs, and in runs of all cases.
 NIGHTLY = not {"--nightly", "--every"}.isdisjoint(sys.argv)
 
 

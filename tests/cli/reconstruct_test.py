@@ -367,7 +367,7 @@ class Tiles(CliTest):
         self.assertEqual(self.bytes("s.ply"), self.bytes("one.ply"))
         refused = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", "0.006", code=1)
         self.assertIn("0.013 GiB would do for tiles of 3100 points (--tile-points 3100)", refused.err)
-        # What is refused, and what is enough for the tiles that are named then.
+        # The run is refused with `less` memory; `limit` is enough for the tiles that the message names.
         for less, limit in (("0.013", "0.013"), ("0.025", "0.025")) if NIGHTLY else (("0.006", "0.013"),):
             for words in ((), ("--tile-points", "30000")) if NIGHTLY else (("--tile-points", "6000"),):
                 refused = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", less, *words, code=1)

@@ -15,10 +15,10 @@
 namespace rholm {
 namespace {
 
-// Caps that are read together: they lie near each other, being in the order of a tree.
+// Number of caps that are read together: in the order of a tree, they lie near each other.
 constexpr std::size_t kChunk = 1024;
 constexpr std::size_t kGrain = 64;  // of a loop over caps
-// Supports within which a cap has those beside it that count for its band (cap_bands.cpp).
+// Number of supports within which other caps influence the band of a cap (cap_bands.cpp).
 constexpr double kBeside = 4;
 
 void add(CapExtent& extent, const CapExtent& part) {

@@ -1,5 +1,5 @@
-// The caps of all tiles, put aside tile by tile, and read where they reach. Layer: reconstruct,
-// private.
+// Stores the caps of all tiles, one tile at a time, and reads the caps that reach a box. Layer:
+// reconstruct, private.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +18,15 @@
 
 namespace rholm {
 
-// Where some caps are, and how far they reach.
+// Extent of a set of caps, and how far their weights reach.
 struct CapExtent {
   std::uint64_t n = 0, coefficients = 0;
-  Bounds middles = {};   // of the middles of their supports
-  double half_axis = 0;  // the longest of their supports
-  double support = 0;    // the largest of their frames
-  double deviation = 0;  // the largest from their tangent planes
+  Bounds middles = {};   // box of the middles of their supports
+  double half_axis = 0;  // longest half axis of their supports
+  double support = 0;    // largest support of their frames
+  double deviation = 0;  // largest distance from their tangent planes
 
-  // All places where they have a weight, with bands of at least that.
+  // Returns the box of all places where the caps have a weight, for bands of at least `least_band`.
   Bounds reach(double least_band) const;
 };
 
@@ -34,11 +34,11 @@ struct CapExtent {
 struct CapPatch {
   Vec3 point, normal;  // as CapFoot
   double support = 0;  // of its frame
-  double area = 0;     // that it was made for
+  double area = 0;     // area of the surface that it was made for
   double error = 0;    // Cap::error
 };
 
-// Some caps in the order of their tiles, with the band of each.
+// A set of caps in the order of their tiles, with the band of each cap.
 struct NearCaps {
   Atlas atlas;
   CapBands bands;
@@ -47,39 +47,39 @@ struct NearCaps {
 
 class TileCaps {
  public:
-  // `round` is in the names of its pieces: caps that are fitted once more are others.
+  // `round` is part of the names of the pieces, so that caps fitted a second time get their own.
   TileCaps(PieceStore& store, std::size_t n_tiles, std::string round = "")
       : store_(store), indices_(n_tiles), round_(std::move(round)) {}
 
-  // Puts the caps of a tile aside: "caps/TILE", and what they are as patches: "patches/TILE".
+  // Stores the caps of a tile in "caps/TILE", and their patches in "patches/TILE".
   void write(std::size_t tile, Cover&& found, const Context& context);
   bool has(std::size_t tile) const;
-  // Points that no cap fits, by their places in the tile, ascending: "rejected/TILE", before the
-  // caps are written.
+  // Stores the points that no cap fits in "rejected/TILE", before the caps are written. `places`
+  // are their places in the tile, ascending.
   void write_rejected(std::size_t tile, const std::vector<std::uint32_t>& places);
   std::vector<std::uint32_t> rejected(std::size_t tile) const;
-  // Once all are there, and before anything below is asked for.
+  // Must be called after the caps of all tiles are written, and before the functions below.
   void read_extents();
   const CapExtent& extent(std::size_t tile) const { return indices_[tile].whole; }
   std::vector<CapPatch> patches(std::size_t tile) const;
 
-  // What all have in common: blend, noise and so on, without caps; and the edge of the grid.
+  // Sets what all caps have in common: an atlas without caps, and the edge of the grid's cubes.
   void set_scene(const Atlas& scene, double step) { scene_ = scene, step_ = step; }
   const Atlas& scene() const { return scene_; }
   double step() const { return step_; }
   double least_band() const { return band_of(scene_, step_); }
 
-  // Whether some caps have wider bands than others: then find_bands() must be called for all tiles
-  // before near() is asked.
+  // Returns true if some cap has a band wider than least_band(). Then find_bands() must be called
+  // for all tiles before near().
   bool have_bands() const;
   void find_bands(std::size_t tile, const Context& context);
   bool has_bands(std::size_t tile) const;
 
-  // All caps of all tiles, in their order.
+  // Returns all caps of all tiles, in the order of the tiles.
   Atlas all() const;
   // Removes the caps from the store, unless the store is kept.
   void forget();
-  // All caps that reach some boxes, in the order of the tiles.
+  // Returns all caps that reach one of the boxes, in the order of the tiles.
   NearCaps near(std::span<const Bounds> boxes) const;
 
  private:
@@ -87,8 +87,8 @@ class TileCaps {
     CapExtent whole;
     std::vector<CapExtent> chunks;
   };
-  // Adds caps of a tile, and their bands, if some have their own: those that reach a box, or all
-  // that are read together with one.
+  // Adds the caps of a tile that reach a box, and their own bands if `bands` is given. kChunks adds
+  // all caps of each chunk that reaches a box.
   enum class Which { kEach, kChunks };
   void append(std::size_t tile, std::span<const Bounds> boxes, Which which, Atlas& atlas,
               std::vector<double>* bands) const;

@@ -14,8 +14,8 @@
 namespace rholm {
 namespace {
 
-// The normals that tiles have been given, without the points that have none; the confidence of
-// those that stay.
+// Sets the computed normals of a tile and its halo, and removes the points without a normal.
+// Returns the confidence of the points that remain.
 std::vector<float> put_normals(const PieceStore& store, std::size_t tile, TileAndHalo& read) {
   const auto found =
       gather<TileNormal>(read, tile, [&](std::size_t other) { return read_normals(store, other); });
@@ -37,7 +37,7 @@ std::vector<float> put_normals(const PieceStore& store, std::size_t tile, TileAn
   cloud.points.resize(kept), cloud.normals.resize(kept);
   for (Attribute& attribute : cloud.attributes) attribute.values.resize(kept);
   read.n_own = own;
-  read.halo.clear();  // places are no longer those of the points
+  read.halo.clear();  // its places are no longer valid
   return confidence;
 }
 

@@ -21,11 +21,11 @@
 namespace rholm {
 namespace {
 
-// Caps are tried with up to so many neighbours before the halo of a tile ends.
+// The usual halo of a tile is wide enough to fit caps with up to this number of neighbours.
 constexpr std::size_t kTried = 128;
-// Points that speak for all; at least so many of each tile.
+// Number of sample points of all tiles together, and the least number in each tile.
 constexpr std::size_t kSamples = 2000, kSamplesOfTile = 16;
-// Tiles in which the size of caps is looked for: the median counts.
+// Number of tiles in which the size of caps is chosen; the median is used.
 constexpr std::size_t kPilots = 5;
 
 }  // namespace
@@ -141,7 +141,7 @@ void TileCloud::sort() {
   return_free_memory();
 }
 
-// Before outliers near the surface are removed, also where a run before has done it.
+// Counts the points before outliers near the surface are removed. A continued run reads the count.
 void TileCloud::count_points() {
   stages_.once("count", [&] {
     if (store_.has("counted")) return;
@@ -210,7 +210,7 @@ void TileCloud::orient() {
   });
 }
 
-// In some tiles, which are parts of one surface. Given normals that are off it are computed anew.
+// Examines some tiles, which are parts of one surface. Normals that do not fit it are recomputed.
 void TileCloud::look_at_shape() {
   const Stage stage = {.name = "cap size",
                        .count = std::min(n_, kPilots),

@@ -27,8 +27,8 @@ class TileCloud {
   TileCloud(PointSource& source, PieceStore& store, const ReconstructOptions& options,
             std::uint64_t points_per_tile, Stages& stages, ReconstructReport& report);
 
-  // Sorts the points into tiles and removes those far from all others; computes their normals or
-  // mends those given; measures what sample() and size() tell. The report says what was done.
+  // Sorts points into tiles, removes isolated points, and computes normals or mends given normals.
+  // Then measures what sample() and size() return. The report says what was done.
   void prepare();
   // Measures again, after points have been removed.
   void measure_again();
@@ -36,26 +36,26 @@ class TileCloud {
   const Survey& survey() const { return survey_; }
   const TilePlan& plan() const { return plan_; }
   std::size_t n_tiles() const { return n_; }
-  // Points that differ, before outliers near the surface are removed.
+  // Number of different points, before outliers near the surface are removed.
   std::uint64_t n_points() const { return points_; }
-  // Whether normals are those of the source.
+  // Returns true if the normals come from the source, and false if they are computed.
   bool normals_given() const { return given_; }
   const WholeSample& sample() const { return sample_; }
   const CapSize& size() const { return size_; }
-  // Neighbours of a flat neighbourhood, or fewer.
+  // Number of neighbours in a flat neighbourhood; it may be lower than the neighbourhood's size.
   std::size_t around() const { return around_; }
   bool has_column(const char* name) const;
   // Diagonal of the points, before outliers near the surface are removed.
   double diagonal() const { return diagonal_; }
-  // A tile with at least the halo that so many neighbours need, and `least`: for results that a
-  // wider halo leaves as they are.
+  // Returns a tile with a halo for `neighbours` neighbours of each point, at least `least` wide.
+  // For results that do not depend on a wider halo.
   std::shared_ptr<const TileScene> load(std::size_t tile, std::size_t neighbours = 0,
                                         double least = 0) const;
-  // With exactly that halo: for results that depend on the order of the tree, and so on the halo.
+  // Returns it with exactly this halo, for results that depend on the order of the points' tree.
   std::shared_ptr<const TileScene> load_for(std::size_t tile, std::size_t neighbours) const;
-  // Points of tiles have changed.
+  // Must be called after the points of tiles have changed.
   void forget_scenes();
-  // Scenes are no longer kept, also those that are loaded from here on.
+  // Discards the scenes in memory, and keeps no scene that is loaded later.
   void keep_no_scenes();
   // Returns the scene of the only tile, which the caller may change, and keeps no scenes from here
   // on. Removes its points from the store, unless the store is kept.

@@ -15,7 +15,7 @@ constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 std::string name_of(std::size_t tile) { return "groups/" + std::to_string(tile); }
 
-// Points of the cloud that are of the halo: their tiles and places there.
+// Points of the cloud that belong to the halo, with their tiles and their places in them.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> names_of_halo(const TileScene& scene) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> names;
   for (const TileAndHalo::Part& part : scene.halo) {
@@ -26,7 +26,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> names_of_halo(const TileSce
   return names;
 }
 
-// One flag per own point, in their order in the store.
+// Returns one flag per own point, in the order of the points in the store.
 std::vector<std::uint8_t> of_own(const TileScene& scene, const std::vector<std::uint8_t>& flags) {
   std::vector<std::uint8_t> own(scene.n_own, 0);
   for (std::size_t i = 0; i < flags.size(); ++i) {

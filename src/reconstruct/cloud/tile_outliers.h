@@ -16,18 +16,18 @@
 
 namespace rholm {
 
-// Groups of points through all tiles: near neighbours with normals that agree (see
-// for_links_of_groups()).
+// Groups of points through all tiles. Two near neighbours with normals that agree are in the same
+// group (see for_links_of_groups()).
 class TileGroups {
  public:
   TileGroups(PieceStore& store, std::size_t n_tiles) : store_(store), n_tiles_(n_tiles) {}
 
-  // The groups of a tile's own points, and which points of others are of them: "groups/TILE".
+  // Finds the groups of a tile's own points, and their points in other tiles: "groups/TILE".
   void find(std::size_t tile, const TileScene& scene, const Context& context);
   bool has(std::size_t tile) const;
-  // Once all are there.
+  // Must be called after find() of all tiles.
   void join(std::uint64_t least);
-  // After join(), one flag per point of the tile: 1 for those of groups of fewer than `least`.
+  // Returns one flag per point of the tile: 1 for groups of fewer than `least`. After join().
   std::vector<std::uint8_t> small(std::size_t tile) const;
   void remove(std::size_t tile);
 
@@ -46,7 +46,7 @@ struct OutlierSearch {
   std::uint64_t n_points = 0;  // of all tiles
   std::uint64_t most = 0;
   double noise = 0;
-  // A tile with those around it, as they are.
+  // Returns a tile with its halo, as both are at the time of the call.
   std::function<std::shared_ptr<const TileScene>(std::size_t tile)> load;
   // Called once points have been removed from tiles.
   std::function<void()> changed = [] {};

@@ -13,21 +13,21 @@
 
 namespace rholm {
 
-// One removal from all tiles: each is looked at with its halo as it was before, then all lose what
-// was found. Either step is done already where the store has it from a run before.
+// One removal of points from all tiles: first the points of each tile are examined with its halo,
+// then all are removed. A step is skipped where the store already has its result.
 class TileRemoval {
  public:
-  // `name` tells it from others of the same run.
+  // `name` distinguishes this removal from the other removals of the same run.
   TileRemoval(PieceStore& store, const TilePlan& plan, std::string name);
 
   bool has_found(std::size_t tile) const;
-  // One flag per point of the tile, in their order: 1 of those to remove.
+  // Stores one flag per point of the tile, in their order: 1 for a point to remove.
   void put(std::size_t tile, const std::vector<std::uint8_t>& flags);
-  // What was put, before it is removed.
+  // Returns the flags that put() stored, before the points are removed.
   std::vector<std::uint8_t> flags(std::size_t tile) const;
-  // How many, of all tiles, once they are all looked at.
+  // Returns the number of points to remove from all tiles, after put() for all of them.
   std::uint64_t count() const;
-  // Removes them from "points/TILE", and their computed normals.
+  // Removes the points with flag 1 from "points/TILE", and their computed normals.
   void remove(std::size_t tile);
 
  private:
@@ -41,7 +41,7 @@ class TileRemoval {
 };
 
 // Returns one flag per own point: 1 where the point is far from all others, alone or in a small
-// group (find_strays()). Each of the `looks` leaves out the points that those before have found.
+// group (find_strays()). Each of the `looks` leaves out the points that earlier looks have found.
 // `neighbors`, if it is given, gets graph_neighbors() of all points of the scene.
 std::vector<std::uint8_t> find_tile_strays(const TileScene& scene, int looks,
                                            const Context& context,

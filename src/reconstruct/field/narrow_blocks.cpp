@@ -12,15 +12,15 @@ namespace {
 
 constexpr std::size_t kGrain = 32;  // blocks
 
-// Of each block, before its values.
+// Head of each block, stored before its values.
 struct Head {
   BlockCoordinates at = {};
   std::uint32_t n_values = 0;
   NodeBits known = {}, inside = {}, kept = {};
 };
 
-// Bits of the nodes on which an edge of the surface ends, in the slices of one block: of all edges
-// between a node and the next one along an axis, both known and of two sides.
+// Returns the bits of the nodes of one block at which an edge of the surface ends. Such an edge
+// joins two known neighbours along an axis, one inside and one outside.
 NodeBits crossed_nodes(const BlockGrid& grid, const std::vector<NodeMasks>& masks, std::size_t b) {
   static constexpr NodeMasks kNothing = {};
   const auto masks_at = [&](int place) -> const NodeMasks& {
@@ -65,7 +65,7 @@ void for_each_node(const NodeBits& bits, const Visit& visit) {
   throw Error(ErrorCode::kInvalidInput, "blocks of a grid that were put aside are damaged");
 }
 
-// The head at `bytes`, and how many bytes it and its values have.
+// Reads the head at `bytes`. Returns the number of bytes of the head and its values.
 std::size_t read_head(std::span<const std::byte> bytes, Head& head) {
   if (bytes.size() < sizeof(Head)) refuse();
   std::memcpy(&head, bytes.data(), sizeof(Head));

@@ -1,5 +1,5 @@
-// Blocks of a grid as their surface needs them: the sides of all nodes, and values only at both
-// ends of the edges that it crosses. A quarter of the bytes. Layer: reconstruct.
+// Blocks of a grid reduced to a quarter of their bytes: the sign of all nodes, and values only at
+// both ends of the edges that the surface crosses. Layer: reconstruct.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,21 @@
 
 namespace rholm {
 
-// Some of a grid's blocks as bytes, in the machine's order: coordinates, which nodes are known,
-// which are inside, which values are kept, and these. The blocks around them must be in the grid.
+// Returns some blocks as bytes in the machine's order: coordinates, bits of known, inside and kept
+// nodes, and the kept values. The blocks around them must be in the grid.
 std::vector<std::byte> narrow_blocks(const BlockGrid& grid, std::span<const std::uint32_t> blocks,
                                      const Context& context = {});
 
-// Values of a block: those not kept are one step on their side.
+// Values of a block. A value that is not kept becomes one step, with the sign of its node.
 struct NarrowBlock {
   BlockCoordinates at = {};
   std::array<float, BlockGrid::kNodes> values;
 };
 
-// Calls visit(block) for each. Throws InvalidInput for bytes that narrow_blocks() did not make.
+// Calls visit(block) for each block. Throws InvalidInput for bytes not made by narrow_blocks().
 void for_narrow_blocks(std::span<const std::byte> bytes, double step,
                        const std::function<void(const NarrowBlock&)>& visit);
-// The coordinates alone.
+// Returns only the coordinates of the blocks.
 std::vector<BlockCoordinates> places_of_narrow(std::span<const std::byte> bytes);
 
 }  // namespace rholm

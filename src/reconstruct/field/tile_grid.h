@@ -13,10 +13,10 @@
 
 namespace rholm {
 
-// The number of the tile that a place lies in: tiles fill space.
+// Returns the number of the tile that contains a place. Tiles fill space.
 using TileOf = std::function<std::uint32_t(const Vec3&)>;
 
-// A grid in space: where its node (0, 0, 0) is, and the way to the next.
+// Position of a grid in space: its node (0, 0, 0), and the distance to the next node.
 struct GridFrame {
   Vec3 origin;
   double step = 1;
@@ -29,18 +29,18 @@ struct GridFrame {
   }
 };
 
-// In the order of list_blocks().
+// Returns true if `a` comes before `b` in the order of list_blocks().
 bool comes_before(const BlockCoordinates& a, const BlockCoordinates& b);
 BlockCoordinates beside(const BlockCoordinates& block, int direction);  // 0 ... 26, 13 is itself
 
-// Which of `blocks` (sorted) belong to a tile, and which of the others are beside one of those.
+// The blocks that belong to a tile, and the other blocks beside one of them.
 struct OwnBlocks {
   std::vector<BlockCoordinates> own, around;  // sorted
 };
 OwnBlocks own_blocks(const GridFrame& frame, std::uint32_t tile,
                      std::span<const BlockCoordinates> blocks, const Context& context = {});
 
-// Those of a tile's own blocks (indices) that have a place beside them that belongs to another.
+// Returns the indices of a tile's own blocks that have a neighbour place in another tile.
 std::vector<std::uint32_t> border_blocks(const GridFrame& frame, std::uint32_t tile,
                                          std::span<const BlockCoordinates> own,
                                          const Context& context = {});

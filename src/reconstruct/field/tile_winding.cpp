@@ -16,8 +16,8 @@ WindingTree tree_of(const std::vector<CapPatch>& patches) {
   return {points, area_normals};
 }
 
-// Of the trees of all tiles, which are in memory. Chosen: some 20 kB of a tile of a surface, and
-// what is farther than a quarter of its radius does not ask for the whole tree.
+// Number of levels of each tile's tree that stay in memory. Chosen: about 20 kB per tile of a
+// surface; places farther away than a quarter of its radius do not need the whole tree.
 constexpr int kLevels = 3;
 
 }  // namespace

@@ -14,15 +14,15 @@
 
 namespace rholm {
 
-// A tree for each tile, of which only the first levels stay in memory: those that are near what is
-// asked for are made again. The number at a place is the sum over the tiles in their order, and
-// does not depend on which trees are there.
+// One tree for each tile, of which only the first levels stay in memory. The whole tree of a tile
+// near the places is made again. The winding number at a place is the sum over the tiles in their
+// order, so it does not depend on which trees are in memory.
 class TileWinding {
  public:
-  // At most so many trees at a time, but all that one call needs.
+  // At most `most_trees` whole trees stay in memory at a time.
   TileWinding(const TileCaps& caps, std::size_t n_tiles, std::size_t most_trees);
 
-  // As WindingTree::winding().
+  // Returns the same as WindingTree::winding() for the caps of all tiles.
   std::vector<double> winding(std::span<const Vec3> x, const Context& context,
                               double opening = kWindingOpening) const;
   WindingNumbers numbers(const Context& context) const;

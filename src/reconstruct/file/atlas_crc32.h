@@ -9,7 +9,7 @@
 
 namespace rholm {
 
-// Over the bytes of arrays, one after the other, as they stand in the file.
+// Returns the checksum of the bytes of several arrays, one after the other, as in the file.
 template <typename... Arrays>
 std::uint32_t crc32_of(const Arrays&... arrays) {
   static_assert(std::endian::native == std::endian::little, "the file is little endian");
@@ -24,8 +24,8 @@ std::uint32_t crc32_of(const Arrays&... arrays) {
   return sum;
 }
 
-// Over the datasets in the order caps, ellipses, weights, degrees, kept, values: what HDF5 itself
-// leaves without a checksum.
+// Returns the checksum of the datasets in the order caps, ellipses, weights, degrees, kept, values.
+// HDF5 itself stores no checksum of them.
 inline std::uint32_t atlas_crc32(const PackedAtlas& packed) {
   return crc32_of(packed.caps, packed.ellipses, packed.weights, packed.degrees, packed.kept,
                   packed.values);

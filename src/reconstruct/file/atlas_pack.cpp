@@ -20,8 +20,9 @@ constexpr double kLargest = 32767;    // of an int16
 constexpr double kSameWeight = 1e-5;  // supports are kept with 24 bits
 constexpr double kProbes = 400;  // on a cap's surface, for its deviation: 0.1 of its radius apart
 
-// The vector along the axis of the turn that takes the coordinate axes to x, y, z, as long as its
-// angle. Through the unit quaternion whose largest part is taken from a root: exact at all angles.
+// Returns the vector along the axis of the rotation that takes the coordinate axes to x, y, z; its
+// length is the angle. Uses the unit quaternion, whose largest part is taken from a root: exact at
+// all angles.
 Vec3 rotation_vector(const CapFrame& f) {
   const double trace = f.x.x + f.y.y + f.z.z;
   const std::array<double, 4> squares = {1 + trace, 1 + 2 * f.x.x - trace, 1 + 2 * f.y.y - trace,
@@ -87,7 +88,7 @@ void pack_cap(const Cap& cap, std::span<const double> coefficients, PackedAtlas&
   }
 }
 
-// The power that all weights follow, if one does; else they are kept one by one.
+// Finds the power that all weights follow. If there is none, the weights are kept one by one.
 void pack_weights(const Atlas& atlas, PackedAtlas& packed) {
   double largest = 0, smallest = INFINITY, weight = 1;
   for (const Cap& cap : atlas.caps) {

@@ -9,9 +9,9 @@
 
 namespace rholm {
 
-// Numbers of a cap: seed relative to the origin, rotation vector of the axes, radius, dilation,
-// support; then what is no part of the frame: the step (a coefficient is its integer times it) and
-// the error.
+// Number of values of a cap. The frame has seed relative to the origin, rotation vector of the
+// axes, radius, dilation and support. Then follow the step and the error; a coefficient is its
+// integer times the step.
 inline constexpr std::size_t kPackedCap = 11;
 
 struct PackedAtlas {
@@ -28,16 +28,16 @@ struct PackedAtlas {
   std::vector<std::int16_t> values;   // of the kept ones
 };
 
-// Rounds to 24 bits of the frames, and to 1/32767 of the largest coefficient of a cap: below 1e-4
-// of the cap's fit in all that has been measured. Throws InvalidInput for caps of different bases.
+// Rounds frames to 24 bits, coefficients to 1/32767 of a cap's largest one: below 1e-4 of the cap's
+// fit in all that has been measured. Throws InvalidInput for caps of different bases.
 PackedAtlas pack(const Atlas& atlas);
 
-// Throws InvalidInput (`name` is the file) for what no atlas can be: sizes that disagree, numbers
-// that are not finite, degrees too high.
-// Without `deviations` those of the caps are 0: they take most of the time.
+// Throws InvalidInput for data that no atlas can have: sizes that disagree, numbers that are not
+// finite, degrees too high. `name` is the file. Without `deviations` the deviations of the caps are
+// 0; computing them takes most of the time.
 Atlas unpack(const PackedAtlas& packed, const std::string& name, bool deviations = true);
 
-// Least distance that holds a cap's surface within its support from the seed's tangent plane.
+// Returns the largest distance of a cap's surface within its support from the tangent plane.
 double deviation_of(const Cap& cap, std::span<const double> coefficients);
 
 }  // namespace rholm

@@ -91,7 +91,7 @@ class AtlasReader {
     return values_of<T>(array);
   }
 
-  // What is not finite in a table of floats stays so, for unpack() to find.
+  // Values in a table of floats that are not finite stay so; unpack() rejects them.
   template <class T>
   std::vector<T> values_of(const hdf5::Array& array) const {
     std::vector<T> result;

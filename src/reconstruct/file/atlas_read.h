@@ -8,7 +8,7 @@
 
 namespace rholm {
 
-// What read_atlas() does with the file's bytes; `name` serves messages.
+// Reads an atlas from a file's bytes, as read_atlas() does; `name` serves messages.
 AtlasModel parse_atlas(std::span<const char> bytes, const std::string& name);
 
 }  // namespace rholm

@@ -15,10 +15,10 @@
 namespace rholm {
 namespace {
 
-// Squares of what is beyond are not finite.
+// Largest number allowed: squares of larger ones may not be finite.
 constexpr double kLargest = std::numeric_limits<float>::max();
 constexpr double kFrameError = 1e-9;  // of axes: far above rounding
-// As SeenSpace makes them.
+// Numbers of cubes along an axis, as SeenSpace makes them.
 constexpr std::size_t kFewestCubes = 3, kMostCubes = 256;
 
 std::array<double, kExactCap> numbers_of(const Cap& cap) {

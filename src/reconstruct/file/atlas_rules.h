@@ -1,5 +1,5 @@
-// What a model file holds of a reconstruction beside its atlas: the caps to the bit, and how the
-// surface is made of them. Layer: reconstruct, private.
+// The caps of a reconstruction to the bit, and the rules that make its surface of them: a model
+// file holds both beside the atlas. Layer: reconstruct, private.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace rholm {
 
-// Numbers of a cap: centre, axes x, y, z, radius, dilation, support; px, py, xx, xy, yy of the
-// ellipse; error, area, weight, deviation.
+// Number of values of a cap: centre, axes x, y, z, radius, dilation, support; px, py, xx, xy, yy of
+// the ellipse; error, area, weight, deviation.
 inline constexpr std::size_t kExactCap = 24;
-// Of a place where the spacing is known: its coordinates, then the spacing.
+// Number of values of a place with a known spacing: its coordinates, then the spacing.
 inline constexpr std::size_t kSpacingNumbers = 4;
 
 struct PackedRules {
@@ -26,14 +26,14 @@ struct PackedRules {
 
 PackedRules pack_rules(const Atlas& atlas, const SurfaceRules& rules);
 
-// Puts them into an atlas with the same caps, and into rules whose `seen` has its frame. Throw
-// InvalidInput (`name` is the file) for what cannot be: sizes that disagree, numbers that are not
-// finite, axes that are no frame.
+// Puts the values into an atlas with the same caps, and into rules whose `seen` has its frame. Both
+// throw InvalidInput for impossible data: sizes that disagree, numbers that are not finite, axes
+// that are no frame. `name` is the file.
 void unpack_caps(const PackedRules& packed, const std::string& name, Atlas& atlas);
 void unpack_rules(PackedRules packed, const std::string& name, SurfaceRules& rules);
 
-// Over the bytes of the datasets, in the order of PackedRules, then of the names of what is left
-// out.
+// Returns the checksum of the bytes of the datasets, in the order of PackedRules, then of the names
+// in `left_out`.
 std::uint32_t rules_crc32(const PackedRules& packed, const std::vector<std::string>& left_out);
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// The model file of an atlas, written. Layout: docs/model-file.md.
+// Writes the model file of an atlas. Layout: docs/model-file.md.
 #include <array>
 #include <bit>
 #include <cmath>

@@ -1,4 +1,4 @@
-// What all model files begin with.
+// The beginning that all model files have in common.
 #include "reconstruct/file/model_file.h"
 
 #include <fmt/format.h>

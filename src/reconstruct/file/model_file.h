@@ -1,5 +1,5 @@
-// Names in the model file (docs/model-file.md), and what all model files begin with. Layer:
-// reconstruct, private.
+// Names in the model file (docs/model-file.md), and checks of the beginning that all model files
+// have. Layer: reconstruct, private.
 #pragma once
 
 #include <cstddef>

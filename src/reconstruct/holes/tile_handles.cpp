@@ -124,7 +124,7 @@ class TightPart {
     return result;
   }
 
-  // How what is not gathered joins it: all tiles are looked at.
+  // Returns how the triangles that are not gathered join the gathered part. Reads all tiles.
   JoinedOutside outside() const {
     NamedPieces rims(n_tiles_);
     NamedPiecesOfTile all;
@@ -151,7 +151,7 @@ class TightPart {
     return outside;
   }
 
-  // Gives back the mesh cut, of which the last vertices are copies.
+  // Replaces the gathered part by the cut mesh, whose last vertices are copies of others.
   void replace(Mesh cut, const std::vector<std::uint32_t>& copies) {
     const std::size_t n = mesh().vertices.size();
     const auto original = [&](std::uint32_t v) { return v < n ? v : copies[v - n]; };
@@ -170,7 +170,7 @@ class TightPart {
 
  private:
   bool may_have_some(std::size_t tile, const std::vector<Vec3>& places, double reach) const {
-    // NearPlaces takes what is within less than twice the reach along each axis.
+    // NearPlaces has places within less than twice the reach along each axis.
     const Bounds box = grown(surface_.around(tile), 2 * reach);
     return std::any_of(places.begin(), places.end(),
                        [&](const Vec3& place) { return is_within(box, place); });
@@ -194,7 +194,7 @@ class TightPart {
     return chosen;
   }
 
-  // Of some vertices of a tile's mesh.
+  // Returns the names of some vertices of a tile's mesh: the tile of each and its number there.
   std::vector<VertexOfTile> names_of(std::size_t tile, const TileMesh& part,
                                      const std::vector<std::uint32_t>& vertices) const {
     std::vector<VertexOfTile> names(vertices.size());
@@ -211,8 +211,8 @@ class TightPart {
     return names;
   }
 
-  // Connected pieces of the rest of a tile, and which vertices they share with the gathered part,
-  // and with other tiles.
+  // Finds the connected pieces of a tile's other triangles, and the vertices that they share with
+  // the gathered part and with other tiles.
   void find_rest(std::size_t tile, NamedPiecesOfTile& rim, NamedPiecesOfTile& links,
                  std::uint32_t& n_pieces) const {
     const TileMesh part = surface_.mesh(tile);
@@ -261,7 +261,7 @@ class TightPart {
 
 bool TileHandles::has(std::size_t tile) const { return store_.has(name_of(tile)); }
 
-// Where all that a place can tell is in the tile.
+// Returns the box in which the tile alone decides whether a place is cut.
 Bounds TileHandles::decided(std::size_t tile) const {
   return grown(surface_.within(tile), -reach_of_cuts(typical_));
 }
@@ -285,7 +285,7 @@ void TileHandles::find(std::size_t tile, TileMesh part, const Context& context) 
     kept.push_back({v, part.mesh.vertices[v]});
   }
   write_spacings(store_, std::to_string(tile), known.spacings());
-  // With what turning_around() looks at of places that are not decided.
+  // Also stores the sharp vertices with which turning_around() decides the other places.
   const Bounds unseen = grown(inner, -length);
   std::vector<SharpAt<std::uint32_t>> own;
   std::vector<SharpAt<VertexKey>> foreign;
@@ -302,7 +302,7 @@ void TileHandles::find(std::size_t tile, TileMesh part, const Context& context) 
 
 namespace {
 
-// Of all tiles.
+// Places to cut that all tiles have found, and the sharp vertices near the borders of tiles.
 class FoundPlaces {
  public:
   void add(std::uint32_t tile, const PieceReader& piece, const TileSurface& surface) {
@@ -319,7 +319,7 @@ class FoundPlaces {
     for (std::size_t i = 0; i < names.size(); ++i) sharp_.push_back({names[i], foreign[i].vertex});
   }
 
-  // `is_decided` says of which places tiles have told by themselves.
+  // `is_decided` returns true for places that a tile has decided alone.
   TightPlaces join(double length,
                    const std::function<bool(std::uint32_t tile, const Vec3& at)>& is_decided) {
     const auto by_name = [](const auto& a, const auto& b) { return a.name < b.name; };

@@ -1,5 +1,5 @@
-// Handles smaller than the points can tell, cut in the surface of all tiles. Layer: reconstruct,
-// private.
+// Cuts handles that are smaller than the points can resolve in the surface of all tiles. Layer:
+// reconstruct, private.
 #pragma once
 
 #include <cstddef>
@@ -32,17 +32,17 @@ class TileHandles {
         typical_(typical),
         spacings_(std::move(spacings)) {}
 
-  // Where the surface turns around and something may be cut, of a tile's mesh as it was extracted:
-  // "tight/TILE". What is near its border is left for all together.
+  // Finds the places in a tile's extracted mesh where the surface turns around and may be cut:
+  // "tight/TILE". Places near the tile's border are left to cut().
   void find(std::size_t tile, TileMesh part, const Context& context);
   bool has(std::size_t tile) const;
 
-  // Once all are there: cuts handles as cut_handles() does in the whole surface, and writes the
-  // tiles that have changed anew. What is near those places is gathered in memory. Returns how
-  // many.
+  // After find() of all tiles: cuts handles as cut_handles() does in the whole surface, and writes
+  // the changed tiles anew. Only the surface near the places is in memory. Returns the number of
+  // handles.
   std::size_t cut(const Context& context);
 
-  // The spacings that both have asked for: "spacings/TILE", and "spacings/all" of cut().
+  // Returns the spacings that find() and cut() asked for: "spacings/TILE" and "spacings/all".
   std::vector<PlaceAndSpacing> spacings() const;
 
  private:

@@ -25,15 +25,15 @@ bool are_same_bits(float a, float b) {
   return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-// Open blocks of one hole are in one portion: a rim is open all along. Chosen: the 25 802 holes of
-// 100 million points of a rough body (bench/tiles/body.py) are 48 portions then, of which none
-// meet; those that do are closed again.
+// Edge of a cell in blocks. Open blocks in adjacent cells are in one portion, so a hole is in one
+// portion. Chosen: the 25 802 holes of 100 million points of a rough body (bench/tiles/body.py) are
+// then 48 portions, of which none meet. Portions that meet are closed again.
 constexpr std::int32_t kApart = 4;
 
 using Coordinates = std::array<std::int32_t, 3>;
 
-// A portion's piece: numbers of a HoleFilling and, behind them, those of tiles; the blocks that
-// were looked at; the blocks of each tile that have changed.
+// Sections of a portion's piece: numbers of a HoleFilling and then numbers of tiles; the blocks
+// that were read; the changed blocks of each tile.
 constexpr std::size_t kCounts = 3;
 constexpr std::size_t kHead = 0, kFetched = 1, kChanged = 2;
 
@@ -52,8 +52,8 @@ void for_cells_around(const Coordinates& cell, const Visit& visit) {
   }
 }
 
-// What is open in all tiles, in portions that are apart; those of few blocks together, tile by
-// tile. Depends on the blocks alone.
+// Returns the open blocks of all tiles in portions that are apart. Groups of few blocks form a
+// portion together, tile by tile. The result depends on the blocks alone.
 std::vector<std::vector<BlockCoordinates>> open_portions(const TileSurface& surface,
                                                          std::size_t n_tiles,
                                                          std::size_t most_open) {
@@ -90,7 +90,7 @@ std::vector<std::vector<BlockCoordinates>> open_portions(const TileSurface& surf
   return portions;
 }
 
-// One portion, with what is around it.
+// The grid around one portion, in which its holes are filled.
 class HoleGrid {
  public:
   HoleGrid(const TileSurface& surface, const TileWinding& winding, std::size_t n_tiles,
@@ -121,7 +121,7 @@ class HoleGrid {
     return filling;
   }
 
-  // The blocks that were there and were looked at.
+  // Returns the blocks that were read from tiles.
   std::vector<BlockCoordinates> fetched() const {
     std::vector<BlockCoordinates> result;
     result.reserve(fetched_.size());
@@ -129,7 +129,7 @@ class HoleGrid {
     return result;
   }
 
-  // What has changed, by tiles.
+  // Returns the changed blocks of each tile.
   std::map<std::uint32_t, std::vector<ClosedBlock>> changed() const {
     std::map<std::uint32_t, std::vector<ClosedBlock>> result;
     std::vector<std::uint8_t> was_fetched(grid_.n_blocks(), 0);
@@ -210,7 +210,7 @@ class HoleGrid {
       const auto reach_of = [&](const Hole& hole) {
         return reach_of_feet(hole, grid_.step) + extent.support + 8 * grid_.step;
       };
-      double edge = 0;  // of cells: only holes in those around a patch can be near
+      double edge = 0;  // of cells: only holes in adjacent cells can be near
       for (const Hole* hole : near) edge = std::max(edge, reach_of(*hole));
       const auto cell = [&](const Vec3& p) {
         const Vec3 q = (p - grid_.origin) / edge;
@@ -236,7 +236,7 @@ class HoleGrid {
     return found;
   }
 
-  // Those in which, or next to which, some places are.
+  // Returns the blocks whose cubes contain some of the places.
   std::vector<BlockCoordinates> blocks_of(std::span<const Vec3> x,
                                           const std::vector<std::size_t>& which) const {
     std::vector<BlockCoordinates> blocks;
@@ -316,7 +316,7 @@ void TileHoles::close(std::size_t portion, std::size_t max_blocks, const SeenSpa
   store_.write(round_[portion].name, sections);
 }
 
-// One has changed what another has looked at, or both have changed one block.
+// Two portions conflict if one has changed a block that the other has read or changed.
 void TileHoles::find_conflicts() {
   const std::string name = fmt::format("again/{}", n_rounds_);
   if (store_.has(name)) return;
@@ -380,7 +380,7 @@ bool TileHoles::take_next_round() {
 
 HoleFilling TileHoles::join() {
   HoleFilling all;
-  // Of each tile, where its blocks are: a portion, and a section there.
+  // For each tile, where its changed blocks are: a portion, and a section of its piece.
   std::map<std::uint32_t, std::vector<std::pair<std::size_t, std::size_t>>> places;
   for (std::size_t k = 0; k < closed_.size(); ++k) {
     const auto head = store_.open(closed_[k].name).values<std::uint64_t>(kHead);

@@ -1,5 +1,5 @@
-// Holes in the surface of all tiles, closed a portion at a time: they are where few blocks are.
-// Layer: reconstruct, private.
+// Fills holes in the surface of all tiles, one portion of the open blocks at a time. Layer:
+// reconstruct, private.
 #pragma once
 
 #include <cstddef>
@@ -15,30 +15,30 @@
 
 namespace rholm {
 
-// What is open is closed in portions that have little to do with each other; where one has changed
-// what another has seen, both are closed again as one, in a further round.
+// Open blocks are closed in portions that rarely influence each other. Where one portion has
+// changed a block that another one has read, both are closed again as one, in a further round.
 class TileHoles {
  public:
-  // After TileSurface::find_values() of all tiles. Portions of at most so many open blocks, but
-  // for what is one hole.
+  // After TileSurface::find_values() of all tiles. A portion has at most `most_open` open blocks,
+  // unless a single hole has more.
   TileHoles(PieceStore& store, TileSurface& surface, const TileWinding& winding,
             std::size_t n_tiles, std::size_t most_open);
 
-  // Of this round.
+  // Returns the number of portions in this round.
   std::size_t n_portions() const { return round_.size(); }
-  // Fills what is open in a portion, as fill_holes() does with the whole grid:
-  // "filling-ROUND/PORTION". Only blocks around it are in memory, at most `max_blocks`; they are
-  // made again of the caps near them.
+  // Fills the holes of a portion, as fill_holes() does in the whole grid: "filling-ROUND/PORTION".
+  // Only the blocks around it are in memory, at most `max_blocks`. Their values are read, or
+  // computed again from the caps near them.
   void close(std::size_t portion, std::size_t max_blocks, const SeenSpace* seen,
              const Context& context);
   bool is_closed(std::size_t portion) const;
-  // Once all are: finds which are to be closed again, "again/ROUND", then takes these as the next
-  // round. False if there are none.
+  // After close() of all portions: finds the portions to close again, "again/ROUND", then takes
+  // them as the next round. Returns false if there are none.
   void find_conflicts();
   bool take_next_round();
   // After the last round: writes the blocks that have changed to their tiles.
   HoleFilling join();
-  // What is left of it in the store.
+  // Removes the pieces of all portions from the store.
   void forget();
 
  private:
@@ -53,8 +53,8 @@ class TileHoles {
   const TileWinding& winding_;
   std::size_t n_tiles_;
   std::size_t n_rounds_ = 0;
-  std::vector<Portion> round_;   // that this round closes
-  std::vector<Portion> closed_;  // of the rounds before, but for those that are closed again
+  std::vector<Portion> round_;   // portions that this round closes
+  std::vector<Portion> closed_;  // portions of earlier rounds that stay closed
   std::vector<std::string> gone_;
 };
 

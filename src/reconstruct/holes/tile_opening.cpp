@@ -15,8 +15,8 @@
 namespace rholm {
 namespace {
 
-// In steps of the grid, of what is gathered around the new borders: edges are up to 1.7 long, and a
-// border lies within three of where the sign of the support changes.
+// Width of the part gathered around the new borders, in steps of the grid. Edges are up to 1.7
+// long, and a border lies within three steps of a sign change of the support.
 constexpr double kReach = 6;
 
 std::string name_of(std::size_t tile) { return "gaps/" + std::to_string(tile); }
@@ -162,7 +162,7 @@ void TileOpening::cut(double least_area, const Context& context) {
   surface_.end_round(0);
 }
 
-// Of the gathered vertices, with what is kept of parts without.
+// Vertices of parts without support that are kept get kBridged.
 std::vector<double> TileOpening::gathered_support(const GatheredPart& part) const {
   std::vector<double> values = *support_of(part.mesh());
   std::uint32_t tile = kNone;

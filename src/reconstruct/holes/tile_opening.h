@@ -1,4 +1,4 @@
-// The surface of tiles cut open where there are no points (method 7.10). Layer: reconstruct,
+// Cuts the surface of all tiles open where there are no points (method 7.10). Layer: reconstruct,
 // private.
 #pragma once
 
@@ -22,18 +22,18 @@ class TileOpening {
   TileOpening(PieceStore& store, TileSurface& surface, std::size_t n_tiles)
       : store_(store), surface_(surface), n_tiles_(n_tiles) {}
 
-  // The connected parts of a tile's mesh that have no support: "gaps/TILE".
+  // Finds the connected parts of a tile's mesh that have no support: "gaps/TILE".
   void find(std::size_t tile);
   bool has(std::size_t tile) const;
-  // Once all are there: cuts away what has none, but for parts of less area than that, as trim()
-  // does with the whole. Only what is near the new borders is in memory.
+  // After find() of all tiles: cuts away parts without support of at least `least_area`, as trim()
+  // does. Only the surface near the new borders is in memory.
   void cut(double least_area, const Context& context);
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   void join(double least_area);
   std::vector<std::uint32_t> parts(std::size_t tile) const;  // of each vertex, or kNone
-  // With what is kept of parts without.
+  // Returns the support of each vertex; kept parts without support have kBridged.
   std::vector<double> gathered_support(const GatheredPart& part) const;
   std::vector<double> support(std::size_t tile, const TileMesh& mesh) const;
 

@@ -1,4 +1,4 @@
-// Directions of normals in a tile, of either sign. Layer: reconstruct, private.
+// Normals of the points of a tile up to their signs. Layer: reconstruct, private.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace rholm {
 
-// A tile and its halo, in the order of a tree, without normals.
+// A tile and its halo without normals, in the order of a tree.
 struct BareTile {
   TileAndHalo read = {};
   std::unique_ptr<PointTree> tree = {};
@@ -31,7 +31,7 @@ struct BareTile {
 BareTile load_bare(const PieceStore& store, const TilePlan& plan, std::size_t tile, double halo,
                    const Context& context);
 
-// Of one point, in single precision.
+// Fit at one point, in single precision.
 struct PointDirection {
   float x = 0, y = 0, z = 0;       // of a unit normal; zero for none
   float radius = 0, residual = 0;  // as in LocalFits
@@ -41,14 +41,14 @@ std::string directions_name(std::size_t tile);
 std::vector<PointDirection> read_directions(const PieceStore& store, std::size_t tile);
 
 void find_gaps(BareTile& tile, const Context& context);
-// How far beyond a tile its fits look, in spacings.
+// Returns how far beyond a tile its fits look, in spacings.
 double reach_of_fits(int n_neighbors);
-// Of the own points of a tile with a halo as wide as that, and its gaps.
+// Returns the directions of a tile's own points. The tile must have this halo and its gaps.
 std::vector<PointDirection> fit_directions(const BareTile& tile, int n_neighbors,
                                            const Context& context);
-// The gaps and fits that all tiles have written for these points, without neighbours.
+// Reads the gaps and fits of a tile's points that all tiles have written, without neighbours.
 void put_fits(const PieceStore& store, std::size_t tile, int n_neighbors, BareTile& bare);
-// The same, with the graph of neighbours.
+// Does the same as put_fits(), and finds the graph of neighbours.
 void put_graph(const PieceStore& store, std::size_t tile, int n_neighbors, BareTile& bare,
                const Context& context);
 

@@ -14,10 +14,10 @@
 namespace rholm {
 namespace {
 
-// Chosen: as many points as for one tile (orient_sides.cpp), in tiles that stand for all.
+// Number of points asked (chosen: the same number as for one tile, orient_sides.cpp), and of tiles.
 constexpr std::size_t kAsked = 2000, kAskedTiles = 32;
-// Sides of a sample's patch that it is away at least: a patch that is half in the box and half
-// beyond it is then seen at less than a hundredth of the full angle.
+// Width of the halo in sides of a sample's patch. A patch that is half in the box and half beyond
+// it then covers less than a hundredth of the full angle.
 constexpr double kAway = 3;
 
 WindingTree tree_of(const std::vector<SideSample>& samples, std::span<const Vec3> normals) {

@@ -1,4 +1,4 @@
-// Whether the winding number contradicts normals of tiles. Layer: reconstruct, private.
+// Checks the normals of tiles with the winding number. Layer: reconstruct, private.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace rholm {
 
-// What points and their patches are.
+// The points of all tiles and their patches.
 struct DoubtScene {
   const PieceStore& store;  // with the directions of all tiles
   const TilePlan& plan;
@@ -25,14 +25,14 @@ struct DoubtScene {
   std::uint64_t points_per_sample = 1;  // of `sides`
 };
 
-// Normals of the own points of a tile.
+// Returns the normals of the own points of a tile.
 using NormalsOfTile = std::function<std::vector<Vec3>(std::size_t tile)>;
-// Those of the directions, turned as `sides` says.
+// Returns the directions of a tile's own points, with the signs that `sides` gives.
 std::vector<Vec3> joined_normals(const DoubtScene& scene, std::size_t tile);
 
-// The share of the points that doubtful_share() has of all, asked so many radii away, for patches
-// that are `spread` times as coarse as of clean points: at some points of some tiles, in the field
-// of all points near the tile, and of samples beyond, that have `sample_normals`.
+// Estimates doubtful_share() of all points (orient_sides.h), evaluated `radii` away, at some points
+// of some tiles. The field is from all points near a tile and from the samples beyond, with
+// `sample_normals`. Patches are `spread` times as coarse as for clean points.
 double doubtful_share(const DoubtScene& scene, double radii, double spread,
                       const NormalsOfTile& normals_of, std::span<const Vec3> sample_normals,
                       const Context& context);

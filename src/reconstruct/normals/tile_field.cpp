@@ -17,11 +17,11 @@
 namespace rholm {
 namespace {
 
-// Levels of a tile with more than so many times its share of the sample are none's.
+// A tile does not store levels with more than this multiple of its share of the sample.
 constexpr double kMostOfShare = 4;
 constexpr std::size_t kFewestOfTile = 64;
 constexpr double kFarthest = 4;  // times the neighbours of a fit that are looked at for its sheet
-// Steps of residuals, 0 ... 1.
+// Number of steps of the histogram of residuals between 0 and 1.
 constexpr std::size_t kResidualSteps = 4000;
 
 struct ThinnedPoint {
@@ -41,7 +41,7 @@ double part_of_level(std::size_t level) {
   return kThinned * std::pow(kFiner, static_cast<double>(level));
 }
 
-// In the frame, `spread` times as coarse as of clean points.
+// Returns the spacings in the frame, `spread` times as coarse as for clean points.
 std::vector<double> spacing_in(const UnitFrame& frame, const BareTile& bare, double spread) {
   std::vector<double> spacing = patches_of(bare.fits, bare.gaps, spread).spacing;
   for (double& s : spacing) s *= frame.scale;
@@ -102,7 +102,7 @@ bool TileField::next() {
 }
 
 void TileField::solve(const Context& context) {
-  // The finest level that all have, and that is small enough.
+  // Takes the finest level that all tiles have and that is small enough.
   std::size_t level = 0;
   std::vector<std::vector<std::size_t>> sizes;
   std::vector<std::uint64_t> first;
@@ -125,7 +125,7 @@ void TileField::solve(const Context& context) {
     }
     return sum;
   };
-  // Tiles do not get smaller than a few points each: the last level is taken where all have it.
+  // Each tile keeps a few points at least: the loop ends where all tiles are at their last level.
   const auto is_last = [&] {
     for (std::size_t tile = 0; tile < sizes.size(); ++tile) {
       if (section(tile) + 1 < sizes[tile].size()) return false;

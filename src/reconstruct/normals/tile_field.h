@@ -1,7 +1,7 @@
 // Normals of tiles by a field that all points share (orient_field.h). Layer: reconstruct, private.
 //
-// "thinned/TILE" has a tile's part of the sample that the field is solved for, "sheets/TILE" the
-// normals that it finds there.
+// A tile's part of the sample that the field is solved for is in "thinned/TILE". The normals that
+// the field gives for the tile's points are in "sheetsWAY/TILE".
 #pragma once
 
 #include <cstddef>
@@ -20,36 +20,36 @@
 
 namespace rholm {
 
-// Of one point.
+// Normal of one point.
 struct SheetNormal {
   float x = 0, y = 0, z = 0;
   float agreement = 0;  // mean agreement with the neighbours
 };
 
-// Each step for all tiles before the next one.
+// Each step must be done for all tiles before the next step.
 class TileField {
  public:
-  // The directions of all tiles are there. Fits with so many neighbours; `spacings` of tiles;
-  // n_points of all.
+  // The directions of all tiles must be in the store. `spacings` has a value for each tile,
+  // `n_points` is the number of all points, `n_neighbors` belongs to the fits of the directions.
   TileField(PieceStore& store, const TilePlan& plan, const std::vector<double>& spacings,
             std::uint64_t n_points, int n_neighbors);
 
   void thin(std::size_t tile, const Context& context);
-  // The next way to use it, and with it the next three; false if there is none.
+  // Takes the next way to use the field, for the next three functions; false if none is left.
   bool next();
   void solve(const Context& context);
   void find_sheets(std::size_t tile, const Context& context);
-  // Whether the normals are those of sheets: else the next way may be better. After that, if the
-  // winding number of the samples contradicts them less than those that the samples have, they are
-  // to be taken: is_better().
+  // Returns true if the normals come from sheets; otherwise the next way may be better. Then
+  // is_better() is true if the winding number contradicts the new normals of the samples clearly
+  // less than the normals that they have.
   bool are_sheets(const DoubtScene& scene, const Context& context);
   bool is_better() const { return better_; }
 
   std::vector<SheetNormal> read_sheets(std::size_t tile) const;
-  // Of each sample: how nearly the winding number is 1 behind and 0 before it.
+  // Returns for each sample how nearly the winding number is 1 behind and 0 before it.
   const std::vector<double>& trust() const { return trust_; }
   int n_neighbors() const { return ways_[way_].n_neighbors; }
-  // Pieces that are no longer needed.
+  // Removes pieces that are no longer needed.
   void remove();
 
  private:

@@ -15,7 +15,7 @@ namespace {
 // the points is denser.
 constexpr double kTenthOfEven = 0.8;
 
-// Of a value with a weight: the least one that at least this part of the weight does not exceed.
+// Returns the least value with at least this part of the total weight at or below it.
 double quantile(const std::vector<std::pair<double, double>>& sorted, double part) {
   double whole = 0, sum = 0;
   for (const auto& [value, weight] : sorted) whole += weight;

@@ -1,4 +1,4 @@
-// Caps for the points of one tile. Layer: reconstruct, private.
+// Sample of a tile's points, spacings, and medians over tiles. Layer: reconstruct, private.
 #pragma once
 
 #include <cstddef>
@@ -14,24 +14,24 @@
 
 namespace rholm {
 
-// What some own points of a tile, evenly spread, tell of all.
+// One of some own points of a tile, evenly spread, that stand for all points.
 struct SamplePoint {
-  double spacing = 0;     // of neighbours or rows: spacing_of_circle()
-  double area = 0;        // that a point stands for, by those around
+  double spacing = 0;     // between neighbours or in rows: spacing_of_circle()
+  double area = 0;        // that a point stands for, from its neighbours
   double disc = 0;        // as balance_sides() has it
-  double points = 0;      // for so many it speaks
+  double points = 0;      // number of points that it stands for
   std::size_t place = 0;  // in the order of the tree
   Vec3 at, normal;        // no normal: zero
   double wrong = 0;       // 1: has_wrong_normal()
 };
-// `around`: neighbours that tell the area.
+// `around` is the number of neighbours that tell the area.
 std::vector<SamplePoint> sample_tile(const TileScene& scene, std::size_t n, std::size_t around,
                                      const Context& context);
 
 // Returns the spacing around each place: of its nearest points, or of their rows.
 std::vector<double> spacings_at(const TileScene& scene, const std::vector<Vec3>& places);
 
-// Of all tiles together.
+// Measures of the points of all tiles together.
 struct WholeSample {
   double median = 0;  // spacing
   double fine = 0;    // only a tenth of the points lie clearly closer
@@ -41,13 +41,13 @@ struct WholeSample {
 };
 WholeSample join(const std::vector<SamplePoint>& samples);
 
-// The spacing in each tile by the sample of the survey: the points are as much denser as they are
-// more; nine of ten of the tile's points lie closer.
+// Returns the spacing in each tile, from the sample of the survey, for `points` in all. Nine of ten
+// of the tile's points lie closer.
 std::vector<double> spacings_of_sample(const Survey& survey, const TilePlan& plan, double points);
-// Spacings to the farthest of k neighbours, and as far again: of one point in thousands it is more.
+// Returns twice the radius of a disc with k neighbours, in spacings; one in thousands needs more.
 double reach_of(std::size_t k);
 
-// The median of each.
+// Returns the median of each number.
 CapSize median_of(const std::vector<CapSize>& sizes);
 
 }  // namespace rholm

@@ -16,7 +16,7 @@
 namespace rholm {
 namespace {
 
-// At least so many samples of each tile (chosen).
+// Least number of samples of each tile (chosen).
 constexpr std::size_t kSamplesOfTile = 16;
 constexpr const char* kJoined = "signs-joined";
 constexpr const char* kMended = "signs-mended";
@@ -54,10 +54,10 @@ enum Section : std::size_t {
   kCodes,  // pieces of own points, in their order
   kOwn,
   kPairs,
-  kQuarrels,  // likewise, of points in their order
+  kQuarrels,  // of own points, in their order
   kSamples,
   kShared,  // by tiles
-  kPlaces,  // of shared points, among those of their tiles
+  kPlaces,  // of shared points, in their own tiles
   kHalo,    // pieces of shared points
   kSections
 };
@@ -70,7 +70,7 @@ PieceReader open_pieces(const PieceStore& store, std::size_t tile) {
 
 // Sections of "signs-joined".
 enum JoinedSection : std::size_t {
-  kFirst,  // piece of each tile among those of all, and the end
+  kFirst,  // number of each tile's first piece, and the end
   kWhole,
   kTurned0,  // by check_signs() alone
   kTurnedAll,

@@ -1,10 +1,10 @@
-// Normals of tiles that contradict those around them: found, and turned. Layer: reconstruct,
+// Finds and turns normals of tiles that contradict the normals around them. Layer: reconstruct,
 // private.
 //
-// "sign-pieces/TILE" has what a tile knows of its own points (shape/points/sign_pieces.h),
-// "sign-links/TILE" which of its pieces are pieces of others too, and "signs-joined" what comes of
-// all together. Then "turned/TILE" has a flag for each point, and the piece "signs-mended" says
-// that all is there.
+// The pieces of a tile's own points (shape/points/sign_pieces.h) are in "sign-pieces/TILE". Links
+// to pieces of other tiles are in "sign-links/TILE", and the result for all tiles is in
+// "signs-joined". Then "turned/TILE" has a flag for each point. The piece "signs-mended" says that
+// all is there.
 #pragma once
 
 #include <array>
@@ -24,11 +24,11 @@
 namespace rholm {
 
 struct TileMendingOptions {
-  bool mend = true;    // else contradictions are counted only
+  bool mend = true;    // false: contradictions are only counted
   bool closed = true;  // the surface is to be closed
-  // Points of one tile with those around it.
+  // Returns the points of one tile and its halo.
   std::function<std::shared_ptr<const TileScene>(std::size_t tile)> load;
-  // Their graph_neighbors(), or nothing.
+  // Returns graph_neighbors() of these points, or nothing.
   std::function<std::vector<std::uint32_t>(std::size_t tile)> neighbors;
   std::uint64_t points = 0;      // of all tiles
   std::uint64_t samples = 0;     // of all tiles
@@ -39,21 +39,21 @@ struct TileMendingOptions {
 struct TileMendingReport {
   std::uint64_t turned = 0;                   // points
   std::uint64_t all_inward = 0;               // 1: none contradicted the others, and all are turned
-  std::uint64_t contradicting = 0;            // points that still do
-  std::uint64_t named = 0;                    // so many of them are in `first`
-  std::array<Vec3, kNamedPoints> first = {};  // of these
+  std::uint64_t contradicting = 0;            // points that still contradict others
+  std::uint64_t named = 0;                    // number of them that are in `first`
+  std::array<Vec3, kNamedPoints> first = {};  // places of these points
   double inward = 0;                          // as in MendedSigns
 };
 
-// All steps. Done already where the store has it from a run before. Throws OutOfMemory where pieces
-// are so many that they do not fit into memory.
+// Does all steps; a step whose result the store has is skipped. Throws OutOfMemory if there are too
+// many pieces for the memory.
 TileMendingReport mend_tiles(PieceStore& store, const TilePlan& plan,
                              const TileMendingOptions& options, Stages& stages);
 
-// Whether normals of the store are turned, and the flag of each point of a tile, in their order.
+// Says whether the store has flags of turned normals; then returns one flag per point of a tile.
 bool have_turned(const PieceStore& store);
 std::vector<std::uint8_t> read_turned(const PieceStore& store, std::size_t tile);
-// Drops those of the points whose flag is set.
+// Drops the flags of the points whose `gone` is set.
 void remove_turned(PieceStore& store, std::size_t tile, const std::vector<std::uint8_t>& gone);
 
 }  // namespace rholm

@@ -27,10 +27,10 @@ namespace {
 
 constexpr const char* kOriented = "oriented";
 constexpr std::size_t kPilots = 5;  // tiles that are asked for the neighbours of a fit
-// Rings of neighbours that tiles share: so that parts hold together in the halo too.
+// Rings of neighbours that tiles share, so that pieces hold together in the halo too.
 constexpr double kSharedRings = 2;
 constexpr double kUnsure = 0.5;
-// Of the diagonal: as orient() has it (orient_scene.cpp).
+// Part of the diagonal within which points lie on one line, as in orient() (orient_scene.cpp).
 constexpr double kLineOfFits = 1e-6;
 
 std::string normals_name(std::size_t tile) { return "normals/" + std::to_string(tile); }

@@ -1,9 +1,9 @@
 // Normals for points in tiles, as orient() finds them. Layer: reconstruct, private.
 //
-// Of each tile "directions/TILE" and "signs/TILE" hold what it knows by itself, "votes/TILE"
-// how far that agrees with others, and "normals/TILE" what comes of it: normals that point out of
-// the solid, and how sure their signs are. Points that were measured from known places need the
-// first and the last only. The piece "oriented" says that all is there.
+// The results of a tile alone are in "directions/TILE" and "signs/TILE". Their agreement with other
+// tiles is in "votes/TILE". Normals that point out of the solid, and the confidence of their signs,
+// are in "normals/TILE". Points that were measured from known places need only the first and the
+// last. The piece "oriented" says that all is there.
 #pragma once
 
 #include <cstddef>
@@ -25,10 +25,10 @@
 namespace rholm {
 
 struct TileNormalsOptions {
-  // All points were measured from here; with none, from the attributes sensor_x, sensor_y,
-  // sensor_z, if there are all three, of finite values.
+  // Place from which all points were measured. Without it the attributes sensor_x, sensor_y,
+  // sensor_z are used, if there are all three, with finite values.
   std::optional<Vec3> sensor = {};
-  // Of all tiles together: sides are found from so many (chosen: the memory of a small tile).
+  // Number of samples of all tiles for normal orientation (chosen: the memory of a small tile).
   std::uint64_t samples = 200000;
 };
 
@@ -41,45 +41,45 @@ struct TileNormalsReport {
   std::uint64_t unsure = 0;        // points with a confidence below 0.5
 };
 
-// What there is of the points of one tile, in their order.
+// Normal of one point of a tile; all are in the order of the points.
 struct TileNormal {
   float x = 0, y = 0, z = 0;
   float confidence = 0;
   Vec3 normal() const { return {x, y, z}; }
 };
 std::vector<TileNormal> read_normals(const PieceStore& store, std::size_t tile);
-// Writes them anew without those whose flag is set; one flag each.
+// Removes the normals whose flag is set; there is one flag per normal.
 void remove_normals(PieceStore& store, std::size_t tile, const std::vector<std::uint8_t>& flags);
-// Whether tiles have normals of this kind.
+// Returns true if the store has the normals of all tiles.
 bool have_normals(const PieceStore& store);
 
-// Each step for all tiles, in any order, before the next one; steps that have been done by a run
-// before cost nothing.
+// Each step is done for all tiles, in any order, before the next step. Steps that an earlier run
+// has done cost nothing.
 class TileNormals {
  public:
-  // `spacings` of the points in each tile.
+  // `spacings` has the spacing of the points in each tile.
   TileNormals(PieceStore& store, const TilePlan& plan, std::vector<double> spacings,
               const TileNormalsOptions& options);
 
   // Throws InvalidInput for points on one line, before any work: fits of millions of them would
   // take minutes to find no plane.
   void refuse_points_on_line() const;
-  // Neighbours of a fit, from some tiles.
+  // Chooses the number of neighbours of a fit, from some tiles.
   void choose_neighbors(const Context& context);
   void find_directions(std::size_t tile, const Context& context);
-  // Whether lines of sight decide: then the next three have nothing to do. After the directions.
+  // Returns true if lines of sight decide: then the next three do nothing. After the directions.
   bool by_sight();
   void find_signs(std::size_t tile, const Context& context);
   void match(std::size_t tile);
   void join(const Context& context);
-  // Whether the winding number contradicts the signs of some samples, or points are in rows: then a
-  // field that all points share may know better, and is taken if it does.
+  // Returns true if the winding number contradicts the signs of some samples, or points are in
+  // rows. Then a field that all points share is solved, and taken if it is better.
   bool wants_field() const;
   TileField field() const;
   DoubtScene doubt_scene() const;
   void take(TileField field, const Context& context);
   void turn(std::size_t tile, const Context& context);
-  // What came of it. Throws InvalidInput if no point has a normal.
+  // Returns the result. Throws InvalidInput if no point has a normal.
   TileNormalsReport report() const;
   // Says that all is there, and removes what is no longer needed.
   void finish(const TileNormalsReport& report);
@@ -103,10 +103,10 @@ class TileNormals {
   std::unique_ptr<PointTree> samples_ = {};
 };
 
-// What orient_tiles() costs, where no field is asked.
+// Returns the costs of orient_tiles() where no field is solved.
 std::vector<StageCost> costs_of_normals();
 
-// All steps. Done already where the store has it from a run before.
+// Does all steps; a step whose result the store has is skipped.
 TileNormalsReport orient_tiles(PieceStore& store, const TilePlan& plan,
                                const std::vector<double>& spacings,
                                const TileNormalsOptions& options, Stages& stages);

@@ -16,12 +16,12 @@
 namespace rholm {
 namespace {
 
-// Of two pieces of all tiles, a < b.
+// Votes between two pieces of all tiles, a < b.
 struct Link {
   std::uint32_t a = 0, b = 0;
   double sum = 0, n = 0;
 
-  // That the sign of the sum is right: so many votes, and how nearly they are of one mind.
+  // Grows with the number of votes and with their agreement on the sign of the sum.
   double confidence() const { return n > 0 ? sum * sum / n : 0; }
 };
 
@@ -30,7 +30,7 @@ Link make_link(std::uint64_t a, std::uint64_t b, double sum, double n) {
   return {static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), sum, n};
 }
 
-// One for each pair, by pairs.
+// Adds up the links of each pair of pieces, and sorts them by pairs.
 void merge(std::vector<Link>& links) {
   std::stable_sort(links.begin(), links.end(), [](const Link& x, const Link& y) {
     return std::tie(x.a, x.b) < std::tie(y.a, y.b);
@@ -111,7 +111,7 @@ class Joining {
  private:
   std::size_t n_pieces() const { return sides_.first.back(); }
 
-  // What most votes say; others are as those of edges in doubt.
+  // Unites pieces where most votes agree; other links are added to the uncertain edges.
   void unite_shared(SignedSets& sets) {
     std::vector<Link> order = shared_;
     std::stable_sort(order.begin(), order.end(),
@@ -149,7 +149,7 @@ class Joining {
     Patches patches{std::vector<double>(n), std::vector<double>(n)};
     OrientedParts parts{.piece = std::vector<std::uint32_t>(n),
                         .component = std::vector<std::uint32_t>(n)};
-    // Numbers of those alone that have samples.
+    // Numbers only the sets that have samples.
     const auto renumber = [n](const auto& of_sample, std::size_t n_sets, std::size_t& count) {
       constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
       std::vector<std::uint32_t> number(n_sets, kNone);

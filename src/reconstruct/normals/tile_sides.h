@@ -1,5 +1,5 @@
-// Signs of the pieces of all tiles to each other, and their outer side. Layer: reconstruct,
-// private.
+// Signs of the pieces of all tiles relative to each other, and their outer side. Layer:
+// reconstruct, private.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@
 
 namespace rholm {
 
-// Of the pieces of all tiles, first those of tile 0.
+// Signs of the pieces of all tiles, in the order of the tiles.
 struct JoinedSides {
   std::vector<std::uint64_t> first = {};         // piece of each tile, and the end
   std::vector<std::uint8_t> turned = {};         // per piece
-  std::vector<float> trust = {};                 // per piece: that of its component, see SideTrust
+  std::vector<float> trust = {};                 // per piece: trust of its component, see SideTrust
   std::vector<std::uint32_t> component = {};     // per piece
   std::size_t n_components = 0;                  // that have own points
   double doubtful = 0;                           // share of the samples
@@ -25,10 +25,10 @@ struct JoinedSides {
   std::vector<std::uint64_t> first_sample = {};  // of each tile, and the end
 };
 
-// From the pieces "signs/TILE" and "votes/TILE" of all tiles. Pieces of two tiles become one by
-// the votes of the points that they share, the most decided first, where most of them agree; those
-// by the votes of edges in doubt, as orient_along_graph() does; and what is still open by the
-// winding number of the samples, as turn_outwards() does.
+// Joins the pieces in "signs/TILE" by "votes/TILE" of all tiles. First, pieces of two tiles become
+// one where most votes of their shared points agree, the most decided ones first. Then votes of
+// uncertain edges join pieces, as orient_along_graph() does. The winding number of the samples
+// decides all remaining signs, as turn_outwards() does.
 JoinedSides join_sides(const PieceStore& store, std::size_t n_tiles, const Context& context);
 
 }  // namespace rholm

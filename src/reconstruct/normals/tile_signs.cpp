@@ -13,10 +13,10 @@
 namespace rholm {
 namespace {
 
-// Smaller pieces have no say of their own (orient_sides.cpp) and go with others.
+// Smaller pieces get no sign of their own (orient_sides.cpp) and follow others.
 constexpr std::size_t kLeastPart = 30;
 
-// Of the own points of each piece, by their order, one for a number of them.
+// Takes samples of the own points of each piece, one for a number of points in their order.
 std::vector<SideSample> take_samples(const BareTile& graph, const OrientedPieces& pieces,
                                      const std::vector<Vec3>& normals,
                                      std::size_t points_per_sample) {

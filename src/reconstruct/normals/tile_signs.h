@@ -1,9 +1,9 @@
-// Signs of normals within a tile, and what tiles say of each other's. Layer: reconstruct, private.
+// Signs of normals within a tile, and the votes of other tiles. Layer: reconstruct, private.
 //
-// Pieces of a tile, of its points and its halo's, are what edges without doubt hold together (see
-// orient_graph.h); their signs to each other are open. A point that two tiles have, as one of
-// their own and one of the halo, is a vote for the pieces it belongs to: they agree, or one is to
-// be turned.
+// A piece is a set of points of a tile and its halo that certain edges
+// hold together (see orient_graph.h). The signs of pieces relative to each
+// other are open. A point that is one tile's own and in the halo of
+// another is a vote for the two pieces: they agree, or one must be turned.
 #pragma once
 
 #include <cstddef>
@@ -33,10 +33,10 @@ class PieceCode {
   std::uint32_t code_ = 0;
 };
 
-// Stands for points of one piece around it.
+// A point of one piece that stands for points around it.
 struct SideSample {
   Vec3 point;
-  Vec3 normal;  // its sign is that of the piece
+  Vec3 normal;  // with the sign of the piece
   double area = 0, spacing = 0;
   std::uint64_t piece = 0;
   std::uint64_t place = 0;  // among the own points of its tile
@@ -55,30 +55,30 @@ struct TileSigns {
   bool in_rows = false;
   std::vector<PieceCode> codes = {};       // of own points
   std::vector<float> within = {};          // see PieceAgreement
-  std::vector<std::uint8_t> edges = {};    // likewise
-  std::vector<Across> across = {};         // likewise, of own points
+  std::vector<std::uint8_t> edges = {};    // see PieceAgreement
+  std::vector<Across> across = {};         // see PieceAgreement; between own points
   std::vector<Shared> shared = {};         // by tiles
-  std::vector<std::uint32_t> places = {};  // of shared points among those of their tiles
-  std::vector<PieceCode> halo = {};        // of shared points, here
+  std::vector<std::uint32_t> places = {};  // of shared points, in their own tiles
+  std::vector<PieceCode> halo = {};        // of shared points, in this tile
   std::vector<PieceVotes> votes = {};
   std::vector<SideSample> samples = {};  // by pieces
 };
 
-// With the fits of all its points. One sample for so many points, more of small pieces.
+// Needs fits of all points. Takes a sample per `points_per_sample` points, more of small pieces.
 TileSigns find_tile_signs(const BareTile& graph, std::size_t points_per_sample);
 
 std::string signs_name(std::size_t tile);
 void write_signs(PieceStore& store, std::size_t tile, const TileSigns& signs);
-// All of it, what join_sides() needs, or codes alone.
+// These read all of it, only what join_sides() needs, and only the codes.
 TileSigns read_signs(const PieceStore& store, std::size_t tile);
 TileSigns read_pieces(const PieceStore& store, std::size_t tile);
 std::vector<PieceCode> read_codes(const PieceStore& store, std::size_t tile);
 
-// Votes of the points that a tile shares with others: of the pieces of both.
+// Votes of the points that a tile shares with another one, for a piece of each.
 struct SharedVotes {
   std::uint64_t tile = 0;  // the other
   std::uint32_t own = 0, other = 0;
-  std::int64_t sum = 0, n = 0;  // points that agree less those that do not; all
+  std::int64_t sum = 0, n = 0;  // points that agree less points that do not; all points
 };
 std::vector<SharedVotes> match_signs(const PieceStore& store, std::size_t tile);
 std::string votes_name(std::size_t tile);

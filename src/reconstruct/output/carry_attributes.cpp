@@ -20,7 +20,7 @@ void carry_attributes(const PointTree& tree, std::span<const Attribute> attribut
     std::vector<Neighbor> near;
     std::vector<double> weights;
     const auto blended = [&](const Attribute& attribute) {
-      // Where a scanner had no value there may be no number: the others count alone.
+      // A scanner may write no number where it has no value: only the other points count.
       double value = 0, sum = 0;
       for (std::size_t j = 0; j < near.size(); ++j) {
         const double own = attribute.values[tree.order()[near[j].index]];

@@ -9,8 +9,8 @@
 
 namespace rholm {
 
-// Gives each vertex the mean of the attributes of the points around it, weighted: the values are
-// those of the points that the tree was made of, in their order. Rounded to their types.
+// Gives each vertex the weighted mean of the attributes of the points around it, rounded to their
+// types. Values are in the order of the points that the tree was made of.
 void carry_attributes(const PointTree& tree, std::span<const Attribute> attributes, Mesh& mesh,
                       const Context& context);
 

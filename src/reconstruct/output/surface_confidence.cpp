@@ -8,10 +8,10 @@
 namespace rholm {
 namespace {
 
-// In spacings, chosen: data reach so far beyond their points, and from the other on nothing is
-// known; a sheet is apart from what is behind it when that is farther than the third.
+// Distances in spacings (chosen). Points show the surface up to kReach, and nothing of it from
+// kNothing on. Opposite sheets are apart if they are farther from each other than kApart.
 constexpr double kReach = 2, kNothing = 4, kApart = 3;
-constexpr std::size_t kBehind = 32;  // of which opposite ones are looked for: a disc of 3 spacings
+constexpr std::size_t kBehind = 32;  // points searched for opposite ones: a disc of 3 spacings
 constexpr double kOpposite = -0.5;   // cosine of normals
 constexpr double kHalf = 0.5;        // confidence below which area is counted
 

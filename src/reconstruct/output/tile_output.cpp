@@ -16,7 +16,7 @@
 namespace rholm {
 namespace {
 
-// What is known of the signs of normals: of given ones nothing.
+// Returns the confidence of the signs of normals, which is 1 for given normals.
 Attribute confidence_of(const TileScene& scene) {
   std::vector<double> sure(scene.points.size(), 1.0);
   for (std::size_t i = 0; i < scene.confidence.size(); ++i) {
@@ -103,7 +103,7 @@ std::vector<Attribute> TileOutput::attributes() const {
   return attributes;
 }
 
-// Of one sensor for all, surfaces need not know.
+// Leaves out the sensor if it is the same for all points: surfaces need not know it.
 bool TileOutput::is_left_out(const std::string& attribute) const {
   return options_.sensor &&
          std::find(kSensorAxes.begin(), kSensorAxes.end(), attribute) != kSensorAxes.end();
@@ -120,7 +120,7 @@ ConfidenceAreas TileOutput::carry(std::size_t tile, Mesh& vertices) const {
   return add_confidence(scene->ordered(), vertices, stages_.context());
 }
 
-// Of the triangles of each tile.
+// Measures the triangles of each tile.
 ConfidenceAreas TileOutput::measure_confidence(const TileParts& parts) const {
   const auto measure = [&](std::size_t tile) {
     const std::shared_ptr<const TileScene> scene = load_(tile);

@@ -1,5 +1,5 @@
-// The surface of all tiles, with what their points tell of it, as a file. Layer: reconstruct,
-// private.
+// Writes the surface of all tiles, with attributes from their points, to a file or a mesh. Layer:
+// reconstruct, private.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ namespace rholm {
 
 class TileOutput {
  public:
-  // A tile's points and its halo.
+  // Returns a tile's points and its halo.
   using Load = std::function<std::shared_ptr<const TileScene>(std::size_t tile)>;
 
   TileOutput(PieceStore& store, Stages& stages, const ReconstructOptions& options,
@@ -35,15 +35,15 @@ class TileOutput {
         n_tiles_(n_tiles),
         load_(std::move(load)) {}
 
-  // As add_confidence() measures them, of all triangles.
+  // Returns the areas of add_confidence() for all triangles.
   ConfidenceAreas measure_confidence(const TileParts& parts) const;
-  // In place, by all processes; one part after the other where the output is no regular file.
+  // Writes in place, from all processes; tile after tile if the output is no regular file.
   void write(const TileParts& parts, const TileParts::Whole& whole,
              const std::filesystem::path& output) const;
-  // In memory, with the values that write() would round to the file's. Throws Unsupported for more
-  // vertices than a Mesh can number.
+  // Returns the mesh in memory, with the values rounded as in the file of write(). Throws
+  // Unsupported for more vertices than a Mesh can number.
   Mesh collect(const TileParts& parts, const TileParts::Whole& whole) const;
-  std::vector<Attribute> attributes() const;  // names and types of those of the surface
+  std::vector<Attribute> attributes() const;  // names and types, without values
   // Carries attributes of the points of a tile to vertices there. Returns the areas of
   // add_confidence().
   ConfidenceAreas carry(std::size_t tile, Mesh& vertices) const;

@@ -19,10 +19,10 @@ struct PlaceAndSpacing {
   double spacing = 0;
 };
 
-// Into the rules, each place once, in an order that does not depend on the given one.
+// Puts each place once into the rules, in an order that does not depend on the given one.
 void keep_spacings(std::vector<PlaceAndSpacing> found, SurfaceRules& rules);
 
-// Notes what is asked for, by several threads.
+// Records the spacings that several threads ask for.
 class NotedSpacings {
  public:
   void note(const Vec3& place, double spacing);
@@ -33,16 +33,16 @@ class NotedSpacings {
   std::vector<PlaceAndSpacing> noted_;
 };
 
-// The spacing at any place, as rules have it: exact where it is kept, else that of the nearest
-// place within kReach typical spacings, else the typical one.
+// Spacing at any place by the rules of a model: exact at a kept place. Otherwise it is the spacing
+// of the nearest place within kReach typical spacings, or else the typical spacing.
 class KnownSpacings {
  public:
-  // Throws InvalidInput for rules with other numbers of spacings than of places.
+  // Throws InvalidInput for rules whose numbers of spacings and places differ.
   KnownSpacings(const SurfaceRules& rules, double typical, const Context& context);
   // May be asked by several threads.
   double at(const Vec3& place) const;
 
-  static constexpr double kReach = 5;  // chosen: loops of handles are at most so long
+  static constexpr double kReach = 5;  // chosen: loops of handles are at most this long
 
  private:
   SurfaceRules rules_;  // the spacings alone, in order

@@ -1,4 +1,4 @@
-// Scans of more points than a tile, brought together. Layer: reconstruct, private.
+// Alignment of scans with more points than a tile. Layer: reconstruct, private.
 #pragma once
 
 #include <memory>
@@ -11,9 +11,9 @@
 
 namespace rholm {
 
-// The source with its scans where align_scans() brings a sample of them: at most
+// Returns the source with its scans moved as align_scans() moves a sample: at most
 // options.tile_points points, the same in any order of the source. `alignment` gets what was done.
-// The source itself where there are no scans, or these stay. The store keeps the motions.
+// Returns the source itself if there are no scans or they stay. The store keeps the motions.
 std::unique_ptr<PointSource> with_moved_scans(std::unique_ptr<PointSource> source,
                                               PieceStore& store, const ReconstructOptions& options,
                                               ScanAlignment& alignment, const Context& context);

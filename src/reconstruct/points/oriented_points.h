@@ -22,8 +22,8 @@ OrientedPoints oriented_points(const std::vector<Vec3>& points, const std::vecto
 // Turns all normals if they face inwards; returns whether they did.
 bool turn_outwards(OrientedPoints& samples, const Context& context);
 
-// Throws InvalidInput for a diagonal whose caps leave the range of single precision, in which
-// squares of distances are.
+// Throws InvalidInput for a diagonal whose caps leave the range of single precision, which stores
+// squares of distances.
 void check_span(double diagonal);
 
 }  // namespace rholm

@@ -13,7 +13,7 @@
 
 namespace rholm {
 
-// Of an attribute: the type it has in files, and the one it is kept as, which has all its values.
+// Types of an attribute: the type in files, and the kept type, which has all its values.
 struct ColumnLayout {
   std::string name = {};
   ScalarType type = ScalarType::kFloat32, kept = ScalarType::kFloat32;
@@ -32,21 +32,21 @@ struct PointLayout {
   friend bool operator==(const PointLayout&, const PointLayout&) = default;
 };
 
-// The narrowest one of all points of the cloud.
+// Returns the narrowest layout for all points of the cloud.
 PointLayout layout_of(const PointCloud& cloud);
-// One for what either is for. Throws InvalidInput if their attributes differ.
+// Widens a layout to fit another one as well. Throws InvalidInput if their attributes differ.
 void widen(PointLayout& layout, const PointLayout& other);
 
-// Point i; `to` has row_bytes(). Zeros for normals that the cloud does not have, or are not finite.
+// Writes point i to `to`, which has row_bytes(). Missing normals and not finite ones become zero.
 void put_row(const PointLayout& layout, const PointCloud& cloud, std::size_t i, std::byte* to);
-// Adds the rows to the cloud, which is empty or of this layout; those within the box only, if there
-// is one; the numbers of these among the rows are added to `taken`, if wanted. Throws InvalidInput
-// unless these are whole rows.
+// Adds the rows to the cloud, which is empty or of this layout. With `box`, only rows within it are
+// added. With `taken`, their numbers among the rows are added there. Throws InvalidInput unless
+// `rows` are whole rows.
 void take_rows(const PointLayout& layout, std::span<const std::byte> rows, PointCloud& cloud,
                const Bounds* box = nullptr, std::vector<std::uint32_t>* taken = nullptr);
-// A cloud without points, of this layout.
+// Returns a cloud without points, of this layout.
 PointCloud empty_cloud(const PointLayout& layout);
-// Room for n points in all.
+// Reserves room for n points in all.
 void reserve_rows(const PointLayout& layout, std::size_t n, PointCloud& cloud);
 bool is_within(const Bounds& box, const Vec3& p);
 

@@ -11,7 +11,7 @@ bool is_before(const Vec3& a, const Vec3& b) {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
-// Above those that choose a slot.
+// Returns bits above the bits that choose a slot.
 std::uint32_t more_bits(std::uint64_t hash) { return static_cast<std::uint32_t>(hash >> 20); }
 
 }  // namespace
@@ -19,7 +19,7 @@ std::uint32_t more_bits(std::uint64_t hash) { return static_cast<std::uint32_t>(
 std::uint64_t place_hash(const Vec3& p) {
   const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // -0 + 0 = 0
   // Odd multipliers of xxHash64, and the finaliser of splitmix64 (base/random.cpp): every bit of
-  // the coordinates reaches the highest ones, by which samples are taken.
+  // the coordinates reaches the highest ones, which decide what is sampled.
   std::uint64_t h = bits(p.x) * 0x9e3779b185ebca87ULL;
   h = (h ^ (h >> 32) ^ bits(p.y)) * 0xc2b2ae3d27d4eb4fULL;
   h = (h ^ (h >> 29) ^ bits(p.z)) * 0x165667b19e3779f9ULL;

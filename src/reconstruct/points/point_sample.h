@@ -10,11 +10,11 @@
 
 namespace rholm {
 
-// 64 well-mixed bits of the coordinates; 0 and -0 are the same.
+// Returns 64 well-mixed bits of the coordinates; 0 and -0 are the same.
 std::uint64_t place_hash(const Vec3& p);
 
-// Of all different points those k with the smallest hashes (a bottom-k sketch: Cohen, Kaplan 2007).
-// So a point that is there a million times counts once.
+// The k different points with the smallest hashes (a bottom-k sketch: Cohen, Kaplan 2007). A point
+// that occurs a million times counts once.
 class PointSample {
  public:
   explicit PointSample(std::size_t k);
@@ -23,13 +23,13 @@ class PointSample {
     const std::uint64_t hash = place_hash(p);
     if (hash <= most_) keep(hash, p);
   }
-  // Larger ones are chosen of all points only as long as fewer than this many have been seen.
+  // Enlarges the sample. Points that have been dropped from the smaller one stay out.
   void grow(std::size_t k);
-  // Ends it. The first k points by their hashes, no more than it is made for.
+  // Ends it. Returns the first k points by their hashes, or all of a smaller sample.
   std::vector<Vec3> take(std::size_t k);
   std::vector<Vec3> take() { return take(k_); }
-  // How many different points there are: exact up to k, then from the largest hash, with a standard
-  // deviation of 1 / sqrt(k). After take().
+  // Returns the number of different points: exact up to k, then from the largest hash, with a
+  // standard deviation of 1 / sqrt(k). After take().
   double n_different() const { return n_different_; }
 
  private:
@@ -43,7 +43,7 @@ class PointSample {
   std::size_t k_;
   std::uint64_t most_ = std::numeric_limits<std::uint64_t>::max();  // larger ones are dropped
   std::vector<Kept> kept_;
-  // By the lowest bits of hashes; others of them tell most that are different apart.
+  // Found by the lowest bits of a hash; `bits` are others, which tell most different hashes apart.
   struct Slot {
     std::uint32_t bits = 0;
     std::uint32_t after = 0;  // the index in kept_, and 1; 0: free

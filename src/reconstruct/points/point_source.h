@@ -19,10 +19,10 @@ namespace rholm {
 class PointSource {
  public:
   virtual ~PointSource() = default;
-  // Back to the first point.
+  // Goes back to the first point.
   virtual void rewind() = 0;
-  // The next points, at least one, instead of what `piece` holds; false at the end. All pieces have
-  // the same attributes, and normals or none.
+  // Replaces `piece` by the next points, at least one; false at the end. All pieces have the same
+  // attributes, and either all or none have normals.
   virtual bool next(PointCloud& piece, const Context& context) = 0;
   virtual std::optional<std::uint64_t> size() const = 0;  // points, where that is known
   virtual double part_read() const = 0;                   // since the last rewind(), 0 ... 1
@@ -32,15 +32,15 @@ class PointSource {
   virtual void finish() {}  // frees memory: no more points will be read
 };
 
-// Of a file, as PointStream reads it. What can be read only once ("-", a pipe) goes to the store's
-// piece "input/0" meanwhile, and is read from there the next time. Throws as PointStream does.
+// Returns the points of a file, as PointStream reads it. A file that can be read only once ("-", a
+// pipe) is copied to the store's piece "input/0" for the next time. Throws as PointStream does.
 std::unique_ptr<PointSource> open_points(const std::filesystem::path& path,
                                          const ShapeReadOptions& options, PieceStore& store);
 
-// Of points in memory, which are not copied and must stay. `dropped` is what the source says of
-// points that their reader has left out.
+// Returns points in memory, which are not copied and must stay. `dropped` is the number of points
+// that their reader has left out.
 std::unique_ptr<PointSource> points_in_memory(const PointCloud& cloud, std::uint64_t dropped = 0);
-// The same, with the points of its own until finish().
+// Does the same, and owns the points until finish().
 std::unique_ptr<PointSource> points_in_memory(PointCloud&& cloud, std::uint64_t dropped = 0);
 
 }  // namespace rholm

@@ -17,7 +17,7 @@ constexpr std::uint64_t kSamplesPerTile = 64;  // chosen: sizes of tiles differ 
 // 163rd place from either end along each axis.
 constexpr std::uint64_t kSampleOfOnly = std::uint64_t{1} << 15;
 
-// Counts that sums are made of, over points that are finite and not far.
+// Counts, over the points that are finite and not far.
 struct Tally {
   std::uint64_t points = 0, not_finite = 0, far = 0;
   Vec3 low, high;
@@ -46,7 +46,7 @@ struct Tally {
   void see(const Vec3& normal) { normals = normals || (is_finite(normal) && !(normal == Vec3{})); }
 };
 
-// take(piece) for each.
+// Calls take(piece) for each piece of the source.
 template <class Take>
 void for_each_piece(PointSource& source, const Context& context, const Take& take) {
   PointCloud piece;
@@ -64,14 +64,14 @@ std::uint64_t sample_size(std::uint64_t points, const SurveyOptions& options) {
   return std::max(options.least_sample, kSamplesPerTile * ((points + per_tile - 1) / per_tile));
 }
 
-// Whether some place of the box may be far.
+// Returns true if some place of the box may be far.
 bool reaches_beyond(const FarBall& ball, const Bounds& box) {
   const Vec3 a = ball.middle - box.min, b = box.max - ball.middle;
   return ball.is_far(ball.middle +
                      Vec3{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)});
 }
 
-// What does not depend on the number of points, in a piece.
+// Section of the survey's piece whose size does not depend on the number of points.
 struct SurveyHead {
   std::uint64_t points, not_finite, far_strays, dropped;
   FarBall ball;
@@ -108,7 +108,7 @@ Survey survey(PointSource& source, const SurveyOptions& options, const Context& 
   if (tally.points == 0) {
     refuse(any ? "no point has finite coordinates" : "there are no points to make a surface of");
   }
-  // By what was found: how many there are may be known before, or not.
+  // The size follows from the points found: their number may not be known before.
   result.sample = sample.take(sample_size(tally.points, options));
   result.n_different = sample.n_different();
   result.bounds = {.min = tally.low, .max = tally.high};

@@ -1,4 +1,4 @@
-// What has to be known of points before they are cut into tiles. Layer: reconstruct, private.
+// Survey of points before they are cut into tiles. Layer: reconstruct, private.
 #pragma once
 
 #include <cstddef>
@@ -21,27 +21,27 @@ struct SurveyOptions {
   bool drop_far_strays = true;
 };
 
-// All of it is the same in any order of the points, but for the order of the file being that of
-// layout.columns.
+// Results that do not depend on the order of the points. Only layout.columns are in the order of
+// the file.
 struct Survey {
-  std::uint64_t points = 0;       // that are kept: finite, and no far strays
+  std::uint64_t points = 0;       // that are kept: finite, and not far from all others
   std::uint64_t not_finite = 0;   // a coordinate is NaN or infinite
   std::uint64_t far_strays = 0;   // see shape/points/strays.h; by the box of the sample
   std::uint64_t dropped = 0;      // by the reader of the file, as they are not finite
-  FarBall ball = {};              // beyond which these are
+  FarBall ball = {};              // outside of it points are far from all others
   Bounds bounds = {};             // of the points that are kept
   PointLayout layout = {};        // of all; normals: one of a kept point is finite and not zero
   double n_different = 0;         // points, about
   std::vector<Vec3> sample = {};  // of kept points, see PointSample; at least 64 for each tile
 };
 
-// Goes through the points once, twice if there are far strays. Throws InvalidInput if no point is
-// finite, as the source does, and Cancelled.
+// Goes through the points once, and twice if some are far from all others. Throws InvalidInput if
+// no point is finite, what the source throws, and Cancelled.
 Survey survey(PointSource& source, const SurveyOptions& options = {}, const Context& context = {});
 
-// As the store's piece "survey".
+// Writes the store's piece "survey".
 void write_survey(const Survey& survey, PieceStore& store);
-// None if it is not there. Throws InvalidInput if it is damaged.
+// Returns nullopt if it is not there. Throws InvalidInput if it is damaged.
 std::optional<Survey> read_survey(const PieceStore& store);
 
 }  // namespace rholm

@@ -11,12 +11,12 @@
 namespace rholm {
 namespace {
 
-// Share of the points far from all others that makes outliers near the surface likely: where none
-// is far from it, and no normals are wrong, none is near it either, and what no cap fits is an
-// edge. The box of random outliers has several times as many far ones.
+// Share of points far from all others that makes outliers near the surface likely. Without far
+// points and wrong normals there are no outliers near it either, and points that no cap fits are at
+// an edge. A box of random outliers has several times as many far points.
 constexpr double kSuspicious = 1e-3;
-// The same of wrong normals of some of the points; and how many more there may be, by chance, and
-// where they are so many that those around are not of one mind.
+// Share of wrong normals with the same effect. Outliers may be more than the wrong normals by this
+// factor: some agree by chance, or the normals around them contradict each other.
 constexpr double kSuspiciousNormals = 0.01, kMoreWrong = 2;
 constexpr double kLeastGroup = 0.002;  // of the points
 // Length of the mean normal from which nothing is enclosed: of a cap of a sphere of 37 degrees.

@@ -20,8 +20,8 @@ struct Keyed {
   std::uint32_t index;
 };
 
-// By the highest 36 bits of 63, those that agree there in the order they have: digit by digit, the
-// lowest first. A million points of a surface rarely agree in 12 bits per axis.
+// Sorts by the highest 36 bits of 63, digit by digit, the lowest first. Items with equal bits keep
+// their order. A million points of a surface rarely agree in 12 bits per axis.
 constexpr int kBits = 12, kDigits = 3;  // chosen: counts stay in the first cache
 constexpr int kLowest = 3 * kMortonLevels - kBits * kDigits;
 
@@ -65,7 +65,7 @@ PointCloud read_raw(const PieceReader& piece, const PointLayout& layout) {
   return cloud;
 }
 
-// Indices of the points in their order.
+// Returns the indices of the points in their order.
 std::vector<std::uint32_t> order_of(const PointCloud& cloud) {
   const Bounds box = bounds(cloud.points);
   const Vec3 size = box.max - box.min, middle = 0.5 * box.min + 0.5 * box.max;
@@ -102,7 +102,7 @@ void gather(std::vector<T>& values, const std::vector<std::uint32_t>& from) {
   values.swap(gathered);
 }
 
-// Those that are kept come to the front.
+// Moves the values that are kept to the front.
 template <class T>
 void keep_first(std::vector<T>& values, const std::vector<std::uint32_t>& first) {
   std::size_t kept = 0;
@@ -112,7 +112,7 @@ void keep_first(std::vector<T>& values, const std::vector<std::uint32_t>& first)
   values.resize(kept);
 }
 
-// Those without a direction are of no use where others have one.
+// Removes points without a normal, which are of no use where others have one.
 void drop_zero_normals(PointCloud& cloud, std::vector<std::uint32_t>& order) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {

@@ -1,4 +1,4 @@
-// The points of a tile and those around it. Layer: reconstruct, private.
+// The points of a tile and its halo. Layer: reconstruct, private.
 #pragma once
 
 #include <cstddef>
@@ -13,21 +13,21 @@
 namespace rholm {
 
 struct TileAndHalo {
-  // Of one other tile.
+  // Points of one other tile.
   struct Part {
     std::size_t tile = 0;
     std::vector<std::uint32_t> places = {};  // of its points, in their order
   };
-  PointCloud cloud = {};  // the tile's own points, in their order, and those of each part
+  PointCloud cloud = {};  // the tile's own points, in their order, then the points of each part
   std::size_t n_own = 0;
   std::vector<Part> halo = {};  // by tiles
 };
 
-// With the points of others in the box around its own that is wider by `halo` on all sides.
+// Reads a tile, and the points of other tiles in its box made wider by `halo` on all sides.
 TileAndHalo read_with_halo(const PieceStore& store, const TilePlan& plan, std::size_t tile,
                            double halo);
 
-// One value for each point of the cloud: `values_of(tile)` has those of one tile.
+// Returns one value for each point of the cloud; `values_of(tile)` has the values of a tile.
 template <typename T, typename ValuesOf>
 std::vector<T> gather(const TileAndHalo& points, std::size_t tile, const ValuesOf& values_of) {
   std::vector<T> values = values_of(tile);

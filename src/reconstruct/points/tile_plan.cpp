@@ -11,8 +11,8 @@ namespace rholm {
 namespace {
 
 constexpr std::array<double Vec3::*, 3> kAxes = {&Vec3::x, &Vec3::y, &Vec3::z};
-// Of the points, on the smaller side of a cut: where many have one coordinate, another axis is
-// better.
+// Divisor of the number of points: the smaller side of a cut has this share of them at least. Where
+// many points have one coordinate, another axis is better.
 constexpr std::size_t kLeastShare = 4;
 
 Bounds box_of(std::span<const Vec3> points) {
@@ -68,7 +68,7 @@ class PlanMaker {
     return index;
   }
 
-  // The median across the longest side, or the next, or the best of all.
+  // Returns the median across the longest side, or across the next one, or the best of all.
   Place find_cut(std::span<const Vec3> points) {
     const Vec3 size = [&] {
       const Bounds box = box_of(points);
@@ -86,7 +86,7 @@ class PlanMaker {
     return best;
   }
 
-  // Before the cell of the median, or behind it, whichever is more even.
+  // Cuts before the cell of the median or behind it, whichever is more even.
   Place find_cut_across(std::span<const Vec3> points, std::size_t axis) {
     values_.clear();
     for (const Vec3& p : points) values_.push_back(p.*kAxes[axis]);

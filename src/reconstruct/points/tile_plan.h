@@ -13,7 +13,7 @@
 
 namespace rholm {
 
-// Tiles fill all space. Their numbers go along the tree: those of near ones are near, as a rule.
+// Tiles fill all space. Their numbers follow the tree, so tiles with near numbers are mostly near.
 class TilePlan {
  public:
   std::size_t n_tiles() const { return cells_.size(); }
@@ -27,7 +27,7 @@ class TilePlan {
   }
   // Points of the tile have min <= p < max; infinite where no other tile is beyond.
   const Bounds& cell(std::size_t tile) const { return cells_[tile]; }
-  // Those whose cells meet the box, ascending.
+  // Returns the tiles whose cells meet the box, ascending.
   std::vector<std::size_t> tiles_meeting(const Bounds& box) const;
 
  private:
@@ -43,13 +43,13 @@ class TilePlan {
   std::vector<Bounds> cells_;
 };
 
-// Cuts by the medians of the sample across the longest side of its box until, as far as the sample
-// tells, no tile has more points; one tile if n_points are no more. Cuts are borders of the
-// lattice's cells, so that points at one place are in one tile. Depends on the set of the points
-// of the sample only.
+// Cuts the box of the sample across its longest side at the median, until no tile has more than
+// points_per_tile points by the sample. There is one tile if n_points are not more. Cuts are
+// borders of the lattice's cells, so that points at one place are in one tile. The plan depends on
+// the set of the sample's points only.
 TilePlan make_plan(std::span<const Vec3> sample, const PlaceLattice& lattice, double n_points,
                    double points_per_tile);
-// Of the points that differ: others are merged.
+// Plans tiles for the different points of a survey: equal points are merged.
 TilePlan make_plan(const Survey& survey, std::uint64_t points_per_tile);
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// A tile's points with normals, and those around them. Layer: reconstruct, private.
+// A tile's points and its halo, with normals. Layer: reconstruct, private.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +14,15 @@
 
 namespace rholm {
 
-// The points of a tile and those of others near it, its halo, in the order of a tree.
+// The points of a tile and its halo (near points of other tiles), in the order of a tree.
 struct TileScene {
-  std::size_t n_own = 0;                     // points of the tile, before those of others
+  std::size_t n_own = 0;                     // points of the tile, which come before the halo
   std::vector<Attribute> attributes;         // in that order, which the tree has as order()
-  std::vector<TileAndHalo::Part> halo = {};  // where the others are from, unless some were left out
+  std::vector<TileAndHalo::Part> halo = {};  // tiles of the halo, unless points were left out
   std::unique_ptr<PointTree> tree;
   std::vector<Vec3> points, normals;  // in the order of the tree; unit normals, or none
-  std::vector<std::uint8_t> foreign;  // likewise: 1 of the halo
-  std::vector<float> confidence;      // likewise, of computed normals: see OrientReport
+  std::vector<std::uint8_t> foreign;  // in the order of the tree: 1 of the halo
+  std::vector<float> confidence;      // in this order, of computed normals: see OrientReport
   SamplingGaps gaps;
   bool computed_normals = false;
 

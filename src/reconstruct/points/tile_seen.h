@@ -18,7 +18,7 @@ struct TileSight {
   Bounds box = {};                  // of the points
   double edge = 0;                  // of cubes
   double margin = 0;                // before points
-  std::optional<Vec3> sensor = {};  // of all; else those of the attributes
+  std::optional<Vec3> sensor = {};  // of all points; without it, the attributes have the sensors
 };
 
 class TileSeen {
@@ -26,10 +26,10 @@ class TileSeen {
   TileSeen(PieceStore& store, std::size_t n_tiles, const TileSight& sight)
       : store_(store), n_tiles_(n_tiles), sight_(sight) {}
 
-  // The cubes that a tile's lines of sight go through: "seen/TILE".
+  // Finds the cubes that a tile's lines of sight cross: "seen/TILE".
   void find(std::size_t tile, const Context& context);
   bool has(std::size_t tile) const;
-  // Once all are there; none if some point has no sensor.
+  // After find() of all tiles; returns nullopt if some point has no sensor.
   std::optional<SeenSpace> join(const Context& context) const;
 
  private:

@@ -29,7 +29,7 @@ void append(const Row& row, Mesh& mesh) {
   }
 }
 
-// A vertex of another mesh with the same attributes.
+// Appends a vertex of another mesh with the same attributes.
 void append(const Mesh& from, std::size_t v, Mesh& mesh) {
   mesh.vertices.push_back(from.vertices[v]);
   for (std::size_t k = 0; k < mesh.attributes.size(); ++k) {
@@ -51,16 +51,16 @@ void resize(Mesh& mesh, std::size_t n) {
 
 }  // namespace
 
-// Of one tile.
+// Changed triangles of one tile.
 struct GatheredPart::NewTriangles {
   std::vector<std::array<Corner, 3>> triangles;
   std::vector<std::uint32_t> vertices;  // new ones that are the tile's own, of the changed mesh
 };
 
-// What is not gathered.
+// Vertices of triangles that are not gathered.
 struct GatheredPart::Left {
-  std::vector<std::vector<bool>> own;  // vertices of each tile that such triangles have
-  std::vector<VertexOfTile> foreign;   // and those of other tiles
+  std::vector<std::vector<bool>> own;  // vertices of each tile, in its own triangles
+  std::vector<VertexOfTile> foreign;   // vertices in triangles of other tiles
 };
 
 GatheredPart::GatheredPart(TileSurface& surface, std::size_t first, std::size_t end,
@@ -165,7 +165,7 @@ std::vector<std::uint8_t> GatheredPart::changed_tiles(const Changed& changed) co
       if (changed.mesh.attributes[k].values[v] != mesh_.attributes[k].values[before]) is_new[v] = 1;
     }
   }
-  // Triangles are by tiles before; after, those of each tile are in order.
+  // Gathered triangles are in the order of tiles; changed ones are in order within each tile.
   std::vector<std::size_t> next(end_ - first_ + 1, 0);
   for (const TriangleOfTile& t : triangles_) ++next[t.tile - first_ + 1];
   std::partial_sum(next.begin(), next.end(), next.begin());
@@ -242,7 +242,7 @@ void GatheredPart::rewrite(std::size_t tile, const Changed& changed, const NewTr
   for (std::size_t t = 0; t < dropped.size(); ++t) {
     if (dropped[t] != 0) stays[t] = 0;
   }
-  // Vertices of others that it has then, with the keys they had before if it had them.
+  // Vertices of other tiles in the new mesh, with their keys from before if there were any.
   struct Foreign {
     VertexKey key;
     Row row;

@@ -1,5 +1,5 @@
-// A part of the surface of all tiles as one mesh, and given back changed. Layer: reconstruct,
-// private.
+// A part of the surface of all tiles, gathered as one mesh and given back changed. Layer:
+// reconstruct, private.
 #pragma once
 
 #include <cstddef>
@@ -20,35 +20,35 @@ class GatheredPart {
   using Choose = std::function<std::vector<std::uint8_t>(std::size_t tile, const TileMesh& mesh)>;
   using ChooseTile = std::function<bool(std::size_t tile)>;
 
-  // The chosen triangles of tiles first ... end - 1.
+  // Gathers the chosen triangles of tiles first ... end - 1.
   GatheredPart(TileSurface& surface, std::size_t first, std::size_t end, const Choose& choose);
-  // The chosen triangles of some tiles; there is no rim().
+  // Gathers the chosen triangles of some tiles; then there is no rim().
   GatheredPart(TileSurface& surface, std::size_t n_tiles, const ChooseTile& choose_tile,
                const Choose& choose);
 
-  // With all attributes of tiles' meshes. Vertices by tiles and places there, triangles by
-  // tiles.
+  // Returns the mesh with all attributes of tiles' meshes. Vertices are in the order of tiles and
+  // of their numbers there, triangles in the order of tiles.
   const Mesh& mesh() const { return mesh_; }
-  // Per vertex, whether a triangle that is not gathered has it, or may have it.
+  // Returns 1 for each vertex that a triangle outside of the gathered part has, or may have.
   const std::vector<std::uint8_t>& rim() const { return rim_; }
   std::uint32_t tile_of_triangle(std::size_t t) const { return triangles_[t].tile; }
-  // Which vertex of which tile.
+  // Returns the tile of a vertex, and its number there.
   const TileSurface::VertexOfTile& name(std::size_t v) const { return names_[v]; }
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  // The gathered vertex of that name, or kNone.
+  // Returns the gathered vertex with this name, or kNone.
   std::uint32_t find(const TileSurface::VertexOfTile& name) const;
 
-  // What comes instead of the gathered triangles: a mesh, which of the gathered vertices each
-  // vertex is, kNew for new ones, and the tile of each triangle. Those of the rim must be there as
-  // long as others have them, and stay as they are.
+  // Replacement of the gathered triangles: a mesh, the gathered vertex that each vertex is, kNew
+  // for new ones, and the tile of each triangle. Vertices of the rim stay unchanged, and must be
+  // there as long as other triangles have them.
   struct Changed {
     Mesh mesh;
     std::vector<std::uint32_t> vertices;
     std::vector<std::uint32_t> tiles;
     bool new_are_filled = false;  // see TileMesh::filled
   };
-  // `drop`, if given, tells which of the triangles that are not gathered go: one flag per triangle
-  // of the tile. Only tiles that change are written.
+  // `drop`, if given, returns one flag per triangle of a tile: 1 to remove a triangle that is not
+  // gathered. Only tiles that change are written.
   void replace(const Changed& changed, const Choose& drop = {});
 
  private:
@@ -57,13 +57,13 @@ class GatheredPart {
   };
   struct Corner {
     TileSurface::VertexOfTile name;
-    std::uint32_t vertex = 0;  // of the changed mesh
+    std::uint32_t vertex = 0;  // vertex of the changed mesh
   };
   struct NewTriangles;
   struct Left;
 
   void gather(const ChooseTile& choose_tile, const Choose& choose, Left* left);
-  // Of each tile, whether what was gathered of it is not as it was.
+  // Returns 1 for each tile whose gathered part has changed.
   std::vector<std::uint8_t> changed_tiles(const Changed& changed) const;
   void find_rim(const std::vector<std::vector<bool>>& left_own,
                 const std::vector<TileSurface::VertexOfTile>& left_foreign);

@@ -16,7 +16,7 @@ struct Foreign {
   std::uint32_t vertex = 0;  // as extracted
 };
 
-// The vertices behind the first `n_own` that triangles have, by their keys.
+// Returns the vertices after the first `n_own` ones that triangles have, by their keys.
 std::vector<Foreign> foreign_vertices(const ExtractedSurface& surface, const BlockGrid& grid,
                                       std::size_t n_own_blocks) {
   const std::uint32_t n_own = surface.first_vertex[n_own_blocks];
@@ -37,7 +37,7 @@ std::vector<Foreign> foreign_vertices(const ExtractedSurface& surface, const Blo
   return foreign;
 }
 
-// values[n_own + i] = those of foreign[i], nothing else behind.
+// Sets values[n_own + i] to the value of foreign[i], and removes all values after these.
 template <typename T>
 void take(std::vector<T>& values, std::size_t n_own, const std::vector<Foreign>& foreign) {
   std::vector<T> taken;

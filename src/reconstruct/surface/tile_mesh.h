@@ -1,5 +1,5 @@
-// The part of a surface that one tile has: the triangles of the cubes that start in its blocks.
-// Layer: reconstruct.
+// The part of a surface that belongs to one tile: the triangles of the cubes that start in its
+// blocks. Layer: reconstruct.
 #pragma once
 
 #include <compare>
@@ -14,13 +14,13 @@
 
 namespace rholm {
 
-// A vertex of the whole surface: the block its edge starts in, and the edge
+// Key of a vertex of the whole surface: the block in which its edge starts, and the edge
 // (ExtractedSurface::edges).
 struct VertexKey {
   std::int32_t z = 0, y = 0, x = 0;
   std::uint32_t edge = 0;
 
-  // A vertex that is not on an edge, or of which this does not matter: by its number in its tile.
+  // Names a vertex by its number in its tile, also if it is not on an edge.
   static VertexKey direct(std::uint32_t tile, std::uint32_t vertex) {
     return {.z = static_cast<std::int32_t>(tile), .y = 0, .x = 0, .edge = kDirect | vertex};
   }
@@ -33,14 +33,14 @@ struct VertexKey {
 };
 
 struct TileMesh {
-  // The tile's own vertices, those of edges that start in its blocks, come first, then those of
-  // other tiles that its triangles have. Attributes nx, ny, nz of all.
+  // The tile's own vertices, whose edges start in its blocks, come first. Then come vertices of
+  // other tiles that its triangles have. All have the attributes nx, ny, nz.
   Mesh mesh;
   std::size_t n_own = 0;
   std::vector<std::uint8_t> filled;  // as ExtractedSurface::filled
   std::vector<VertexKey> foreign;    // the vertices behind its own, ascending
 
-  // Own vertices that triangles of other tiles may have: those in the blocks at its border.
+  // Own vertices in the blocks at the tile's border, which triangles of other tiles may have.
   struct Shared {
     VertexKey key;
     std::uint32_t vertex = 0;
@@ -48,12 +48,12 @@ struct TileMesh {
   std::vector<Shared> shared;  // sorted by key
 };
 
-// From what extract_part() found of the first `n_own` blocks, projected and all; `border` lists
-// those among them at the border of the tile.
+// Makes it from the result of extract_part() for the first `n_own` blocks, with projected vertices.
+// `border` lists the blocks among them that are at the border of the tile.
 TileMesh tile_mesh(ExtractedSurface surface, const BlockGrid& grid, std::size_t n_own,
                    const std::vector<std::uint32_t>& border);
 
-// Throws InvalidInput if it is not there.
+// Throws InvalidInput if the key is not there.
 const TileMesh::Shared* find_shared(const std::vector<TileMesh::Shared>& shared,
                                     const VertexKey& key);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-// Components by the order of their first triangles; kNone where there is none.
+// Numbers components by the order of their first triangles; kNone where there is none.
 std::vector<std::uint32_t> number_components(const Mesh& mesh, const Context& context) {
   SharedSets sets = connected_vertices(mesh, context);
   std::vector<std::uint32_t> of_root(mesh.vertices.size(), kNone);
@@ -30,8 +30,8 @@ std::vector<std::uint32_t> number_components(const Mesh& mesh, const Context& co
   return of_vertex;
 }
 
-// Of the vertices first ... end - 1 that have no normal: the area vectors of their triangles,
-// summed.
+// Returns the sums of the area vectors of the triangles at the vertices first ... end - 1 that have
+// no normal.
 std::map<std::uint32_t, Vec3> sums_without_normal(TileMesh& part, std::size_t first,
                                                   std::size_t end) {
   const NormalAttributes normals = normal_attributes(part.mesh);
@@ -127,7 +127,7 @@ void TileParts::find(std::size_t tile, const Context& context) {
   store_.write(name_of("parts", tile), sections);
 }
 
-// By vertices, ascending.
+// Returns them in the order of vertices, ascending.
 std::vector<TileParts::Lent> TileParts::lent_by(TileMesh& part) const {
   const std::map<std::uint32_t, Vec3> sums =
       sums_without_normal(part, part.n_own, part.mesh.vertices.size());

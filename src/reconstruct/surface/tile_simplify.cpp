@@ -9,10 +9,10 @@
 namespace rholm {
 namespace {
 
-// Rings of triangles around common vertices that strips have, chosen: what was simplified against
-// the locked vertices is simplified anew.
+// Rings of triangles around shared vertices that strips have (chosen): triangles that were
+// simplified against locked vertices are simplified again.
 constexpr std::size_t kRings = 3;
-// Curves end where a tile has this part of its share of what is wanted.
+// Curves end where a tile has this part of its share of the wanted triangles.
 constexpr double kLeastOfShare = 0.125;
 
 std::string name_of(const char* what, std::size_t tile) {
@@ -23,14 +23,14 @@ std::string planes_name(std::size_t level, std::size_t number) {
   return "planes-" + std::to_string(level) + "/" + std::to_string(number);
 }
 
-// Lines of progress would run from the beginning for each tile.
+// Progress would run from the beginning for each tile.
 Context without_progress(Context context) {
   context.progress = {};
   return context;
 }
 
-// The tile's mesh with these triangles instead, which have some of its vertices. Its own vertices
-// keep their numbers: others know them.
+// Returns the tile's mesh with these triangles instead, which have some of its vertices. Its own
+// vertices keep their numbers, because other tiles know them.
 TileMesh with_triangles(const TileMesh& before, std::vector<Triangle> triangles) {
   TileMesh part;
   part.n_own = before.n_own;
@@ -64,7 +64,7 @@ TileMesh with_triangles(const TileMesh& before, std::vector<Triangle> triangles)
   return part;
 }
 
-// So many triangles are left for a cost, between the steps of a curve.
+// Returns the number of triangles left at a cost, between the steps of a curve.
 double triangles_at(const std::vector<SimplifiedPart::Step>& curve, double cost) {
   const auto after =
       std::upper_bound(curve.begin(), curve.end(), cost,
@@ -146,8 +146,8 @@ void TileSimplify::choose() {
     curves.push_back(store_.open(name_of("curve", tile)).values<SimplifiedPart::Step>(0));
     high = std::max(high, curves.back().back().cost);
   }
-  // Locked vertices are too many, with two triangles each: a line of them is thinned by the root of
-  // what the surface is.
+  // Locked vertices stay now and are too many, with two triangles each. A line of them is thinned
+  // later, by the root of the surface's thinning.
   const double thinned =
       std::sqrt(static_cast<double>(most_) / static_cast<double>(options_.triangles));
   const double wanted = static_cast<double>(most_) +
@@ -207,7 +207,7 @@ void TileSimplify::simplify(std::size_t tile, const Context& context) {
   const TileMesh before = parts_.kept_mesh(tile);
   SimplifiedPart found = simplify_part(whole_part(tile, before), targets_[tile],
                                        options_.stops.max_error, without_progress(context));
-  // Planes of what strips will have; the names are those of before.
+  // Keeps the planes of the vertices in strips, by their names in the mesh before.
   TileMesh chosen = before;
   chosen.mesh.triangles = found.triangles;
   const std::vector<std::uint8_t> is_near = near_shared(tile, chosen);
@@ -227,7 +227,7 @@ void TileSimplify::simplify(std::size_t tile, const Context& context) {
   write_planes(0, tile, planes, found.error);
 }
 
-// Triangles within some rings of a vertex that groups share.
+// Returns 1 for triangles within some rings of a vertex that groups share.
 std::vector<std::uint8_t> TileSimplify::near_shared(std::size_t tile, const TileMesh& mesh) const {
   const std::vector<Name> names = surface_.names(tile, mesh);
   std::vector<std::uint8_t> ring(names.size(), kRings);  // and more
@@ -268,7 +268,7 @@ TileSimplify::Planes TileSimplify::read_planes(std::size_t level, std::size_t fi
     const std::vector<PlaneQuadric> quadrics = piece.values<PlaneQuadric>(1);
     for (std::size_t i = 0; i < names.size(); ++i) all.emplace_back(names[i], quadrics.at(i));
   }
-  // Equal names in the order of the pieces.
+  // Equal names stay in the order of the pieces.
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   Planes sums;
@@ -315,7 +315,7 @@ void TileSimplify::join(std::size_t group, const Context& context) {
       ++unlocked;
     }
   }
-  // What is too much, as far as the borders that it is at are now within the group.
+  // Removes a share of the excess: the share of the shared vertices that are now in the group.
   const bool is_last = end - first == n_tiles_;
   const auto own = static_cast<std::uint64_t>(
       is_last ? static_cast<double>(to_go_)

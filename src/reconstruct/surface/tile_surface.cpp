@@ -18,12 +18,12 @@
 namespace rholm {
 namespace {
 
-// A block's middle lies in the tile, its nodes up to 3.5 steps around, and those of the blocks
-// beside it 8 more; vertices lie up to the next node.
+// A block's middle lies in the tile, its nodes up to 3.5 steps around, and nodes of the blocks
+// beside it 8 more. Vertices lie up to the next node.
 constexpr double kAround = 3.5 + 8 + 1.5;
 // A triangle's cube starts in a block whose middle lies up to 3.5 steps from there.
 constexpr double kWithin = 3.5 + 1 + 1.5;
-constexpr std::size_t kTogether = 16;  // blocks, of 2 KiB each; chosen: those of a hole are near
+constexpr std::size_t kTogether = 16;  // blocks of 2 KiB; chosen: a hole's blocks are near
 constexpr std::size_t kNoLimit = std::size_t{1} << 40;
 
 std::string name_of(const char* what, std::size_t tile) {
@@ -36,7 +36,7 @@ std::vector<std::uint32_t> all_below(std::size_t n) {
   return all;
 }
 
-// Those of `places` that are beside one of `own`; both sorted.
+// Returns the `places` that are beside one of `own`; both are sorted.
 std::vector<BlockCoordinates> beside_some(std::vector<BlockCoordinates> places,
                                           const std::vector<BlockCoordinates>& own) {
   std::sort(places.begin(), places.end(), comes_before);
@@ -128,7 +128,7 @@ void TileSurface::fill(const NearCaps& caps, BlockGrid& grid, const Context& con
   clear_refuted(grid, doubtful, winding_.numbers(context));
 }
 
-// Section 0: coordinates; then kTogether blocks each.
+// Section 0 has the coordinates; each other section has kTogether blocks.
 void TileSurface::write_near_open(std::size_t tile, const BlockGrid& grid, std::size_t n_own,
                                   std::span<const std::uint32_t> open) const {
   std::vector<std::uint8_t> is_near(n_own, 0);
@@ -192,7 +192,7 @@ void TileSurface::write_closed(std::size_t tile, std::span<const ClosedBlock> bl
   store_.write(name_of("closed", tile), {{bytes.begin(), bytes.end()}});
 }
 
-// The tile's blocks first, then those around them, with what closes holes.
+// Returns the tile's blocks first, then the blocks around them, with the values that close holes.
 BlockGrid TileSurface::whole_grid(std::size_t tile, std::size_t& n_own,
                                   const Context& context) const {
   struct Source {
