@@ -69,10 +69,12 @@ Command center_command() {
           .description =
               "Finds the centre from which the whole surface is visible, and measures how well it "
               "is visible. The exit code is 0 for a star-shaped mesh and 3 for any other mesh. The "
-              "report is printed in both cases.\n\n'min d' is the smallest distance from the "
-              "centre to the plane of a face; it is negative if the face is seen from behind. 'min "
-              "cos gamma' is the smallest cosine between the normal of a face and the direction to "
-              "one of its corners. Rays give the shares of directions that meet the surface once, "
+              "report is printed in both cases.\n\nThe figure 'min d' is the smallest distance "
+              "from the "
+              "centre to the plane of a face; it is negative if the face is seen from behind. The "
+              "figure 'min cos gamma' is the smallest cosine between the normal of a face and the "
+              "direction to one of its corners. Rays give the shares of directions that meet the "
+              "surface once, "
               "more than once, and never.",
           .options = in_groups({{.name = "SHAPE",
                                  .help = "file of a closed mesh, or - for standard input",

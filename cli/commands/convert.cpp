@@ -270,8 +270,9 @@ Command convert_command() {
   return {.name = "convert",
           .summary = "Convert a file to another format or convention",
           .description = fmt::format(
-              "Converts a file of coefficients to another one ({}), or a file of a shape to "
-              "another one ({}). A note names attributes that the format has no room "
+              "Converts a file of coefficients, or a file of a shape, to another format. Formats "
+              "of coefficients: {}. Formats of shapes: {}. A note names attributes that the format "
+              "has no room "
               "for.\n\nConventions apply to text, JSON and NumPy files. A model file is always "
               "orthonormal without Condon-Shortley phase. If an input does not state its "
               "convention, --input-normalization and --input-csphase give it (4pi and 1 by "

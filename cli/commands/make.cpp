@@ -190,9 +190,10 @@ Command make_command() {
       .name = "make",
       .summary = "Make a test shape or sample points from a mesh",
       .description =
-          "Writes a closed mesh with a known shape: a unit sphere, an ellipsoid, a box, a torus "
-          "(not star-shaped) or a bumpy sphere (star-shaped). 'make sample MESH' writes points of "
-          "a mesh instead, as a scanner would measure them.\n\nThe sampled points are random and "
+          "Writes a closed mesh with a known shape. The shapes are a unit sphere, an ellipsoid, a "
+          "box, a torus (not star-shaped) and a bumpy sphere (star-shaped). The words 'make sample "
+          "MESH' write points of a mesh instead, as a scanner would measure them.\n\nThe sampled "
+          "points are random and "
           "uniform by area, or in the rows of a --pattern, or as --scans scanners around the mesh "
           "see them. They have the normals of the faces. Noise, gaps and variable density are "
           "random numbers of --seed. Colours and other attributes of the mesh are interpolated. "

@@ -18,8 +18,9 @@ std::vector<Region> parse_regions(const std::vector<std::string>& texts);
 
 // Forms of a region, for the descriptions of commands.
 inline constexpr const char* kRegionHelp =
-    "A region is ball:X,Y,Z,RADIUS; vertex:INDEX,RADIUS, a disc along the surface around a vertex "
-    "(counted from 0); box:X0,Y0,Z0,X1,Y1,Z1; color:RRGGBB, the vertices of this colour; or "
-    "property:NAME, an attribute with weights from 0 to 1. Several regions are joined.";
+    "Regions in space are ball:X,Y,Z,RADIUS and box:X0,Y0,Z0,X1,Y1,Z1. A disc along the surface "
+    "around a vertex, counted from 0, is vertex:INDEX,RADIUS. Vertices of one colour are "
+    "color:RRGGBB. An attribute with weights from 0 to 1 is property:NAME. Several regions are "
+    "joined.";
 
 }  // namespace rholm::cli
