@@ -240,7 +240,7 @@ class Inspection:
         """Of the solid, if it is closed and its volume is not zero."""
 
 class RepairReport:
-    """What was done to a mesh, and what could not be."""
+    """Report of a repair: changes, and defects that remain."""
 
     def __repr__(self) -> str: ...
 
@@ -358,7 +358,7 @@ def surface_area(arg: Mesh, /) -> float: ...
 def enclosed_volume(arg: Mesh, /) -> float: ...
 
 class RepairOptions:
-    """What may be done to a mesh."""
+    """Steps of the repair of a mesh."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -422,7 +422,7 @@ def torus(arg0: float, arg1: float, arg2: int, arg3: int, /) -> Mesh: ...
 def bumpy_sphere(arg0: int, arg1: float, arg2: int, /) -> Mesh: ...
 
 class SampleOptions:
-    """What is measured of a surface."""
+    """Errors, outliers and places of the samples of a surface."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -529,7 +529,7 @@ class SampleOptions:
 def sample_surface(arg0: Mesh, arg1: SampleOptions, arg2: Caller, /) -> PointCloud: ...
 
 class CleanReport:
-    """What clean() found."""
+    """Report of clean()."""
 
     def __repr__(self) -> str: ...
 
@@ -567,7 +567,7 @@ class CleanReport:
 def clean(arg0: PointCloud, arg1: Caller, /) -> tuple: ...
 
 class ScanAlignment:
-    """What align_scans() did; lengths are in the unit of the points."""
+    """Report of align_scans(); lengths are in the unit of the points."""
 
     def __repr__(self) -> str: ...
 
@@ -652,7 +652,7 @@ class OrientOptions:
     FIELDS: tuple = ...
 
 class OrientReport:
-    """What orient() did, and how sure it is."""
+    """Report of orient(), with its certainty."""
 
     def __repr__(self) -> str: ...
 
@@ -803,7 +803,7 @@ class TruncationErrors:
         """Of the shape's bounding box; 0 if not known."""
 
 class GravityField:
-    """What the coefficients of a gravity field are relative to."""
+    """References of the coefficients of a gravity field."""
 
     def __repr__(self) -> str: ...
 
@@ -1252,8 +1252,8 @@ def seen_center(arg0: Expansion, arg1: Sequence[float] | numpy.typing.NDArray[nu
 
 def recentered(arg0: Expansion, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64], arg2: Caller, /) -> Expansion: ...
 
-class AnalyzeOptions:
-    """Which function is expanded, and how."""
+class TransformOptions:
+    """Function to expand, and method."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1354,7 +1354,7 @@ class CenterOptions:
 def parse_center(arg: str, /) -> CenterOptions: ...
 
 class ChartOptions:
-    """Which centre, and which surfaces."""
+    """Rules for the centre, and for surfaces that are not star-shaped."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1374,18 +1374,36 @@ class ChartOptions:
 
     FIELDS: tuple = ...
 
-class EncodeOptions:
-    """What is wanted of a model."""
+class ExpandOptions:
+    """Degree, precision and error figures of an expansion."""
 
     def __init__(self, **fields: Any) -> None: ...
 
     def __repr__(self) -> str: ...
 
     @property
-    def analyze(self) -> AnalyzeOptions: ...
+    def degree(self) -> int: ...
 
-    @analyze.setter
-    def analyze(self, arg: AnalyzeOptions | None, /) -> None: ...
+    @degree.setter
+    def degree(self, arg: int | None, /) -> None: ...
+
+    @property
+    def method(self) -> str: ...
+
+    @method.setter
+    def method(self, arg: str, /) -> None: ...
+
+    @property
+    def engine(self) -> str: ...
+
+    @engine.setter
+    def engine(self, arg: str, /) -> None: ...
+
+    @property
+    def precision(self) -> float: ...
+
+    @precision.setter
+    def precision(self, arg: float | None, /) -> None: ...
 
     @property
     def tolerance(self) -> Tolerance | None: ...
@@ -1556,7 +1574,7 @@ class FastReport:
     def reached(self) -> bool:
         """Whether the error is within the precision."""
 
-class Analysis:
+class Transform:
     """How coefficients were found."""
 
     def __repr__(self) -> str: ...
@@ -1643,7 +1661,7 @@ class ToleranceReport:
     def degrees(self) -> list[int]:
         """That were tried; the model's is the last one, or cut off from it."""
 
-class Encoded:
+class Expanded:
     """What was found out on the way from a mesh to an expansion."""
 
     def __repr__(self) -> str: ...
@@ -1660,7 +1678,7 @@ class Encoded:
         """All fields by name; records within it are dicts, too."""
 
     @property
-    def analysis(self) -> Analysis:
+    def transform(self) -> Transform:
         """How the coefficients were found."""
 
     @property
@@ -1703,13 +1721,13 @@ class Encoded:
     def times(self) -> dict:
         """Stages: (wall, cpu) in seconds."""
 
-def encode(arg0: Annotated[NDArray, dict(shape=(None, 3), device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.uint32], dict(shape=(None, 3), device='cpu', writable=False)], arg2: EncodeOptions, arg3: Caller, /) -> Encoded: ...
+def expand_mesh(arg0: Annotated[NDArray, dict(shape=(None, 3), device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.uint32], dict(shape=(None, 3), device='cpu', writable=False)], arg2: ExpandOptions, arg3: Caller, /) -> Expanded: ...
 
-def encode_file(arg0: str, arg1: EncodeOptions, arg2: Caller, /) -> tuple: ...
+def expand_file(arg0: str, arg1: ExpandOptions, arg2: Caller, /) -> tuple: ...
 
-def analyze(arg0: StarChart, arg1: AnalyzeOptions, arg2: Caller, /) -> Analysis: ...
+def expand_chart(arg0: StarChart, arg1: TransformOptions, arg2: Caller, /) -> Transform: ...
 
-def analyze_to_tolerance(arg0: StarChart, arg1: Tolerance, arg2: AnalyzeOptions, arg3: Caller, /) -> tuple: ...
+def expand_chart_to_tolerance(arg0: StarChart, arg1: Tolerance, arg2: TransformOptions, arg3: Caller, /) -> tuple: ...
 
 def radius_norm_squared(arg: StarChart, /) -> float: ...
 
@@ -2304,7 +2322,7 @@ def read_atlas(arg0: str, arg1: Caller, /) -> AtlasModel: ...
 def is_atlas_file(arg: str, /) -> bool: ...
 
 class CompressOptions:
-    """What a model is to keep."""
+    """Limits of the size and the error of an atlas."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2483,7 +2501,7 @@ def patch_atlas(arg0: Mesh | PointCloud, arg1: PatchAtlasOptions, arg2: Caller, 
 def patch_picture(arg0: Mesh | PointCloud, arg1: str, arg2: PatchAtlasOptions, arg3: Caller, /) -> tuple: ...
 
 class ReconstructOptions:
-    """What is wanted of the surface."""
+    """Resolution, cleaning and holes of the surface."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2852,7 +2870,7 @@ def foresee_tiles(arg0: int, arg1: int, /) -> TileForecast: ...
 def region_weights(arg0: Mesh, arg1: Sequence[str], arg2: float, /) -> NDArray[numpy.float64]: ...
 
 class PatchOptions:
-    """What is to go from a region."""
+    """Detail to remove from a region."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2925,7 +2943,7 @@ def apply_in_place(arg0: Patch, arg1: float, arg2: float, arg3: Mesh, /) -> None
 def copy_mesh(arg: Mesh, /) -> Mesh: ...
 
 class TransferOptions:
-    """What counts as detail, and how large it is laid."""
+    """Detail to take, and its size on the target."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2964,7 +2982,7 @@ class TransferOptions:
     FIELDS: tuple = ...
 
 class TransferUpdate:
-    """What a slider moves."""
+    """Values that sliders change."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -3003,7 +3021,7 @@ class TransferUpdate:
     FIELDS: tuple = ...
 
 class TransferReport:
-    """What the analysis found; lengths are in the units of the two meshes."""
+    """Findings of the analysis; lengths are in the units of the two meshes."""
 
     def __repr__(self) -> str: ...
 
@@ -3081,7 +3099,7 @@ class TransferSource:
     def rms(self) -> float: ...
 
 class TransferAnalysis:
-    """What an analysis knows."""
+    """Result of an analysis of two regions."""
 
     @property
     def mesh(self) -> Mesh: ...
@@ -3213,7 +3231,7 @@ def write_png(arg0: str, arg1: Annotated[NDArray[numpy.uint8], dict(shape=(None,
 def write_file(arg0: str, arg1: bytes, /) -> None: ...
 
 class ReportOptions:
-    """What a page says beside its figures."""
+    """Texts of a page beside its figures."""
 
     def __init__(self, **fields: Any) -> None: ...
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 
 class RepairKeywords(TypedDict, total=False):
-    """What may be done to a mesh."""
+    """Steps of the repair of a mesh."""
 
     weld: float
     max_hole: int
@@ -25,7 +25,7 @@ class SimplifyKeywords(TypedDict, total=False):
 
 
 class SampleKeywords(TypedDict, total=False):
-    """What is measured of a surface."""
+    """Errors, outliers and places of the samples of a surface."""
 
     noise: float
     normal_noise: float
@@ -67,8 +67,8 @@ class AlignKeywords(TypedDict, total=False):
     unknown_b: float
 
 
-class AnalyzeKeywords(TypedDict, total=False):
-    """Which function is expanded, and how."""
+class TransformKeywords(TypedDict, total=False):
+    """Function to expand, and method."""
 
     method: Literal["edge", "gauge", "curl", "area"]
     engine: Literal["fast", "direct"]
@@ -90,14 +90,17 @@ class CenterKeywords(TypedDict, total=False):
 
 
 class ChartKeywords(TypedDict, total=False):
-    """Which centre, and which surfaces."""
+    """Rules for the centre, and for surfaces that are not star-shaped."""
 
     signed: bool
 
 
-class EncodeKeywords(TypedDict, total=False):
-    """What is wanted of a model."""
+class ExpandKeywords(TypedDict, total=False):
+    """Degree, precision and error figures of an expansion."""
 
+    method: Literal["edge", "gauge", "curl", "area"]
+    engine: Literal["fast", "direct"]
+    precision: float
     errors: bool
     weld: float
 
@@ -121,7 +124,7 @@ class CompareKeywords(TypedDict, total=False):
 
 
 class CompressKeywords(TypedDict, total=False):
-    """What a model is to keep."""
+    """Limits of the size and the error of an atlas."""
 
     samples: int
     max_degree: int
@@ -147,7 +150,7 @@ class PatchAtlasKeywords(TypedDict, total=False):
 
 
 class ReconstructKeywords(TypedDict, total=False):
-    """What is wanted of the surface."""
+    """Resolution, cleaning and holes of the surface."""
 
     step: float
     tolerance: float
@@ -169,7 +172,7 @@ class ReconstructKeywords(TypedDict, total=False):
 
 
 class PatchKeywords(TypedDict, total=False):
-    """What is to go from a region."""
+    """Detail to remove from a region."""
 
     transition: float | None
     fitting: Literal["mean", "robust", "around"]
@@ -177,7 +180,7 @@ class PatchKeywords(TypedDict, total=False):
 
 
 class TransferKeywords(TypedDict, total=False):
-    """What counts as detail, and how large it is laid."""
+    """Detail to take, and its size on the target."""
 
     from_degree: int
     scale: float
@@ -186,7 +189,7 @@ class TransferKeywords(TypedDict, total=False):
 
 
 class TransferUpdateKeywords(TypedDict, total=False):
-    """What a slider moves."""
+    """Values that sliders change."""
 
     height: float
     angle: float | None
@@ -210,7 +213,7 @@ class RenderKeywords(TypedDict, total=False):
 
 
 class ReportKeywords(TypedDict, total=False):
-    """What a page says beside its figures."""
+    """Texts of a page beside its figures."""
 
     title: str
     shape_name: str
