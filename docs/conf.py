@@ -48,7 +48,7 @@ autodoc_member_order = "bysource"
 autosummary_generate = False
 numpydoc_show_class_members = False
 numpydoc_class_members_toctree = False
-add_module_names = False
+add_module_names = True
 toc_object_entries_show_parents = "hide"
 
 sphinx_gallery_conf = {

@@ -54,13 +54,13 @@ def gear(teeth=16, root=1.0, tip=1.25, bore=0.45, half=0.35):
 
 
 def joined(first, second, turned=False):
-    a, b = np.asarray(first.triangles), np.asarray(second.triangles)
+    a, b = np.asarray(first.faces), np.asarray(second.faces)
     return rholm.Mesh(np.r_[first.vertices, second.vertices],
                       np.r_[a, (b[:, ::-1] if turned else b) + len(first.vertices)])
 
 
 def scaled(mesh, factors):
-    return rholm.Mesh(np.asarray(mesh.vertices) * np.asarray(factors), np.asarray(mesh.triangles))
+    return rholm.Mesh(np.asarray(mesh.vertices) * np.asarray(factors), np.asarray(mesh.faces))
 
 
 def circle(middle, u, v):
@@ -87,7 +87,7 @@ def bodies(folder, names=""):
     chosen = names.split(",") if names else [*made, *files]
     if unknown := set(chosen) - {*made, *files}:
         raise SystemExit(f"no such body: {', '.join(sorted(unknown))}")
-    return {name: made[name] if name in made else (rholm.as_mesh(folder / files[name][0]), 1, files[name][1])
+    return {name: made[name] if name in made else (rholm.meshes.as_mesh(folder / files[name][0]), 1, files[name][1])
             for name in (*made, *files) if name in chosen}
 
 
@@ -111,7 +111,7 @@ def planes_of_rows(name, points):
 def with_smooth_normals(mesh):
     """Adds attributes smooth_x, smooth_y, smooth_z: the mean normal of the faces at each vertex, weighted
     by area."""
-    vertices, triangles = np.asarray(mesh.vertices), np.asarray(mesh.triangles).astype(int)
+    vertices, triangles = np.asarray(mesh.vertices), np.asarray(mesh.faces).astype(int)
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     sums = np.zeros_like(vertices)
     for k in range(3):

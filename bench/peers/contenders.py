@@ -74,7 +74,7 @@ def rholm_surface(data: Arrays, *, degree: int, subdivisions: int | None = None)
     mesh = (data["vertices"], data["triangles"])
     return Job(
         lambda _: rholm.expand(mesh, degree, threads=1).mesh(subdivisions, threads=1),
-        lambda m: mesh_arrays(m.vertices, m.triangles),
+        lambda m: mesh_arrays(m.vertices, m.faces),
     )
 
 
@@ -85,7 +85,7 @@ def rholm_adjoint(data: Arrays, *, degree: int, precision: float) -> Job:
 
     directions, weights = data["directions"], data["weights"]
     return Job(
-        lambda _: rholm.adjoint(directions, weights, degree=degree, precision=precision, threads=1),
+        lambda _: rholm.harmonics.adjoint(directions, weights, degree=degree, precision=precision, threads=1),
         lambda sums: {"sums": sums},
     )
 
@@ -97,7 +97,7 @@ def rholm_reconstruct(data: Arrays) -> Job:
 
     return Job(
         lambda _: rholm.reconstruct(data["points"], data["normals"], threads=1),
-        lambda r: mesh_arrays(r.mesh.vertices, r.mesh.triangles),
+        lambda r: mesh_arrays(r.mesh.vertices, r.mesh.faces),
     )
 
 
@@ -120,7 +120,7 @@ def rholm_smooth(data: Arrays, *, wavelength: float) -> Job:
     everywhere = np.ones(len(mesh.vertices), bool)
     return Job(
         lambda _: rholm.smooth(mesh, everywhere, wavelength, threads=1),
-        lambda m: mesh_arrays(m.vertices, m.triangles),
+        lambda m: mesh_arrays(m.vertices, m.faces),
     )
 
 
@@ -135,7 +135,7 @@ def rholm_low_pass(data: Arrays, *, degree: int) -> Job:
         s = rholm.expand(mesh, degree, center=(0, 0, 0), rays=0, errors=False, precision=1e-6, threads=1)
         return s.mesh(like=mesh, threads=1)
 
-    return Job(work, lambda m: mesh_arrays(m.vertices, m.triangles))
+    return Job(work, lambda m: mesh_arrays(m.vertices, m.faces))
 
 
 # Others: harmonics

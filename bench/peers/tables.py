@@ -51,17 +51,17 @@ def read(data: Path | None, file: str, made: Callable[[], rholm.Mesh]) -> tuple[
     """Returns a real shape, welded, or the made shape if there is no folder."""
     if data is None:
         return "bumpy sphere", made()
-    return Path(file).stem, rholm.weld(rholm.read_shape(data / file).shape).mesh
+    return Path(file).stem, rholm.meshes.weld(rholm.read_shape(data / file).shape).mesh
 
 
 def arrays_of(mesh: rholm.Mesh, center: npt.ArrayLike = 0.0) -> Result:
     """Returns a mesh relative to a centre."""
-    return {"vertices": mesh.vertices - np.asarray(center), "triangles": np.array(mesh.triangles)}
+    return {"vertices": mesh.vertices - np.asarray(center), "triangles": np.array(mesh.faces)}
 
 
 def centered(mesh: rholm.Mesh) -> Result:
     """Returns a mesh about its centre, as the star transforms need it."""
-    return arrays_of(mesh, rholm.find_center(mesh, rays=0).center)
+    return arrays_of(mesh, rholm.harmonics.find_center(mesh, rays=0).center)
 
 
 def fibonacci(n: int) -> Array:
@@ -265,7 +265,7 @@ def sums(data: Path | None, prepare: Prepare) -> Iterator[Group]:
             u, w = given[rule]["directions"], given[rule]["weights"]
             # Direct sums over millions of sources take hours; fast sums of far higher precision are used.
             engine = "direct" if len(w) < 5_000_000 else "fast"
-            direct[rule] = rholm.adjoint(u, w, degree=degree, engine=engine, precision=1e-13)
+            direct[rule] = rholm.harmonics.adjoint(u, w, degree=degree, engine=engine, precision=1e-13)
 
         def judge(
             result: Result,
@@ -375,7 +375,7 @@ def smoothing(data: Path | None, prepare: Prepare) -> Iterator[Group]:
         diagonal = mesh.bounds.diagonal
         moved = np.random.default_rng(1).normal(0, noise * diagonal, len(mesh.vertices))
         vertices = mesh.vertices + moved[:, None] * mesh.normals
-        arrays: Result = {"vertices": vertices, "triangles": np.array(mesh.triangles)}
+        arrays: Result = {"vertices": vertices, "triangles": np.array(mesh.faces)}
 
         def judge(result: Result, _: Entry, mesh: rholm.Mesh = mesh) -> dict[str, float]:
             return surface_columns(result, mesh)

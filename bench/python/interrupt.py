@@ -28,14 +28,14 @@ def computations() -> dict[str, Callable[[dict[str, Any]], Any]]:
     cloud = rholm.sample_surface(ring, 300_000, noise=1e-3)
     plain = rholm.expand(body, 200, rays=0, errors=False)
     fine = rholm.expand(rholm.bumpy_sphere(5), 30).mesh(7)
-    chart = rholm.make_star_chart(rholm.bumpy_sphere(5))
+    chart = rholm.harmonics.make_star_chart(rholm.bumpy_sphere(5))
     directions = np.random.default_rng(1).normal(size=(3_000_000, 3))
     return {
         "expand 1.3M triangles to 400": lambda how: rholm.expand(body, 400, **how),
         "expand to a tolerance": lambda how: rholm.expand(body, tolerance=1e-6, unit="diagonal", **how),
         "expand by direct sums": lambda how: rholm.expand(chart.mesh, 200, engine="direct", **how),
-        "monte_carlo": lambda how: rholm.monte_carlo(chart, 64, samples=256, **how),
-        "evaluate 3M directions": lambda how: rholm.evaluate(plain, directions, **how),
+        "monte_carlo": lambda how: rholm.harmonics.monte_carlo(chart, 64, samples=256, **how),
+        "evaluate 3M directions": lambda how: rholm.harmonics.evaluate(plain, directions, **how),
         "rotate degree 1000": lambda how: plain.truncate(1000).rotate(
             rholm.rotation_about((1, 2, 3), 1), **how
         ),
@@ -46,7 +46,7 @@ def computations() -> dict[str, Callable[[dict[str, Any]], Any]]:
         "compress": lambda how: rholm.compress(ring, 3e-4, unit="diagonal", **how),
         "smooth": lambda how: rholm.smooth(fine, "ball:0,0,1,1", 0.2, **how),
         "repair": lambda how: rholm.repair(body, **how),
-        "simplify": lambda how: rholm.simplify(body, triangles=10_000, **how),
+        "simplify": lambda how: rholm.simplify(body, faces=10_000, **how),
         "compare": lambda how: rholm.compare(body, ring, samples=20_000, **how),
         "render": lambda how: rholm.render(body, (1600, 1200), **how),
         "report": lambda how: plain.report_html(shape=body, **how),

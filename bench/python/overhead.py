@@ -23,10 +23,10 @@ import resource, sys
 import numpy as np, rholm
 mesh = rholm.icosphere(8)
 vertices = np.array(mesh.vertices, dtype=sys.argv[1])
-triangles = np.array(mesh.triangles, dtype=sys.argv[2])
+triangles = np.array(mesh.faces, dtype=sys.argv[2])
 n = len(triangles)
 del mesh
-rholm.expand((vertices[:12], rholm.icosphere(0).triangles), 4, threads=1)
+rholm.expand((vertices[:12], rholm.icosphere(0).faces), 4, threads=1)
 before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 with open("/proc/self/clear_refs", "w") as f:  # the peak starts again from here
     f.write("5")
@@ -44,7 +44,7 @@ def python_loop(count: int, threads: int) -> dict[str, float]:
     import rholm
 
     mesh = rholm.bumpy_sphere(2)
-    arrays = (np.array(mesh.vertices), np.array(mesh.triangles))
+    arrays = (np.array(mesh.vertices), np.array(mesh.faces))
     wall, cpu = time.perf_counter(), time.process_time()
     for _ in range(count):
         rholm.expand(arrays, 16, threads=threads)

@@ -227,7 +227,7 @@ std::string compress_section() {
 std::string patch_atlas_section() {
   return field_section<PatchAtlasOptions>(
       "Options of patch_atlas",
-      "`PatchAtlasOptions` in C++ and arguments of `rholm.patch_atlas` in Python; they are "
+      "`PatchAtlasOptions` in C++ and arguments of `rholm.harmonics.patch_atlas` in Python; they are "
       "options of `rholm compress --fit integral` and `rholm partition`.");
 }
 
@@ -254,7 +254,7 @@ std::string patch_update_section() {
 std::string truncation_section() {
   return field_section<TruncationOptions>(
       "Options of truncation errors",
-      "`TruncationOptions` in C++ and arguments of `rholm.truncation_errors` in Python.");
+      "`TruncationOptions` in C++ and arguments of `rholm.harmonics.truncation_errors` in Python.");
 }
 
 std::string transfer_update_section() {
@@ -267,7 +267,7 @@ std::string transfer_update_section() {
 std::string monte_carlo_section() {
   return field_section<MonteCarloOptions>(
       "Options of monte_carlo",
-      "`MonteCarloOptions` in C++ and arguments of `rholm.monte_carlo` in Python; they are "
+      "`MonteCarloOptions` in C++ and arguments of `rholm.harmonics.monte_carlo` in Python; they are "
       "options of `rholm expand`, where `--method monte-carlo-edge` and `monte-carlo-triangle` "
       "choose the places.");
 }
@@ -330,22 +330,22 @@ std::string expand_section() {
 std::string center_section() {
   return field_section<CenterOptions>(
              "Options of the centre",
-             "`CenterOptions` in C++; `center` and `rays` of `rholm.find_center` in Python, "
+             "`CenterOptions` in C++; `center` and `rays` of `rholm.harmonics.find_center` in Python, "
              "`--center` and `--rays` of `rholm center`.") +
          "\n" +
          field_section<ChartOptions>(
              "Options of a chart",
-             "`ChartOptions` in C++, arguments of `rholm.make_star_chart` in Python.");
+             "`ChartOptions` in C++, arguments of `rholm.harmonics.make_star_chart` in Python.");
 }
 
 std::string file_section() {
   return field_section<ShapeReadOptions>(
              "Options of reading shapes",
-             "`ShapeReadOptions` in C++, arguments of `rholm.read_shape` in Python.") +
+             "`ShapeReadOptions` in C++, arguments of `rholm.files.read_shape` in Python.") +
          "\n" +
          field_section<ShapeWriteOptions>(
              "Options of writing shapes",
-             "`ShapeWriteOptions` in C++, arguments of `rholm.write_shape` in Python.") +
+             "`ShapeWriteOptions` in C++, arguments of `rholm.files.write_shape` in Python.") +
          "\n" +
          field_section<Convention>(
              "Conventions of coefficients",

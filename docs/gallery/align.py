@@ -18,13 +18,15 @@ coarse = rholm.bumpy_sphere(4, 0.35, seed=8)
 random = np.random.default_rng(1)
 noisy = coarse.vertices * (1 + 0.004 * random.normal(size=(len(coarse.vertices), 1)))
 shift = np.array([0.4, -0.2, 0.1])
-second = rholm.Mesh(rholm.rotate(noisy, turn) + shift, coarse.triangles)
+second = rholm.Mesh(rholm.harmonics.rotate(noisy, turn) + shift, coarse.faces)
 
 a, b = (rholm.expand(mesh, degree=24) for mesh in (first, second))
 found = rholm.align(b, a)
 placed = rholm.placed(b, found)
-back = rholm.compose(found.alignment.best.rotation, turn)
-print(f"the turn is undone to {np.degrees(rholm.axis_angle_of(back)[1]):.3f} degrees")
+back = rholm.harmonics.compose(found.alignment.best.rotation, turn)
+print(
+    f"the turn is undone to {np.degrees(rholm.harmonics.axis_angle_of(back)[1]):.3f} degrees"
+)
 
 rholm.render(
     [
@@ -42,13 +44,11 @@ rholm.render(
 ball = rholm.icosphere(6)
 x, y, z = ball.vertices.T
 radius = 1 + 0.35 * (x**3 - 3 * x * y**2) - 0.45 * z**2
-flower = rholm.expand(
-    rholm.Mesh(ball.vertices * radius[:, None], ball.triangles), degree=24
-)
+flower = rholm.expand(rholm.Mesh(ball.vertices * radius[:, None], ball.faces), degree=24)
 found = rholm.align(flower, flower, margin=1e-4)
 best = found.alignment.best
 for which in [best, *found.alignment.ambiguities]:
-    axis, angle = rholm.axis_angle_of(which.rotation)
+    axis, angle = rholm.harmonics.axis_angle_of(which.rotation)
     print(
         f"{np.degrees(angle):6.1f} degrees about ({axis[0]:5.2f} {axis[1]:5.2f} {axis[2]:5.2f}),"
         f" correlation {which.correlation:.6f}"

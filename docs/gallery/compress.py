@@ -13,7 +13,7 @@ import rholm
 # A tube around the knot (2, 3), as a mesh.
 
 
-def torus_knot(n=400, m=30, tube=0.5):
+def torus_knot(n: int = 400, m: int = 30, tube: float = 0.5) -> rholm.Mesh:
     """A closed tube of 2 n m triangles."""
     t = 2 * np.pi * np.arange(n) / n
     line = np.stack(
@@ -59,7 +59,7 @@ print(
 # cap with the largest weight there.
 
 surface = a.mesh()
-view = {"view": (0, 0.45, -1), "up": (0, 1, 0)}
+view, up = (0, 0.45, -1), (0, 1, 0)
 rholm.render(
     [
         rholm.Panel(knot, "mesh"),
@@ -67,7 +67,8 @@ rholm.render(
         rholm.Panel(a.colored(surface), "the caps"),
     ],
     (1400, 440),
-    **view,
+    view=view,
+    up=up,
 )
 
 # %%
@@ -80,12 +81,13 @@ for shown, label in (
     (surface, f"degrees up to {a.degree}"),
     (a.mesh(degree=4), "degree 4 at most"),
 ):
-    error = rholm.distances_to_surface(shown.vertices, knot) / a.diagonal
+    error = rholm.meshes.distances_to_surface(shown.vertices, knot) / a.diagonal
     panels.append(rholm.Panel(shown, label, scalars=error))
 rholm.render(
     panels,
     (1000, 420),
     scale=(0, 0.01),
     scale_label="distance, parts of the diagonal",
-    **view,
+    view=view,
+    up=up,
 )

@@ -24,7 +24,7 @@ with np.errstate(divide="ignore"):
     )
 grain = rholm.Mesh(
     ball.vertices * np.minimum(cuts.min(axis=1), 1.15)[:, None] * [1.25, 1, 0.85],
-    ball.triangles,
+    ball.faces,
 )
 s = rholm.expand(grain, degree=48, length_unit="mm")
 
@@ -32,7 +32,7 @@ s = rholm.expand(grain, degree=48, length_unit="mm")
 # Draws with the same energy in every degree.
 
 
-def alike(s, seed, rougher=1.0):
+def alike(s: rholm.Expansion, seed: int, rougher: float = 1.0) -> rholm.Expansion:
     """A grain with the spectrum of s; from degree 5 on heights are multiplied."""
     random = np.random.default_rng(seed)
     c = np.zeros_like(s.coeffs)
@@ -61,9 +61,9 @@ rholm.render(panels, (1500, 420))
 # Sphericity falls as roughness grows: the surface of a ball of the same volume over the grain's surface.
 
 
-def sphericity(s):
+def sphericity(s: rholm.Expansion) -> float:
     """Of Wadell."""
-    return np.pi ** (1 / 3) * (6 * s.volume) ** (2 / 3) / s.area
+    return float(np.pi ** (1 / 3) * (6 * s.volume) ** (2 / 3) / s.area)
 
 
 factors = np.linspace(0, 2.5, 6)

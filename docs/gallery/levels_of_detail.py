@@ -13,7 +13,7 @@ import rholm
 # A body with craters: a smooth lump, and bowls with a raised rim, many small ones and few large ones.
 
 
-def cratered(subdivisions, n=250, seed=2):
+def cratered(subdivisions: int, n: int = 250, seed: int = 2) -> rholm.Mesh:
     """A lump of radius 1 with n craters."""
     random = np.random.default_rng(seed)
     lump = rholm.bumpy_sphere(subdivisions, 0.3, seed)
@@ -26,13 +26,13 @@ def cratered(subdivisions, n=250, seed=2):
         x = np.arccos(np.clip(u @ middle, -1, 1)) / radius
         bowl = np.where(x < 1, 0.25 * (x**2 - 1), 0)
         height += radius * (bowl + 0.1 * np.exp(-(((x - 1) / 0.25) ** 2)))
-    return rholm.Mesh(lump.vertices * (1 + 0.6 * height)[:, None], lump.triangles)
+    return rholm.Mesh(lump.vertices * (1 + 0.6 * height)[:, None], lump.faces)
 
 
 body = cratered(7)
 s = rholm.expand(body, degree=128)
 print(s)
-print(f"{len(body.triangles)} triangles, volume {s.volume:.4f}")
+print(f"{len(body.faces)} triangles, volume {s.volume:.4f}")
 
 # %%
 # Four degrees, and the mesh itself.

@@ -21,7 +21,7 @@ kinds = {
 }
 
 
-def body(kind, seed):
+def body(kind: str, seed: int) -> rholm.Mesh:
     """One of a kind, turned at random."""
     random = np.random.default_rng(seed)
     amplitude, size = kinds[kind]
@@ -31,7 +31,10 @@ def body(kind, seed):
         * random.uniform(0.95, 1.05, 3)
     )
     return rholm.Mesh(
-        rholm.rotate(vertices, rholm.as_rotation(random.normal(size=4))), ball.triangles
+        rholm.harmonics.rotate(
+            vertices, rholm.harmonics.as_rotation(random.normal(size=4))
+        ),
+        ball.faces,
     )
 
 

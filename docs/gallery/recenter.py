@@ -17,7 +17,7 @@ from matplotlib import pyplot as plt
 ball = rholm.icosphere(6)
 z = ball.vertices[:, 2]
 stone = rholm.bumpy_sphere(6, 0.18, seed=3)
-pear = rholm.Mesh(stone.vertices * (0.8 + 0.3 * z + 0.25 * z**2)[:, None], stone.triangles)
+pear = rholm.Mesh(stone.vertices * (0.8 + 0.3 * z + 0.25 * z**2)[:, None], stone.faces)
 s = rholm.expand(pear, degree=48, length_unit="km")
 com = s.recenter()
 print("centre of the expansion", s.center.round(4))
@@ -29,13 +29,13 @@ print(f"largest distance of the two surfaces {rholm.compare(s, com).hausdorff:.2
 # C_lm = 4 pi / (V R^l (2l+1) (l+3)) (r^(l+3))_lm. About the centre of mass degree 1 vanishes.
 
 
-def stokes(s, degree, reference):
+def stokes(s: rholm.Expansion, degree: int, reference: float) -> np.ndarray:
     """Returns the coefficients of the potential of the body at constant density."""
     n = 4 * s.degree
-    r = rholm.synthesize_grid(s, "gauss-legendre", n, 2 * n)
+    r = rholm.harmonics.synthesize_grid(s, "gauss-legendre", n, 2 * n)
     result = np.zeros((2, degree + 1, degree + 1))
     for l in range(degree + 1):
-        power = rholm.analyze_grid(r ** (l + 3), "gauss-legendre", degree=degree)
+        power = rholm.harmonics.analyze_grid(r ** (l + 3), "gauss-legendre", degree=degree)
         result[:, l] = (
             4 * np.pi / (s.volume * reference**l * (2 * l + 1) * (l + 3)) * power[:, l]
         )
@@ -49,7 +49,7 @@ fields = {
 }
 figure, ax = plt.subplots()
 for name, field in fields.items():
-    power = rholm.power_spectrum(field, "power")
+    power = rholm.harmonics.power_spectrum(field, "power")
     ax.semilogy(
         np.arange(1, 13), np.maximum(power[1:], 1e-14), "o-", label=f"about the {name}"
     )
@@ -61,8 +61,8 @@ plt.show()
 # The potential on the sphere around the body, in parts of the mean, without its mean; the same on the
 # map that geodesists draw, and the body below.
 
-values = rholm.evaluate(fields["centre of mass"], ball.vertices) - 1
-sphere = rholm.Mesh(reference * ball.vertices + com.center, ball.triangles)
+values = rholm.harmonics.evaluate(fields["centre of mass"], ball.vertices) - 1
+sphere = rholm.Mesh(reference * ball.vertices + com.center, ball.faces)
 rholm.render(
     [
         rholm.Panel(com, "the body"),
@@ -73,7 +73,9 @@ rholm.render(
 )
 
 # %%
-grid = rholm.synthesize_grid(fields["centre of mass"], "equiangular", 180, 360) - 1
+grid = (
+    rholm.harmonics.synthesize_grid(fields["centre of mass"], "equiangular", 180, 360) - 1
+)
 figure, ax = plt.subplots()
 top = np.abs(grid).max()
 image = ax.imshow(grid, extent=(0, 360, -90, 90), cmap="RdBu_r", vmin=-top, vmax=top)

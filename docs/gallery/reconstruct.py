@@ -16,7 +16,7 @@ ring = rholm.torus(1, 0.32, 240, 90)
 phi = np.arctan2(ring.vertices[:, 1], ring.vertices[:, 0])
 line = np.stack([np.cos(phi), np.sin(phi), 0 * phi], axis=1)
 beads = rholm.Mesh(
-    line + (ring.vertices - line) * (1 + 0.28 * np.cos(9 * phi))[:, None], ring.triangles
+    line + (ring.vertices - line) * (1 + 0.28 * np.cos(9 * phi))[:, None], ring.faces
 )
 scan = rholm.sample_surface(
     beads,
@@ -30,13 +30,13 @@ scan = rholm.sample_surface(
 )
 
 
-def colors_at(points):
+def colors_at(points: np.ndarray) -> np.ndarray:
     """A colour that runs around the ring."""
     angle = np.arctan2(points[:, 1], points[:, 0])
-    return np.uint8(150 + 90 * np.cos(angle[:, None] + [0, 2.1, 4.2]))
+    return np.asarray(150 + 90 * np.cos(angle[:, None] + [0, 2.1, 4.2]), np.uint8)
 
 
-scan = rholm.as_points(scan, attributes={"rgb": colors_at(scan.points)})
+scan = rholm.clouds.as_points(scan, attributes={"rgb": colors_at(scan.points)})
 r = rholm.reconstruct(scan)
 kept = rholm.reconstruct(scan, holes="keep")
 rholm.render(
@@ -70,7 +70,7 @@ print(
 # %%
 # The error where it is. It is largest where there were no points.
 
-error = rholm.distances_to_surface(r.mesh.vertices, beads) / diagonal
+error = rholm.meshes.distances_to_surface(r.mesh.vertices, beads) / diagonal
 rholm.render(
     r.mesh,
     (1000, 520),

@@ -22,7 +22,7 @@ depth = (
     * (u[:, 1] < 0)
     / (1 + np.exp((abs(u[:, 2]) - 0.5) / 0.02))
 )
-scratched = rholm.Mesh(body.vertices * (1 - depth)[:, None], body.triangles)
+scratched = rholm.Mesh(body.vertices * (1 - depth)[:, None], body.faces)
 
 # %%
 # Three ways: everything finer than the wavelength goes from a ball; only what stands out goes; the scratch
@@ -36,14 +36,16 @@ ways = {
     "repaired": rholm.smooth(scratched, ball, 0.35, repair=True),
     "bridged": rholm.smooth(scratched, painted, 0.25, fitting="around"),
 }
-view = {"view": (0, 1, -0.25)}
-rholm.render([rholm.Panel(mesh, name) for name, mesh in ways.items()], (1300, 340), **view)
+view = (0, 1, -0.25)
+rholm.render(
+    [rholm.Panel(mesh, name) for name, mesh in ways.items()], (1300, 340), view=view
+)
 
 # %%
 # How far each is from the body without the scratch, along the scratch and in the ball around it.
 # Vertices that are outside of both have not moved.
 
-around = rholm.region_weights(scratched, ball) > 0.5
+around = rholm.meshes.region_weights(scratched, ball) > 0.5
 for name, mesh in ways.items():
     off = np.linalg.norm(mesh.vertices - body.vertices, axis=1)
     along = np.sqrt(np.mean(off[painted] ** 2))
@@ -53,13 +55,13 @@ for name, mesh in ways.items():
 # %%
 # The slider: 0 leaves all as it is, 1 takes the detail away, -1 doubles it.
 
-editor = rholm.analyze_patch(scratched, ball, 0.35)
+editor = rholm.meshes.analyze_patch(scratched, ball, 0.35)
 panels = []
 for strength in (-1, 0, 0.5, 1):
     editor.strength = strength
     shown = editor.mesh.copy()  # the editor's own moves on
     panels.append(rholm.Panel(shown, f"strength {strength}"))
-rholm.render(panels, (1300, 340), **view)
+rholm.render(panels, (1300, 340), view=view)
 
 # %%
 # A cut across the scratch: heights over the body that never had it.

@@ -16,13 +16,13 @@ ball = rholm.icosphere(7)
 u = ball.vertices
 a, b = u[:, 0] * 26, u[:, 1] * 26
 scales = np.abs(np.cos(a) + np.cos(0.5 * a + 0.87 * b) + np.cos(0.5 * a - 0.87 * b)) / 3
-source = rholm.Mesh(u * (1 + 0.05 * scales * (u[:, 2] > 0))[:, None], ball.triangles)
+source = rholm.Mesh(u * (1 + 0.05 * scales * (u[:, 2] > 0))[:, None], ball.faces)
 
 v = rholm.icosphere(7)
 z = v.vertices[:, 2]
 target = rholm.Mesh(
     v.vertices * (1 + 0.25 * z - 0.3 * (1 - z**2) ** 2)[:, None] * [1.1, 1.1, 1.2],
-    v.triangles,
+    v.faces,
 )
 
 # %%
@@ -43,7 +43,7 @@ rholm.render(panels, (1300, 360), view=(-0.4, 0.55, -0.7), fit_each=True)
 # %%
 # Sliders need the analysis only once: after it, height and angle move the vertices in place.
 
-editor = rholm.analyze_transfer(source, from_, target, to)
+editor = rholm.meshes.analyze_transfer(source, from_, target, to)
 report = editor.report
 print(
     f"lengths times {report.scale:.2f}; height of the texture {report.source_rms:.4f} rms"
@@ -51,7 +51,7 @@ print(
 panels = []
 for height, angle in ((0.5, 0), (1, 0), (2, 0), (2, np.pi / 6)):
     editor.set(height=height, angle=angle)
-    shown = rholm.Mesh(editor.mesh.vertices, editor.mesh.triangles)
+    shown = rholm.Mesh(editor.mesh.vertices, editor.mesh.faces)
     panels.append(rholm.Panel(shown, f"height {height}, {np.degrees(angle):.0f} degrees"))
 rholm.render(panels, (1300, 360), view=(-0.4, 0.55, -0.7))
 

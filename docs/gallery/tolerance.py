@@ -19,7 +19,7 @@ ball = rholm.icosphere(7)
 x = ball.vertices
 cube = (np.abs(x) ** 8).sum(axis=1) ** (-1 / 8)
 ripples = 0.01 * np.sin(40 * x[:, 2]) * np.exp(-((x[:, 0] - 1) ** 2) / 0.2)
-body = rholm.Mesh(x * (cube + ripples)[:, None], ball.triangles)
+body = rholm.Mesh(x * (cube + ripples)[:, None], ball.faces)
 
 # %%
 # Tolerances over two decades, of the rms and of the largest distance between the surfaces.
@@ -30,7 +30,8 @@ for norm in ("rms", "max"):
     found = [
         rholm.expand(body, tolerance=t, unit="diagonal", norm=norm, rays=0) for t in wanted
     ]
-    reached = [s.expanded.tolerance.reached / s.expanded.diagonal for s in found]
+    kept = [s.expanded.tolerance for s in found]
+    reached = [report.reached / body.bounds.diagonal for report in kept if report]
     left.loglog(wanted, reached, "o-", label=norm)
     right.semilogx(wanted, [s.degree for s in found], "o-", label=norm)
 left.loglog(wanted, wanted, ":", color="0.5", label="allowed")
@@ -48,7 +49,7 @@ panels = []
 for t in (5e-3, 2e-3, 5e-4):
     s = rholm.expand(body, tolerance=t, unit="diagonal")
     surface = s.mesh(7)
-    error = rholm.distances_to_surface(surface.vertices, body)
+    error = rholm.meshes.distances_to_surface(surface.vertices, body)
     panels.append(
         rholm.Panel(surface, f"{t:g} of the diagonal: L = {s.degree}", scalars=error)
     )

@@ -1,5 +1,6 @@
 """Extends Sphinx for the site: lists of the API, pictures in the gallery."""
 
+import importlib
 import inspect
 import re
 import shutil
@@ -44,7 +45,7 @@ def pictures(block, block_vars, gallery_conf):
 
     shown = block_vars["example_globals"].get("___")
     paths = []
-    if isinstance(shown, rholm.Picture):
+    if isinstance(shown, rholm.figures.Picture):
         path = next(block_vars["image_path_iterator"])
         shown.save(path)
         paths.append(path)
@@ -71,6 +72,24 @@ def plain_figures(gallery_conf, name):
     )
 
 
+MODULES = ("harmonics", "meshes", "clouds", "files", "figures")
+#: The full name of every public name. Names at the top of the package are shown there.
+PLACES = {
+    **{
+        name: f"rholm.{module}.{name}"
+        for module in MODULES
+        for name in importlib.import_module(f"rholm.{module}").__all__
+    },
+    **{name: f"rholm.{name}" for name in rholm.__all__},
+}
+
+
+def thing_of(name):
+    """The object with a public name."""
+    module, _, last = PLACES[name].rpartition(".")
+    return getattr(importlib.import_module(module), last)
+
+
 class Api(Directive):
     """.. api:: NAME...: a table of these names of rholm, then each with its documentation."""
 
@@ -80,22 +99,23 @@ class Api(Directive):
         """Returns the nodes that docutils puts in the directive's place."""
         names = " ".join(self.content).split()
         lines = [".. autosummary::", "   :nosignatures:", ""]
-        lines += [f"   {name}" for name in names] + [""]
+        lines += [f"   {PLACES[name].removeprefix('rholm.')}" for name in names] + [""]
         for name in names:
-            thing = getattr(rholm, name)
+            thing = thing_of(name)
             if inspect.isclass(thing):
                 kind = "autoexception" if issubclass(thing, BaseException) else "autoclass"
-                lines += [f".. {kind}:: {name}"]
+                lines += [f".. {kind}:: {PLACES[name]}"]
                 if kind == "autoclass":
                     lines += ["   :members:"]
-                    if thing.__base__.__module__ == "rholm._tables":
+                    if thing.__base__.__module__ in ("rholm._tables", "rholm._shown"):
                         lines += ["   :inherited-members:"]
                 if issubclass(thing, tuple):  # made by the library only: no signature
                     lines += ["   :exclude-members: count, index"]
                 if "__call__" in vars(thing):
                     lines += ["   :special-members: __call__"]
             else:
-                lines += [f".. auto{'function' if callable(thing) else 'data'}:: {name}"]
+                kind = "function" if callable(thing) else "data"
+                lines += [f".. auto{kind}:: {PLACES[name]}"]
             lines += [""]
         node = nodes.section()
         node.document = self.state.document
@@ -108,11 +128,18 @@ def mark_parameters(app, what, name, thing, options, lines):
     try:
         words = set(inspect.signature(thing).parameters)
     except (TypeError, ValueError):
-        return
-    for i, line in enumerate(lines):
-        lines[i] = re.sub(
-            r"(?<!`)`(\w+)`(?!`)", lambda m: f"``{m[1]}``" if m[1] in words else m[0], line
+        words = set()
+
+    def marked(match):
+        word, rest = match.groups()
+        if word in words and not rest:
+            return f"``{word}``"
+        return (
+            f":py:obj:`{word}{rest} <{PLACES[word]}{rest}>`" if word in PLACES else match[0]
         )
+
+    for i, line in enumerate(lines):
+        lines[i] = re.sub(r"(?<![`:])`(\w+)((?:\.\w+)*)`(?!`)", marked, line)
 
 
 def no_signature(app, what, name, thing, options, signature, answer):

@@ -8,486 +8,164 @@ reconstructs objects. Errors are measured and reported:
     s.coeffs, s.errors, s.volume
     s.mesh(subdivisions=6).save("bennu-64.ply")
 
+The names here are for daily work. Their modules have them too, and all others:
+
+    rholm.harmonics    expansions, atlases, filters, sums, grids, rotations
+    rholm.meshes       meshes, repair, comparison, smoothing, transfer of detail
+    rholm.clouds       points, normals, reconstruction
+    rholm.files        files and tables
+    rholm.figures      pictures, reports, notebooks
+
 Arrays of coefficients are in pyshtools' layout and default convention (4 pi-normalised, without
 Condon-Shortley phase) unless said otherwise. Lengths are in the unit of the shape; angles are in
-radians. Functions that compute take `threads` (0: one per processor; results are the same bits for
-any number). They take `progress`, too: a callable f(stage, fraction) that stops the computation by
-returning False. True, False or None choose a progress bar on a terminal and in notebooks. These
+radians.
+
+Functions that compute take `threads`: a number, or 0 for one thread per processor. Results are the
+same bits for any number. They also take `progress`: a callable f(stage, fraction), called at most
+about 50 times a second, which stops the computation by returning False (`CancelledError`). True
+shows a bar, False shows none. None, the default, shows a bar on a terminal and in notebooks. These
 functions release the interpreter's lock, and Ctrl-C stops them.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import importlib
 
-from . import _arguments, _old_names
-from ._atlas import (
-    NO_CAP,
-    Atlas,
-    PatchAtlas,
-    as_atlas,
-    compress,
-    dominant_caps,
-    highest_degree,
-    n_coefficients,
-    patch_atlas,
-    patch_picture,
-    set_cap_colors,
-    set_degree_colors,
-    size_of,
-)
-from ._batch import BatchTable, batch, read_batch
-from ._charts import (
-    ChartExpansion,
-    MonteCarlo,
-    StarChart,
-    check_star,
-    expand_chart,
-    find_center,
-    gauge_norm_squared,
-    make_star_chart,
-    monte_carlo,
-    radius_norm_squared,
-    tail_strength,
-    truncation_errors,
-    vertex_error_strength,
-    vertex_error_strengths,
-)
-from ._coefficients import (
-    check_unit,
-    descriptor_distance,
-    distance,
-    from_convention,
-    metres_of,
-    power_spectrum,
-    principal_axes,
-    rms_beyond,
-    to_convention,
-)
-from ._core import (
-    MAX_DEGREE,
-    AlignedRotation,
-    Alignment,
-    AtlasErrors,
-    AtlasSize,
-    Bounds,
-    Cap,
-    CleanReport,
-    Comparison,
-    CompressReport,
-    Distances,
-    ErrorStrengths,
-    Expanded,
-    FastReport,
-    GravityField,
-    Inspection,
-    OrientReport,
-    Overshoot,
-    Placement,
-    PrincipalAxes,
-    ReconstructReport,
-    RepairReport,
-    ScanAlignment,
-    StarReport,
-    SurfaceMeasures,
-    SurfaceRules,
-    TileForecast,
-    ToleranceReport,
-    TransferReport,
-    Transform,
-    TruncationErrors,
-)
-from ._core import (
-    VERSION as __version__,
-)
-from ._edit import (
-    RegionLike,
-    SmoothEditor,
-    analyze_patch,
-    apply,
-    longest_wavelength,
-    region_weights,
-    smooth,
-    update,
-)
-from ._errors import (
-    CancelledError,
-    Error,
-    InvalidInputError,
-    IoError,
-    NotConvergedError,
-    NotStarShapedError,
-    OutOfMemoryError,
-    UnsupportedError,
-)
-from ._expand import as_expansion, expand, from_array, from_pyshtools
-from ._expansion import CoefficientsLike, Expansion
-from ._filters import (
-    band_pass,
-    filter,
-    high_pass,
-    low_pass,
-    overshoot,
-    sharpened,
-)
-from ._formats import FileFormat, coefficients_formats, shape_formats
-from ._model_files import (
-    CoefficientsFile,
-    coefficients_format_of,
-    is_atlas_file,
-    is_model_file,
-    load,
-    looks_like_coefficients,
-    parse_coefficients,
-    read_any_coefficients,
-    read_atlas,
-    read_coefficients,
-    read_model,
-    write_atlas,
-    write_coefficients,
-    write_model,
-)
-from ._motion import (
-    align,
-    mirror,
-    placed,
-    recentered,
-    rotate,
-    scaled,
-    seen_center,
-    volume_centroid,
-)
-from ._pictures import (
-    Panel,
-    Picture,
-    encode_png,
-    render,
-    report_html,
-    spectrum_svg,
-    write_file,
-    write_png,
-)
-from ._points import (
-    AlignedScans,
-    Cleaned,
-    Oriented,
-    align_scans,
-    clean,
-    orient,
-    sample_surface,
-)
-from ._primitives import (
-    box,
-    bumpy_sphere,
-    ellipsoid,
-    icosphere,
-    latitude_longitude_sphere,
-    torus,
-)
-from ._reconstruct import (
-    Reconstruction,
-    foresee_tiles,
-    reconstruct,
-)
-from ._rotations import (
-    Rotation,
-    RotationLike,
-    angle_between,
-    as_rotation,
-    axis_angle_of,
-    compose,
-    euler_angles_of,
-    inverse,
-    matrix_of,
-    rotation_about,
-    rotation_of,
-)
-from ._run import (
-    caller,
-)
-from ._shape_files import (
-    ShapeFile,
-    attributes_left_out,
-    map_mesh,
-    parse_shape,
-    read_shape,
-    write_shape,
-)
-from ._shapes import (
-    Mesh,
-    MeshLike,
-    PointCloud,
-    PointsLike,
-    as_mesh,
-    as_points,
-    validate,
-    vertex_colors,
-)
-from ._studio import Studio, studio
-from ._sums import (
-    adjoint,
-    analyze_grid,
-    evaluate,
-    evaluate_rings,
-    evaluate_with_gradient,
-    exact_degree,
-    gauss_legendre,
-    grid_colatitudes,
-    smallest_grid,
-    synthesize_grid,
-)
-from ._surfaces import (
-    compare,
-    directions_of,
-    distances_to_surface,
-    inertia,
-    measure,
-    require_star_shaped,
-    require_surface,
-    synthesize,
-)
-from ._topology import (
-    Repaired,
-    Simplification,
-    Welded,
-    area_normals,
-    bounds,
-    closing_tolerance,
-    enclosed_volume,
-    flip,
-    inspect,
-    largest_component,
-    pair_edges,
-    repair,
-    simplify,
-    surface_area,
-    weld,
-)
-from ._transfer import TransferEditor, TransferSource, analyze_source, analyze_transfer, transfer
-from ._view import view, view_data
+TYPE_CHECKING = False  # as type checkers know it; importing typing would take longer than all else here
+if TYPE_CHECKING:
+    from . import clouds as clouds
+    from . import figures as figures
+    from . import files as files
+    from . import harmonics as harmonics
+    from . import meshes as meshes
+    from ._errors import (
+        CancelledError,
+        Error,
+        InvalidInputError,
+        IoError,
+        NotConvergedError,
+        NotStarShapedError,
+        OutOfMemoryError,
+        UnsupportedError,
+    )
+    from .clouds import PointCloud, orient, reconstruct, sample_surface
+    from .figures import Panel, render, report_html, studio, view
+    from .files import batch, load, read_batch, read_shape
+    from .harmonics import (
+        Atlas,
+        Expansion,
+        align,
+        band_pass,
+        compress,
+        expand,
+        from_array,
+        from_pyshtools,
+        high_pass,
+        low_pass,
+        placed,
+        rotation_about,
+    )
+    from .meshes import (
+        Mesh,
+        box,
+        bumpy_sphere,
+        compare,
+        ellipsoid,
+        icosphere,
+        inspect,
+        repair,
+        simplify,
+        smooth,
+        torus,
+        transfer,
+    )
+
+    __version__: str
 
 __all__ = [
-    "AlignedRotation",
-    "Alignment",
     "Atlas",
-    "AtlasErrors",
-    "AtlasSize",
-    "BatchTable",
-    "Bounds",
     "CancelledError",
-    "Cap",
-    "CleanReport",
-    "Cleaned",
-    "ChartExpansion",
-    "CoefficientsFile",
-    "CoefficientsLike",
-    "Comparison",
-    "CompressReport",
-    "Distances",
     "Error",
-    "ErrorStrengths",
-    "Expanded",
     "Expansion",
-    "FastReport",
-    "FileFormat",
-    "GravityField",
-    "Inspection",
     "InvalidInputError",
     "IoError",
-    "MAX_DEGREE",
     "Mesh",
-    "MeshLike",
-    "MonteCarlo",
-    "NO_CAP",
     "NotConvergedError",
     "NotStarShapedError",
-    "OrientReport",
-    "ScanAlignment",
-    "AlignedScans",
-    "align_scans",
-    "Oriented",
     "OutOfMemoryError",
-    "Overshoot",
     "Panel",
-    "PatchAtlas",
-    "Picture",
-    "Placement",
     "PointCloud",
-    "PointsLike",
-    "PrincipalAxes",
-    "ReconstructReport",
-    "Reconstruction",
-    "RegionLike",
-    "RepairReport",
-    "Repaired",
-    "Rotation",
-    "RotationLike",
-    "ShapeFile",
-    "Simplification",
-    "SmoothEditor",
-    "StarChart",
-    "StarReport",
-    "Studio",
-    "SurfaceMeasures",
-    "SurfaceRules",
-    "TileForecast",
-    "ToleranceReport",
-    "TransferEditor",
-    "TransferReport",
-    "Transform",
-    "TransferSource",
-    "TruncationErrors",
     "UnsupportedError",
-    "Welded",
-    "__version__",
-    "adjoint",
     "align",
-    "analyze_grid",
-    "analyze_patch",
-    "analyze_source",
-    "analyze_transfer",
-    "angle_between",
-    "apply",
-    "area_normals",
-    "as_atlas",
-    "as_expansion",
-    "as_mesh",
-    "as_points",
-    "as_rotation",
-    "attributes_left_out",
-    "axis_angle_of",
     "band_pass",
     "batch",
-    "bounds",
     "box",
     "bumpy_sphere",
-    "caller",
-    "check_star",
-    "check_unit",
-    "clean",
-    "closing_tolerance",
-    "coefficients_format_of",
-    "coefficients_formats",
     "compare",
-    "compose",
     "compress",
-    "descriptor_distance",
-    "directions_of",
-    "distance",
-    "distances_to_surface",
-    "dominant_caps",
     "ellipsoid",
-    "enclosed_volume",
-    "encode_png",
-    "euler_angles_of",
-    "evaluate",
-    "evaluate_rings",
-    "evaluate_with_gradient",
-    "exact_degree",
     "expand",
-    "expand_chart",
-    "filter",
-    "find_center",
-    "flip",
-    "foresee_tiles",
     "from_array",
-    "from_convention",
     "from_pyshtools",
-    "gauge_norm_squared",
-    "gauss_legendre",
-    "grid_colatitudes",
     "high_pass",
-    "highest_degree",
     "icosphere",
-    "inertia",
     "inspect",
-    "inverse",
-    "is_atlas_file",
-    "is_model_file",
-    "largest_component",
-    "latitude_longitude_sphere",
     "load",
-    "longest_wavelength",
-    "looks_like_coefficients",
     "low_pass",
-    "make_star_chart",
-    "map_mesh",
-    "matrix_of",
-    "measure",
-    "metres_of",
-    "mirror",
-    "monte_carlo",
-    "n_coefficients",
     "orient",
-    "overshoot",
-    "pair_edges",
-    "parse_coefficients",
-    "parse_shape",
-    "patch_atlas",
-    "patch_picture",
     "placed",
-    "power_spectrum",
-    "principal_axes",
-    "radius_norm_squared",
-    "read_any_coefficients",
-    "read_atlas",
     "read_batch",
-    "read_coefficients",
-    "read_model",
     "read_shape",
-    "recentered",
     "reconstruct",
-    "region_weights",
     "render",
     "repair",
     "report_html",
-    "require_star_shaped",
-    "require_surface",
-    "rms_beyond",
-    "rotate",
     "rotation_about",
-    "rotation_of",
     "sample_surface",
-    "shape_formats",
-    "scaled",
-    "seen_center",
-    "set_cap_colors",
-    "set_degree_colors",
-    "sharpened",
     "simplify",
-    "size_of",
-    "smallest_grid",
     "smooth",
-    "spectrum_svg",
     "studio",
-    "surface_area",
-    "synthesize",
-    "synthesize_grid",
-    "tail_strength",
-    "to_convention",
     "torus",
     "transfer",
-    "truncation_errors",
-    "update",
-    "validate",
-    "vertex_colors",
-    "vertex_error_strength",
-    "vertex_error_strengths",
-    "volume_centroid",
     "view",
-    "view_data",
-    "weld",
-    "write_atlas",
-    "write_coefficients",
-    "write_file",
-    "write_model",
-    "write_png",
-    "write_shape",
 ]
 
-_arguments.check_all(__name__, __all__)
+#: Public names by the module that has them. A module is loaded when one of its names is used first.
+_MODULES = {
+    "_errors": (
+        "CancelledError Error InvalidInputError IoError NotConvergedError NotStarShapedError "
+        "OutOfMemoryError UnsupportedError"
+    ),
+    "clouds": "PointCloud orient reconstruct sample_surface",
+    "figures": "Panel render report_html studio view",
+    "files": "batch load read_batch read_shape",
+    "harmonics": (
+        "Atlas Expansion align band_pass compress expand from_array from_pyshtools high_pass "
+        "low_pass placed rotation_about"
+    ),
+    "meshes": (
+        "Mesh box bumpy_sphere compare ellipsoid icosphere inspect repair simplify smooth torus transfer"
+    ),
+}
+_HOMES = {name: module for module, names in _MODULES.items() for name in names.split()}
+
+
+def __dir__() -> list[str]:
+    return [*__all__, *(module for module in _MODULES if not module.startswith("_")), "__version__"]
+
 
 if not TYPE_CHECKING:  # otherwise type checkers would accept every name
 
     def __getattr__(name: str) -> object:
-        return _old_names.old_thing(name)
+        if name in _HOMES:
+            thing = getattr(importlib.import_module(f".{_HOMES[name]}", __name__), name)
+        elif name in _MODULES:
+            return importlib.import_module(f".{name}", __name__)
+        elif name == "__version__":
+            thing = importlib.import_module("._core", __name__).VERSION
+        elif name.startswith("_"):
+            raise AttributeError(f"module 'rholm' has no attribute {name!r}")
+        else:
+            return importlib.import_module("._old_names", __name__).old_thing(name)
+        globals()[name] = thing
+        return thing

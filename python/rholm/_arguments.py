@@ -13,13 +13,14 @@ import sys
 import types
 import typing
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, Literal, Union
+from typing import Any, Literal, TypeVar, Union
 
 import numpy as np
 
 from ._errors import InvalidInputError
 
 Check = Callable[[Any, str], Any]
+Thing = TypeVar("Thing")
 
 _LONGEST = 60  # Letters of a value that a message shows. Chosen: the message stays on one line.
 
@@ -136,24 +137,76 @@ def _list(check: Check) -> Check:
     return checked
 
 
+def _with_article(kind: type) -> str:
+    name = kind.__name__
+    return f"{'an' if name[0] in 'AEIO' else 'a'} {name}"
+
+
 def _instance(kinds: tuple[type, ...]) -> Check:
-    names = " or ".join(f"rholm.{kind.__name__}" for kind in kinds)
+    names = " or ".join(_with_article(kind) for kind in kinds)
 
     def check(value: Any, name: str) -> Any:
         if isinstance(value, kinds):
             return value
-        raise _refusal(value, name, f"a {names}")
+        raise _refusal(value, name, names)
 
     return check
+
+
+#: Annotations of arguments that are converted, with what they must be.
+_FORMS: list[tuple[frozenset[Any], Check]] = []
+
+
+def form(annotation: Any, wanted: str) -> None:
+    """Declares a union of types that the package converts. Numbers and None are refused by the name of
+    the argument; the conversion refuses everything else.
+
+    Parameters
+    ----------
+    annotation : union of types
+        Annotation of arguments.
+    wanted : str
+        What an argument must be.
+    """
+
+    def check(value: Any, name: str) -> Any:
+        if value is None or isinstance(value, (bool, int, float, complex, np.number, bytes)):
+            raise _refusal(value, name, wanted)
+        return value
+
+    _FORMS.append((frozenset(typing.get_args(annotation)), check))
 
 
 _SIMPLE: dict[Any, Check] = {int: whole, float: number, bool: flag, str: text, bytes: octets}
 
 
+#: Classes that functions take in more than one form, with the functions that make them.
+_MADE_BY = {
+    "Atlas": "compress() and load() make one",
+    "Expansion": "expand(), load() and from_array() make one",
+    "Mesh": "",
+    "Panel": "",
+    "PointCloud": "",
+    "StarChart": "make_star_chart() makes one",
+}
+
+
+def _model(*kinds: type) -> Check:
+    """Returns a check that refuses values of Python and NumPy; functions check objects of packages."""
+    wanted = " or ".join(_with_article(kind) for kind in kinds)
+    made = ", ".join(_MADE_BY[kind.__name__] for kind in kinds)
+
+    def check(value: Any, name: str) -> Any:
+        if type(value).__module__ in ("builtins", "numpy", "pathlib"):
+            raise _refusal(value, name, f"{wanted}; {made}")
+        return value
+
+    return check
+
+
 def _is_ours(kind: Any) -> bool:
     # Functions that convert things to expansions and atlases have their own messages.
-    converted = ("Expansion", "Atlas", "Mesh", "PointCloud", "StarChart", "Panel")
-    return inspect.isclass(kind) and kind.__module__.startswith("rholm.") and kind.__name__ not in converted
+    return inspect.isclass(kind) and kind.__module__.startswith("rholm.") and kind.__name__ not in _MADE_BY
 
 
 def check_of(annotation: Any) -> Check | None:
@@ -173,14 +226,23 @@ def check_of(annotation: Any) -> Check | None:
     if origin is Sequence or annotation is Sequence:
         check = check_of(parts[0])
         return None if check is None else _list(check)
-    return _instance((annotation,)) if _is_ours(annotation) else None
+    if inspect.isclass(annotation) and annotation.__module__.startswith("rholm."):
+        if _MADE_BY.get(annotation.__name__):
+            return _model(annotation)
+        return _instance((annotation,)) if _is_ours(annotation) else None
+    return None
 
 
 def _check_of_union(parts: tuple[Any, ...]) -> Check | None:
     kinds = tuple(part for part in parts if part is not type(None))
+    for known, converted in _FORMS:
+        if known <= set(parts):
+            return converted if len(kinds) == len(parts) else _optional(converted)
     plain = {typing.get_origin(kind) or kind for kind in kinds}
     if plain == {str, os.PathLike}:
         check: Check | None = path
+    elif all(_MADE_BY.get(getattr(kind, "__name__", "")) for kind in kinds):
+        check = _model(*kinds)
     elif all(_is_ours(kind) for kind in kinds):
         check = _instance(kinds)
     else:
@@ -190,12 +252,11 @@ def _check_of_union(parts: tuple[Any, ...]) -> Check | None:
     return _optional(check)
 
 
-@functools.cache
 def _names() -> dict[str, Any]:
-    """Returns everything that the modules of the package define. Some modules import a type for
-    type checkers only, so that its name must be found elsewhere.
+    """Returns everything that the loaded modules of the package define. Some modules import a type
+    for type checkers only, so that its name must be found elsewhere.
     """
-    modules = [m for name, m in sys.modules.items() if name.startswith(f"{__package__}._")]
+    modules = [m for name, m in list(sys.modules.items()) if name.startswith(f"{__package__}._")]
     return {name: value for module in modules for name, value in vars(module).items()}
 
 
@@ -277,27 +338,15 @@ def _checked_class(kind: type) -> None:
             setattr(kind, name, property(member.fget, setter, member.fdel, member.__doc__))
 
 
-def check_all(package: str, names: list[str]) -> None:
-    """Checks the arguments of all public functions of a package, and of methods of its classes.
+def public(thing: Thing) -> Thing:
+    """Checks the arguments of a function, or of the methods of a class, whenever they are called.
 
     Parameters
     ----------
-    package : str
-        Name of the package. Functions are replaced in all modules that define or use them.
-    names : list of str
-        Public names.
+    thing : function or class
+        Function or class that users call. It is used as a decorator.
     """
-    exchanged: dict[int, Any] = {}
-    kept: list[Any] = []  # keeps objects alive: an id is unique only during the life of its object
-    for name in names:
-        thing = getattr(sys.modules[package], name)
-        if isinstance(thing, types.FunctionType):
-            kept.append(thing)
-            exchanged[id(thing)] = checked(thing)
-        elif inspect.isclass(thing) and thing.__module__ not in (f"{package}._core", "builtins"):
-            _checked_class(thing)
-    for module_name, module in list(sys.modules.items()):
-        if module_name == package or module_name.startswith(f"{package}."):
-            for name, thing in list(vars(module).items()):
-                if id(thing) in exchanged:
-                    setattr(module, name, exchanged[id(thing)])
+    if inspect.isclass(thing):
+        _checked_class(thing)
+        return thing
+    return typing.cast(Thing, checked(typing.cast("Callable[..., Any]", thing)))

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._errors import InvalidInputError
+
+
+class SupportsArray(Protocol):
+    """An object that NumPy makes an array of, for example a table of pandas."""
+
+    def __array__(self) -> npt.NDArray[Any]: ...
+
+
+#: An array of rows, or lists of numbers or arrays. Unlike `numpy.typing.ArrayLike` it has no scalars.
+Rows = Union[npt.NDArray[Any], Sequence[Any], SupportsArray]
 
 FloatArray = npt.NDArray[np.float64]
 IndexArray = npt.NDArray[np.uint32]
@@ -123,27 +133,27 @@ def vertex_rows(values: Any) -> npt.NDArray[Any]:
     return array if side_by_side and whole and aligned else np.ascontiguousarray(array)
 
 
-def triangle_rows(values: Any) -> npt.NDArray[np.uint32]:
+def face_rows(values: Any) -> npt.NDArray[np.uint32]:
     """Returns vertex indices of 32 bits, numbers of a row side by side. The array is copied only if
     it does not have this form, for example for 64-bit indices.
     """
-    array = plain_array(values, "triangles")
+    array = plain_array(values, "faces")
     if np.ma.is_masked(values):
-        raise InvalidInputError("triangles: an index is masked; leave its row out")
+        raise InvalidInputError("faces: an index is masked; leave its row out")
     if array.size == 0 and array.ndim <= 2 and (array.ndim == 0 or array.shape[-1] in (0, 3)):
         return np.empty((0, 3), np.uint32)
     if array.dtype.kind not in "iu":
-        raise TypeError(f"triangles: whole numbers are needed, not an array of {array.dtype}")
+        raise TypeError(f"faces: whole numbers are needed, not an array of {array.dtype}")
     if array.ndim != 2 or array.shape[1] != 3:
         raise InvalidInputError(
-            f"triangles: an array (M, 3) is needed, not {array.shape}; other polygons are cut by "
+            f"faces: an array (M, 3) is needed, not {array.shape}; other polygons are cut by "
             "trimesh, pyvista or read_shape()"
         )
     if array.dtype.kind == "i" and array.min() < 0:
-        raise InvalidInputError(f"triangles: the index {array.min()} is negative")
+        raise InvalidInputError(f"faces: the index {array.min()} is negative")
     if array.dtype not in (np.dtype(np.int32), np.dtype(np.uint32)):
         if array.itemsize > 4 and array.max() > 0xFFFFFFFF:
-            raise InvalidInputError(f"triangles: the index {array.max()} has more than 32 bits")
+            raise InvalidInputError(f"faces: the index {array.max()} has more than 32 bits")
         array = array.astype(np.uint32)
     side_by_side = array.strides[1] == array.itemsize
     whole = array.strides[0] >= 0 and array.strides[0] % array.itemsize == 0

@@ -9,7 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import FloatArray, IndexArray, float_rows, plain_array
+from ._arguments import public
+from ._arrays import FloatArray, IndexArray, float_rows, plain_array, read_only
+from ._convert import MeshLike, as_mesh, as_shape
 from ._core import (
     AtlasErrors,
     AtlasModel,
@@ -22,7 +24,8 @@ from ._core import (
 from ._errors import InvalidInputError
 from ._options import options_of, takes
 from ._run import Progress, caller, named
-from ._shapes import Mesh, MeshLike, PointCloud, as_mesh, as_shape, finite_points, name_of
+from ._shapes import Mesh, PointCloud, finite_points, name_of
+from ._shown import Reported
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -33,10 +36,18 @@ NO_CAP = _core.NO_CAP
 """The number that `Atlas.dominant_caps` gives where there is no cap."""
 
 
-class Atlas:
+@public
+class Atlas(Reported):
     """A surface of any genus as overlapping caps, each a function on its own sphere.
 
     `compress`, `patch_atlas`, `load` and `reconstruct` (as ``r.atlas``) make atlases.
+
+    Examples
+    --------
+    >>> a = rholm.compress(rholm.torus(2, 0.7, 40, 20), 0.2)
+    >>> a.save("ring.h5")
+    >>> a.mesh().inspect().genus
+    1
     """
 
     __slots__ = ("_core", "_name", "_report", "_shape")
@@ -59,12 +70,12 @@ class Atlas:
         return self
 
     @property
-    def report(self) -> CompressReport | None:
+    def report(self) -> CompressReport | Any:
         """Report of `compress`; None if another function made the atlas."""
         return self._report
 
     @property
-    def errors(self) -> AtlasErrors | None:
+    def errors(self) -> AtlasErrors | Any:
         """Errors measured on the extracted surface; None if unknown."""
         return self._core.errors
 
@@ -120,6 +131,12 @@ class Atlas:
         ----------
         i : int
             Index of the cap, 0 ... len(atlas) - 1; negative indices count from the end.
+
+        Examples
+        --------
+        >>> a = rholm.load("ring.h5")
+        >>> a.cap(0) == a.cap(-len(a))
+        True
         """
         return self._core.atlas.cap(_index(i, len(self)))
 
@@ -132,8 +149,15 @@ class Atlas:
         ----------
         i : int
             Index of the cap.
+
+        Examples
+        --------
+        >>> a = rholm.load("ring.h5")
+        >>> cap = a.cap(0)
+        >>> len(a.coefficients_of(0)) == rholm.harmonics.n_coefficients(cap.basis, cap.degree)
+        True
         """
-        return self._core.atlas.coefficients_of(_index(i, len(self)))
+        return read_only(self._core.atlas.coefficients_of(_index(i, len(self))))
 
     def evaluate(self, i: int, points: npt.ArrayLike) -> tuple[FloatArray, FloatArray, npt.NDArray[np.bool_]]:
         """Evaluates the surface's potential according to one cap.
@@ -153,6 +177,13 @@ class Atlas:
             Gradient of the distance, to first order.
         valid : bool, (N,)
             False at the centre, behind it, and where the cap's radius is not positive.
+
+        Examples
+        --------
+        >>> a = rholm.load("ring.h5")
+        >>> distance, gradient, valid = a.evaluate(0, [[2.7, 0, 0], [0, 2.7, 0]])
+        >>> distance.shape, gradient.shape
+        ((2,), (2, 3))
         """
         distance, gradient, valid = _core.evaluate_cap(
             self._core.atlas, _index(i, len(self)), float_rows(points)
@@ -167,13 +198,19 @@ class Atlas:
 
         For a reconstruction it is the mesh of `reconstruct`, the same to the bit at the atlas's own
         step. It is open or simplified if that mesh is. ``simplify={"share": 1}`` keeps all
-        triangles.
+        faces.
 
         Parameters
         ----------
         {options}
         threads, progress
-            See `rholm.caller`.
+            See ``help(rholm)``.
+
+        Examples
+        --------
+        >>> a = rholm.load("ring.h5")
+        >>> a.mesh().inspect().closed
+        True
         """
         wanted = options_of(AtlasSynthesisOptions, {**options}, "mesh")
         with caller(threads, progress) as how:
@@ -189,7 +226,14 @@ class Atlas:
         points : array_like, (N, 3)
             Points on the surface.
         threads, progress
-            See `rholm.caller`.
+            See ``help(rholm)``.
+
+        Examples
+        --------
+        >>> ring = rholm.torus(2, 0.7, 40, 20)
+        >>> a = rholm.load("ring.h5")
+        >>> a.dominant_caps(ring.vertices).shape
+        (800,)
         """
         with caller(threads, progress) as how:
             return _core.dominant_caps(self._core.atlas, float_rows(points), how)
@@ -205,6 +249,12 @@ class Atlas:
             One colour per cap, or one per degree from dark blue to yellow.
         **options
             Arguments of `mesh`.
+
+        Examples
+        --------
+        >>> a = rholm.load("ring.h5")
+        >>> a.colored(by="degree").colors.shape[1]
+        3
         """
         if by not in ("cap", "degree"):
             raise InvalidInputError(f"by is 'cap' or 'degree', not {by!r}")
@@ -220,6 +270,11 @@ class Atlas:
         ----------
         unit : str
             Name of the unit: "km", "mm", ...
+
+        Examples
+        --------
+        >>> rholm.load("ring.h5").with_unit("km").unit
+        'km'
         """
         _core.check_unit(unit)
         return Atlas._of(self._core.with_unit(unit), self._report, self._shape, self._name)
@@ -231,39 +286,41 @@ class Atlas:
         ----------
         path : path
             File to write; an existing file is replaced when the new one is complete.
+
+        Examples
+        --------
+        >>> a = rholm.load("ring.h5")
+        >>> a.save("copy.h5")
+        >>> len(rholm.load("copy.h5")) == len(a)
+        True
         """
         with caller(0, False) as how:
             _core.write_atlas(self._core, named(path, (".h5", ".hdf5"), "an atlas"), how)
 
-    def report_html(self, path: str | os.PathLike[str] | None = None, **options: Any) -> str:
-        """Returns a report on one HTML page; see `Expansion.report_html`."""
-        from ._pictures import report_html
-
-        return report_html(self, path, **options)
-
-    def render(self, **options: Any) -> Any:
-        """Returns a picture; see `rholm.render`."""
-        from ._pictures import render
-
-        return render(self, **options)
-
     def __len__(self) -> int:
         return self._core.atlas.n_caps
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Atlas):
+            return NotImplemented
+        mine, others = ((one.errors, one.tolerance, one.step, one.unit, one.rules) for one in (self, other))
+        return (
+            len(self) == len(other)
+            and mine == others
+            and all(
+                self.cap(i) == other.cap(i)
+                and bool(np.array_equal(self.coefficients_of(i), other.coefficients_of(i)))
+                for i in range(len(self))
+            )
+        )
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         return f"<rholm.Atlas: {len(self)} caps to degree {self.degree}, {self.size.numbers} numbers>"
 
-    def _repr_png_(self) -> bytes | None:
-        from ._pictures import notebook_png
 
-        return notebook_png(self)
-
-    def _repr_html_(self) -> str:
-        from ._pictures import atlas_html
-
-        return atlas_html(self)
-
-
+@public
 def as_atlas(thing: Any) -> Atlas:
     """Returns an `Atlas` unchanged, and raises TypeError for anything else.
 
@@ -271,6 +328,12 @@ def as_atlas(thing: Any) -> Atlas:
     ----------
     thing : Atlas
         The atlas, or any other object.
+
+    Examples
+    --------
+    >>> a = rholm.load("ring.h5")
+    >>> rholm.harmonics.as_atlas(a) is a
+    True
     """
     if isinstance(thing, Atlas):
         return thing
@@ -298,6 +361,7 @@ def _colored(mesh: Mesh, channels: list[FloatArray]) -> Mesh:
     return mesh.with_attributes(red=red, green=green, blue=blue)
 
 
+@public
 def set_cap_colors(mesh: Mesh, atlas: Atlas, caps: npt.ArrayLike) -> Mesh:
     """Returns the mesh with one colour per cap. Touching caps get different hues; vertices without
     a cap are grey.
@@ -310,10 +374,18 @@ def set_cap_colors(mesh: Mesh, atlas: Atlas, caps: npt.ArrayLike) -> Mesh:
         Atlas that has the caps.
     caps : array_like, (N,)
         Cap of each vertex, from `Atlas.dominant_caps`.
+
+    Examples
+    --------
+    >>> ring = rholm.torus(2, 0.7, 40, 20)
+    >>> a = rholm.load("ring.h5")
+    >>> rholm.figures.set_cap_colors(ring, a, a.dominant_caps(ring.vertices)).colors.shape
+    (800, 3)
     """
     return _colored(as_mesh(mesh), _core.set_cap_colors(as_atlas(atlas)._core.atlas, _caps_of(caps)))
 
 
+@public
 def set_degree_colors(mesh: Mesh, atlas: Atlas, caps: npt.ArrayLike) -> Mesh:
     """Returns the mesh coloured by the degrees of the caps: dark blue for the lowest, yellow for
     the highest.
@@ -322,10 +394,18 @@ def set_degree_colors(mesh: Mesh, atlas: Atlas, caps: npt.ArrayLike) -> Mesh:
     ----------
     mesh, atlas, caps
         As in `set_cap_colors`.
+
+    Examples
+    --------
+    >>> ring = rholm.torus(2, 0.7, 40, 20)
+    >>> a = rholm.load("ring.h5")
+    >>> rholm.figures.set_degree_colors(ring, a, a.dominant_caps(ring.vertices)).colors.shape
+    (800, 3)
     """
     return _colored(as_mesh(mesh), _core.set_degree_colors(as_atlas(atlas)._core.atlas, _caps_of(caps)))
 
 
+@public
 def dominant_caps(
     atlas: Atlas, points: npt.ArrayLike, *, threads: int = 0, progress: Progress = None
 ) -> IndexArray:
@@ -337,10 +417,18 @@ def dominant_caps(
         Atlas that has the caps.
     points, threads, progress
         As in `Atlas.dominant_caps`.
+
+    Examples
+    --------
+    >>> ring = rholm.torus(2, 0.7, 40, 20)
+    >>> a = rholm.load("ring.h5")
+    >>> rholm.harmonics.dominant_caps(a, ring.vertices).shape
+    (800,)
     """
     return as_atlas(atlas).dominant_caps(points, threads=threads, progress=progress)
 
 
+@public
 def size_of(atlas: Atlas) -> _core.AtlasSize:
     """Returns the size of an atlas: caps, coefficients and values.
 
@@ -348,10 +436,17 @@ def size_of(atlas: Atlas) -> _core.AtlasSize:
     ----------
     atlas : Atlas
         The atlas.
+
+    Examples
+    --------
+    >>> a = rholm.load("ring.h5")
+    >>> rholm.harmonics.size_of(a).caps == len(a)
+    True
     """
     return as_atlas(atlas).size
 
 
+@public
 def highest_degree(atlas: Atlas) -> int:
     """Returns the highest degree of all caps; 0 without caps.
 
@@ -359,10 +454,17 @@ def highest_degree(atlas: Atlas) -> int:
     ----------
     atlas : Atlas
         The atlas.
+
+    Examples
+    --------
+    >>> a = rholm.load("ring.h5")
+    >>> rholm.harmonics.highest_degree(a) == a.degree
+    True
     """
     return as_atlas(atlas).degree
 
 
+@public
 def n_coefficients(basis: Literal["full", "even"], degree: int) -> int:
     """Returns the number of coefficients of a cap.
 
@@ -372,10 +474,16 @@ def n_coefficients(basis: Literal["full", "even"], degree: int) -> int:
         All harmonics up to the degree, or harmonics with l + m even.
     degree : int
         Highest degree L.
+
+    Examples
+    --------
+    >>> rholm.harmonics.n_coefficients("full", 4), rholm.harmonics.n_coefficients("even", 4)
+    (25, 15)
     """
     return _core.n_coefficients(basis, degree)
 
 
+@public
 @takes(_core.CompressOptions)
 def compress(
     shape: MeshLike | PointCloud,
@@ -402,7 +510,7 @@ def compress(
         Unit of the vertices: "km", "mm", ...
     {options}
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     Returns
     -------
@@ -416,6 +524,13 @@ def compress(
         For shapes without area, inconsistent orientation, or options out of range.
     UnsupportedError
         For shapes too thin for the grid, or caps that need more than `max_numbers`.
+
+    Examples
+    --------
+    >>> ball = rholm.icosphere(2)
+    >>> a = rholm.compress(ball, tolerance=0.05)
+    >>> a.errors.rms < 0.05, a.size.numbers < 3 * len(ball.vertices)
+    (True, True)
     """
     whole = finite_points(as_shape(shape))[0]
     if unit not in ("diagonal", "absolute"):
@@ -439,6 +554,7 @@ class PatchAtlas(NamedTuple):
     """Rms distance along rays from all points of the cells to the series of their caps."""
 
 
+@public
 @takes(_core.PatchAtlasOptions)
 def patch_atlas(
     shape: MeshLike | PointCloud,
@@ -458,7 +574,13 @@ def patch_atlas(
         Degree of every cap, 0 ... 24.
     {options}
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
+
+    Examples
+    --------
+    >>> made = rholm.harmonics.patch_atlas(rholm.icosphere(3), degree=4)
+    >>> len(made.atlas) > 1
+    True
     """
     core = finite_points(as_shape(shape))[0]._core
     wanted = options_of(_core.PatchAtlasOptions, {**options}, "patch_atlas", degree=degree)
@@ -467,6 +589,7 @@ def patch_atlas(
     return PatchAtlas(Atlas._of(model), Mesh._of(surface), rms)
 
 
+@public
 def patch_picture(
     shape: MeshLike | PointCloud,
     view: Literal["patches", "triangles", "spheres"] = "patches",
@@ -487,7 +610,12 @@ def patch_picture(
     min_cosine : float
         As in `patch_atlas`.
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
+
+    Examples
+    --------
+    >>> rholm.figures.patch_picture(rholm.icosphere(3)).colors.shape[1]
+    3
     """
     core = finite_points(as_shape(shape))[0]._core
     with caller(threads, progress) as how:

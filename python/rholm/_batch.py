@@ -15,6 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import public
+from ._arrays import read_only
 from ._errors import CancelledError
 from ._expansion import Expansion
 from ._run import Progress, reporter
@@ -22,19 +24,28 @@ from ._run import Progress, reporter
 _LEADING = ("id", "path", "error", "message", "seconds", "cpu_seconds")
 
 
+@public
 class BatchTable:
     """Table of results from `batch` and `read_batch`.
 
     ``table["area"]`` is a NumPy array with a value for each row. Numbers are NaN where a value is
     missing. Booleans become numbers if a value is missing; texts are objects. Lists of numbers form
     an array of two dimensions.
+
+    Examples
+    --------
+    >>> table = rholm.batch(
+    ...     [rholm.box((1, 1, n)) for n in (1, 2)], lambda mesh: {"volume": mesh.volume}
+    ... )
+    >>> table["volume"]
+    array([1., 2.])
     """
 
     __slots__ = ("_columns", "_core")
 
     def __init__(self, core: _core.BatchTable) -> None:
         self._core = core
-        self._columns = {name: _array(values) for name, values in core.columns}
+        self._columns = {name: read_only(_array(values)) for name, values in core.columns}
 
     @property
     def columns(self) -> dict[str, npt.NDArray[Any]]:
@@ -64,6 +75,13 @@ class BatchTable:
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, BatchTable):
+            return NotImplemented
+        return list(self) == list(other) and all(_same(self[name], other[name]) for name in self)
+
+    __hash__ = None  # type: ignore[assignment]
+
     def __repr__(self) -> str:
         failed = int(self.failed.sum())
         return f"BatchTable({len(self)} rows, {failed} failed, {len(self._columns)} columns)"
@@ -84,6 +102,13 @@ class BatchTable:
             False: leaves out the column ``coefficients``.
         raw_cells : bool
             True: writes all texts without an added apostrophe.
+
+        Examples
+        --------
+        >>> table = rholm.batch([1, 2, 3], lambda n: n * n)
+        >>> table.to_csv("squares.csv")
+        >>> len(rholm.read_batch("squares.csv"))
+        3
         """
         self._write(path, ".csv", coefficients, raw_cells)
 
@@ -94,11 +119,25 @@ class BatchTable:
         ----------
         path : path
             File name that ends in .h5. An existing file is replaced when the new one is complete.
+
+        Examples
+        --------
+        >>> table = rholm.batch([1, 2, 3], lambda n: n * n)
+        >>> table.to_hdf5("squares.h5")
+        >>> rholm.read_batch("squares.h5")["value"].tolist()
+        [1, 4, 9]
         """
         self._write(path, ".h5", True, False)
 
     def to_pandas(self) -> Any:
-        """Returns a ``pandas.DataFrame``. A list of numbers takes columns name.0, name.1, ..."""
+        """Returns a ``pandas.DataFrame``. A list of numbers takes columns name.0, name.1, ...
+
+        Examples
+        --------
+        >>> table = rholm.batch([1, 2, 3], lambda n: n * n, times=False)
+        >>> list(table.to_pandas().columns)
+        ['id', 'error', 'message', 'value']
+        """
         pandas = _import("pandas", "to_pandas()")
         columns = {}
         for name, values in self._columns.items():
@@ -115,6 +154,10 @@ class BatchTable:
         ----------
         path : path
             File to write. An existing file is overwritten.
+
+        Examples
+        --------
+        >>> rholm.batch([1, 2, 3], lambda n: n * n).to_parquet("squares.parquet")
         """
         arrow = _import("pyarrow", "to_parquet()")
         parquet = _import("pyarrow.parquet", "to_parquet()")
@@ -135,6 +178,7 @@ class BatchTable:
         self._core.write(name, coefficients, raw_cells)
 
 
+@public
 def read_batch(path: str | os.PathLike[str]) -> BatchTable:
     """Reads the results of ``rholm batch`` and of `BatchTable.to_hdf5`.
 
@@ -142,10 +186,19 @@ def read_batch(path: str | os.PathLike[str]) -> BatchTable:
     ----------
     path : path
         HDF5 or CSV file. All values of a CSV file are texts.
+
+    Examples
+    --------
+    >>> rholm.batch([rholm.icosphere(1)], lambda mesh: {"faces": len(mesh.faces)}).to_hdf5(
+    ...     "table.h5"
+    ... )
+    >>> rholm.read_batch("table.h5")["faces"].tolist()
+    [80]
     """
     return BatchTable(_core.read_batch(os.fspath(path)))
 
 
+@public
 def batch(
     items: Iterable[Any],
     function: Callable[[Any], Any],
@@ -189,12 +242,19 @@ def batch(
     in_flight : int
         Largest number of calls that wait or run at a time.
     progress : callable, bool or None
-        As in `caller`; it counts items.
+        See ``help(rholm)``; it counts items.
 
     Returns
     -------
     table : BatchTable
         Columns ``id``, ``path`` if items are paths, ``error``, ``message``, times, and the results.
+
+    Examples
+    --------
+    >>> bodies = [rholm.box((1, 1, n)) for n in (1, 2, 3)]
+    >>> table = rholm.batch(bodies, lambda mesh: {"area": mesh.area, "volume": mesh.volume})
+    >>> table["volume"], table["area"]
+    (array([1., 2., 3.]), array([ 6., 10., 14.]))
     """
     if in_flight < 1:
         raise ValueError(f"in_flight is at least 1, not {in_flight}")
@@ -438,6 +498,11 @@ def _array(values: Any) -> npt.NDArray[Any]:
     if array.dtype != np.int8:
         return array
     return np.where(array < 0, np.nan, array) if np.any(array < 0) else array.astype(bool)
+
+
+def _same(a: npt.NDArray[Any], b: npt.NDArray[Any]) -> bool:
+    """Returns True for equal arrays; missing numbers are equal."""
+    return bool(np.array_equal(a, b, equal_nan=a.dtype.kind == "f" and b.dtype.kind == "f"))
 
 
 def _import(name: str, use: str) -> Any:

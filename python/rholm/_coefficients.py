@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import public
 from ._arrays import FloatArray, numeric
 from ._errors import InvalidInputError
 from ._interop import _package, coefficients_of_pyshtools
@@ -29,17 +30,16 @@ SpectrumUnit = Literal["per_l", "per_lm", "per_dlogl"]
 
 def core_of(coefficients: CoefficientsLike) -> _core.Coefficients:
     """Returns coefficients in the library's own convention."""
-    from ._expansion import Expansion
-
     if isinstance(coefficients, _core.Coefficients):
         return coefficients
-    if isinstance(coefficients, Expansion):
-        return coefficients._core.coefficients
+    inner = getattr(coefficients, "_core", None)
+    if isinstance(inner, _core.Expansion):
+        return inner.coefficients
     if _package(coefficients) == "pyshtools":
         convention: Any
         values, *convention = coefficients_of_pyshtools(coefficients)
         return from_convention(values, *convention)
-    return from_convention(coefficients)
+    return from_convention(cast("npt.ArrayLike", coefficients))
 
 
 def array_of(core: _core.Coefficients, normalization: Normalization = "4pi", csphase: int = 1) -> FloatArray:
@@ -47,6 +47,7 @@ def array_of(core: _core.Coefficients, normalization: Normalization = "4pi", csp
     return np.array(_core.to_convention(core, normalization, csphase).values)
 
 
+@public
 def from_convention(
     values: npt.ArrayLike, normalization: Normalization = "4pi", csphase: int = 1
 ) -> _core.Coefficients:
@@ -62,6 +63,12 @@ def from_convention(
         Normalization of the array.
     csphase : {1, -1}
         Phase of its harmonics: -1 for the factor (-1)^m.
+
+    Examples
+    --------
+    >>> own = rholm.harmonics.from_convention([[[1.0]], [[0.0]]], "4pi")
+    >>> bool(np.isclose(own.values[0, 0, 0], np.sqrt(4 * np.pi)))
+    True
     """
     array = numeric(values, "coefficients")
     if array.ndim != 3 or array.shape[0] != 2:
@@ -72,6 +79,7 @@ def from_convention(
     return _core.from_convention(rows, normalization, csphase)
 
 
+@public
 def to_convention(
     coefficients: CoefficientsLike, normalization: Normalization = "4pi", csphase: int = 1
 ) -> FloatArray:
@@ -85,10 +93,18 @@ def to_convention(
         Mean square of each harmonic over the sphere: 1, 1/(4 pi), 1/(2l+1).
     csphase : {1, -1}
         Phase of the harmonics: -1 for the Condon-Shortley factor (-1)^m.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.icosphere(4), degree=2)
+    >>> factor = rholm.harmonics.to_convention(s, "orthonormal")[0, 0, 0] / s.coeffs[0, 0, 0]
+    >>> bool(np.isclose(factor, np.sqrt(4 * np.pi)))
+    True
     """
     return array_of(core_of(coefficients), normalization, csphase)
 
 
+@public
 def rms_beyond(expansion: Expansion) -> FloatArray:
     """Returns the truncation error at each degree; see `Expansion.rms_beyond`.
 
@@ -96,10 +112,18 @@ def rms_beyond(expansion: Expansion) -> FloatArray:
     ----------
     expansion : Expansion
         Expansion of any function.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=8)
+    >>> error = rholm.harmonics.rms_beyond(s)
+    >>> bool(error[8] < error[0])
+    True
     """
     return expansion.rms_beyond()
 
 
+@public
 def power_spectrum(
     coefficients: CoefficientsLike,
     kind: SpectrumKind = "energy",
@@ -126,6 +150,13 @@ def power_spectrum(
     ------
     InvalidInputError
         For another kind, unit or base.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=8)
+    >>> energy = rholm.harmonics.power_spectrum(s)
+    >>> bool(np.isclose(energy.sum() / (4 * np.pi), (s.coeffs**2).sum()))
+    True
     """
     if kind not in ("power", "energy"):
         raise InvalidInputError(f"kind is 'power' or 'energy', not {kind!r}")
@@ -144,6 +175,7 @@ def power_spectrum(
     return values
 
 
+@public
 def distance(a: CoefficientsLike, b: CoefficientsLike) -> float:
     """Returns the root mean square of a - b over the sphere; missing degrees are zero.
 
@@ -151,10 +183,18 @@ def distance(a: CoefficientsLike, b: CoefficientsLike) -> float:
     ----------
     a, b : coefficients-like
         Two functions.
+
+    Examples
+    --------
+    >>> c = np.zeros((2, 3, 3))
+    >>> c[0, 2, 0] = 0.5
+    >>> round(rholm.harmonics.distance(c, np.zeros((2, 1, 1))), 6)
+    0.5
     """
     return _core.distance(core_of(a), core_of(b))
 
 
+@public
 def descriptor_distance(a: CoefficientsLike, b: CoefficientsLike) -> float:
     """Returns the distance of the norms per degree, a lower bound of the distance after any
     rotation.
@@ -168,10 +208,18 @@ def descriptor_distance(a: CoefficientsLike, b: CoefficientsLike) -> float:
     ----------
     M. Kazhdan, T. Funkhouser, S. Rusinkiewicz, Rotation invariant spherical harmonic representation
     of 3D shape descriptors, 2003.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=8)
+    >>> turned = s.rotate(rholm.rotation_about((1, 2, 3), 0.4))
+    >>> rholm.harmonics.descriptor_distance(s, turned) < 1e-12
+    True
     """
     return _core.descriptor_distance(core_of(a), core_of(b))
 
 
+@public
 def principal_axes(coefficients: CoefficientsLike, function: Function = "radius") -> _core.PrincipalAxes:
     """Returns the principal axes of the quadratic form of degree 2, longest first.
 
@@ -191,10 +239,17 @@ def principal_axes(coefficients: CoefficientsLike, function: Function = "radius"
     axes : PrincipalAxes
         Unit vectors, values in the unit of the coefficients (their sum is 0), and the rotation that
         turns the axes to x, y, z.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.ellipsoid((1, 2, 3), 4), degree=8)
+    >>> np.abs(rholm.harmonics.principal_axes(s).axes[0]).round(6)
+    array([0., 0., 1.])
     """
     return _core.principal_axes(core_of(coefficients), function)
 
 
+@public
 def metres_of(unit: str) -> float | None:
     """Returns the length of a unit in metres: "m" with decimal prefixes, "in", "ft", "au", ...
 
@@ -202,10 +257,16 @@ def metres_of(unit: str) -> float | None:
     ----------
     unit : str
         Name of the unit; "mm" and "Mm" differ. The result is None for any other text.
+
+    Examples
+    --------
+    >>> rholm.harmonics.metres_of("km"), rholm.harmonics.metres_of("stone")
+    (1000.0, None)
     """
     return _core.metres_of(unit)
 
 
+@public
 def check_unit(unit: str) -> None:
     """Raises InvalidInputError unless a text can name a unit of lengths in every format.
 
@@ -213,5 +274,9 @@ def check_unit(unit: str) -> None:
     ----------
     unit : str
         One line of at most 256 bytes without blanks at its ends.
+
+    Examples
+    --------
+    >>> rholm.harmonics.check_unit("km")
     """
     _core.check_unit(unit)

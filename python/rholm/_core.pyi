@@ -1,4 +1,4 @@
-"""Bindings of the C++ library; use the package rholm instead."""
+"""The C++ library; use rholm itself."""
 
 from collections.abc import Mapping, Sequence
 import os
@@ -19,7 +19,7 @@ NO_CAP: int = 4294967295
 ERRORS: tuple = ...
 
 class Caller:
-    """Threads and progress callback of one call."""
+    """Threads and progress of one call."""
 
     def __init__(self, threads: int, progress: object | None) -> None: ...
 
@@ -29,7 +29,7 @@ def after_fork_in_child() -> None:
     """
 
 class Mesh:
-    """A mesh of triangles that share vertices."""
+    """Triangles that share vertices."""
 
     def __init__(self, arg0: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.uint32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], arg2: Sequence[tuple[str, str, Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]]], /) -> None: ...
 
@@ -89,7 +89,7 @@ def write_shape(arg0: Mesh | PointCloud, arg1: str, arg2: str | None, arg3: bool
 def attributes_left_out(arg0: Sequence[str], arg1: str, /) -> list[str]: ...
 
 class MappedMesh:
-    """A mesh in a mapped file."""
+    """A mesh where it lies in a file."""
 
     @property
     def vertex_bytes(self) -> Annotated[NDArray[numpy.uint8], dict(writable=False)]: ...
@@ -106,7 +106,7 @@ class MappedMesh:
 def map_mesh(arg0: str, arg1: Caller, /) -> MappedMesh | None: ...
 
 class Bounds:
-    """A box with sides along the axes."""
+    """A box along the axes."""
 
     def __repr__(self) -> str: ...
 
@@ -119,23 +119,23 @@ class Bounds:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def min(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Corner with the smallest coordinates."""
+        """The corner with the smallest coordinates."""
 
     @property
     def max(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Corner with the largest coordinates."""
+        """The corner with the largest coordinates."""
 
     @property
     def diagonal(self) -> float:
-        """Length of the diagonal."""
+        """Its length."""
 
 class Inspection:
     """
-    Properties of a mesh. Counts are of the given mesh: weld it first to close seams.
+    What a mesh is. Counts are those of the mesh given: weld first to close seams.
     """
 
     def __repr__(self) -> str: ...
@@ -149,7 +149,7 @@ class Inspection:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def vertices(self) -> int:
@@ -157,83 +157,79 @@ class Inspection:
 
     @property
     def triangles(self) -> int:
-        """Number of faces, with an area or not."""
+        """Number of triangles, with an area or not."""
 
     @property
     def edges(self) -> int:
-        """Number of pairs of vertices that a face joins."""
+        """Pairs of vertices that a triangle joins."""
 
     @property
     def boundary_edges(self) -> int:
-        """Number of edges of only one face."""
+        """Edges in one triangle only."""
 
     @property
     def non_manifold_edges(self) -> int:
-        """Number of edges of three or more faces."""
+        """Edges in three triangles or more."""
 
     @property
     def misoriented_edges(self) -> int:
-        """Number of edges that two faces use in the same direction."""
+        """Edges in two triangles that run through them in the same sense."""
 
     @property
     def non_manifold_vertices(self) -> int:
-        """Number of vertices whose faces do not form one fan."""
+        """Vertices whose triangles do not form one fan."""
 
     @property
     def isolated_vertices(self) -> int:
-        """Number of vertices that no face uses."""
+        """Vertices in no triangle."""
 
     @property
     def degenerate_triangles(self) -> int:
-        """Number of faces thinner than the rounding of their coordinates."""
+        """Triangles thinner than the rounding of their coordinates."""
 
     @property
     def duplicate_triangles(self) -> int:
-        """Number of faces with the same three vertices as an earlier face."""
+        """Triangles with the three vertices of an earlier one."""
 
     @property
     def components(self) -> int:
-        """Number of parts connected through edges."""
+        """Parts connected through edges."""
 
     @property
     def euler_characteristic(self) -> int:
-        """Number of used vertices minus edges plus faces."""
+        """Used vertices - edges + triangles."""
 
     @property
     def genus(self) -> int:
-        """Number of handles of all parts together, for closed manifold meshes."""
+        """Handles, of all parts together; of closed manifold meshes."""
 
     @property
     def closed(self) -> bool:
-        """True if the mesh has at least one face and no boundary edge."""
+        """No boundary edge, at least one triangle."""
 
     @property
     def manifold(self) -> bool:
-        """True if the mesh has no non-manifold edge or vertex."""
+        """No non-manifold edge or vertex."""
 
     @property
     def oriented(self) -> bool:
-        """True if the mesh has no misoriented edge."""
+        """No misoriented edge."""
 
     @property
     def inside_out(self) -> bool:
-        """
-        True if the mesh is closed and oriented, but encloses a negative volume.
-        """
+        """Closed and oriented, but the enclosed volume is negative."""
 
     @property
     def bounds(self) -> Bounds:
-        """Bounding box of all vertices."""
+        """Box around all vertices."""
 
     @property
     def area(self) -> float:
-        """Area of all faces, in the squared unit of the vertices."""
+        """Of all triangles, in the squared unit of the vertices."""
 
     @property
     def volume(self) -> float:
-        """
-        Signed volume of a closed oriented mesh, in the cubed unit of the vertices.
-        """
+        """Signed, of closed oriented meshes, in the cubed unit."""
 
     @property
     def vertex_centroid(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
@@ -241,12 +237,10 @@ class Inspection:
 
     @property
     def volume_centroid(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """
-        Centroid of the solid, if the mesh is closed and its volume is not zero.
-        """
+        """Of the solid, if it is closed and its volume is not zero."""
 
 class RepairReport:
-    """Report of `repair`: changes, and defects that remain."""
+    """Report of a repair: changes, and defects that remain."""
 
     def __repr__(self) -> str: ...
 
@@ -259,91 +253,85 @@ class RepairReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def before(self) -> Inspection:
-        """State of the mesh before the repair, welded exactly."""
+        """State of the mesh welded exactly."""
 
     @property
     def merged_vertices(self) -> int:
-        """Number of vertices merged by welding."""
+        """Vertices merged by welding."""
 
     @property
     def collapsed_triangles(self) -> int:
-        """Number of faces dropped because welding merged two of their corners."""
+        """Triangles of which welding made two corners one."""
 
     @property
     def isolated_vertices(self) -> int:
-        """Number of vertices dropped because no face uses them."""
+        """Vertices dropped: in no triangle."""
 
     @property
     def duplicate_triangles(self) -> int:
-        """Number of faces dropped because an earlier face has the same vertices."""
+        """Triangles dropped: same vertices as an earlier one."""
 
     @property
     def degenerate_triangles(self) -> int:
-        """
-        Number of faces dropped or swapped because they are thinner than rounding.
-        """
+        """Triangles thinner than rounding, dropped or swapped."""
 
     @property
     def junctions(self) -> int:
-        """
-        Number of vertices on edges of other faces (T-junctions) that were joined.
-        """
+        """Vertices on edges of others' triangles (T-junctions), joined."""
 
     @property
     def flipped_triangles(self) -> int:
-        """Number of faces that were turned."""
+        """Triangles that were turned."""
 
     @property
     def inside_out_parts(self) -> int:
-        """Number of closed parts that were turned as a whole."""
+        """Closed parts that were turned as a whole."""
 
     @property
     def cavities(self) -> int:
-        """
-        Number of closed parts inside another part, which are oriented inwards.
-        """
+        """Closed parts within another: they face inwards."""
 
     @property
     def split_vertices(self) -> int:
-        """Number of new vertices where sheets met in one vertex."""
+        """New vertices where sheets met in one."""
 
     @property
     def closed_holes(self) -> int:
-        """Number of holes closed by new faces."""
+        """Holes closed by new triangles."""
 
     @property
     def hole_triangles(self) -> int:
-        """Number of new faces that close holes."""
+        """Triangles put into them."""
 
     @property
     def large_holes(self) -> int:
-        """Number of holes left open because they have more edges than allowed."""
+        """Holes left: more edges than allowed."""
 
     @property
     def largest_hole(self) -> int:
-        """Number of edges of the largest hole with more edges than allowed."""
+        """Edges of the largest of these."""
 
     @property
     def sheets(self) -> int:
-        """Number of holes left open because they are borders of open sheets."""
+        """Holes left: borders of open sheets."""
 
     @property
     def one_sided_parts(self) -> int:
-        """Number of parts left without an orientation (Moebius strips)."""
+        """Parts left without an orientation (Moebius strips)."""
 
     @property
     def closes_at(self) -> float | None:
         """
-        Tolerance of welding that would join the remaining borders; None if there is none.
+        Tolerance of welding that would join the borders left; none if none would.
         """
 
     @property
     def after(self) -> Inspection:
-        """State of the mesh after the repair, welded exactly."""
+        """State of the result, welded exactly."""
 
 def weld(arg0: Mesh, arg1: float, /) -> tuple: ...
 
@@ -370,7 +358,7 @@ def surface_area(arg: Mesh, /) -> float: ...
 def enclosed_volume(arg: Mesh, /) -> float: ...
 
 class RepairOptions:
-    """Options of `repair`."""
+    """Steps of the repair of a mesh."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -393,7 +381,7 @@ class RepairOptions:
 def repair(arg0: Mesh, arg1: RepairOptions, arg2: Caller, /) -> tuple: ...
 
 class SimplifyOptions:
-    """Options of `simplify`: when it stops."""
+    """Where simplify() stops."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -434,9 +422,7 @@ def torus(arg0: float, arg1: float, arg2: int, arg3: int, /) -> Mesh: ...
 def bumpy_sphere(arg0: int, arg1: float, arg2: int, /) -> Mesh: ...
 
 class SampleOptions:
-    """
-    Options of `sample_surface`: errors, outliers and places of the samples.
-    """
+    """Errors, outliers and places of the samples of a surface."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -543,7 +529,7 @@ class SampleOptions:
 def sample_surface(arg0: Mesh, arg1: SampleOptions, arg2: Caller, /) -> PointCloud: ...
 
 class CleanReport:
-    """Report of `clean`."""
+    """Report of clean()."""
 
     def __repr__(self) -> str: ...
 
@@ -556,36 +542,32 @@ class CleanReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def points(self) -> int:
-        """Number of points before cleaning."""
+        """Number of points before."""
 
     @property
     def not_finite(self) -> int:
-        """Number of points dropped because a coordinate is NaN or infinite."""
+        """Points dropped: a coordinate was NaN or infinite."""
 
     @property
     def duplicates(self) -> int:
-        """
-        Number of points dropped because an earlier point has the same position.
-        """
+        """Points dropped: at the place of an earlier one."""
 
     @property
     def opposite_normals(self) -> int:
-        """
-        Number of dropped duplicates whose normal opposes the normal of the earlier point.
-        """
+        """Of these, with a normal against the earlier one's."""
 
     @property
     def zero_normals(self) -> int:
-        """Number of remaining points with a zero normal."""
+        """Of the points that stay, those with a zero normal."""
 
 def clean(arg0: PointCloud, arg1: Caller, /) -> tuple: ...
 
 class ScanAlignment:
-    """Report of `align_scans`; lengths are in the unit of the points."""
+    """Report of align_scans(); lengths are in the unit of the points."""
 
     def __repr__(self) -> str: ...
 
@@ -598,38 +580,34 @@ class ScanAlignment:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def scans(self) -> int:
-        """
-        Number of scans: different values of the attribute `scan`; 0 without the attribute.
-        """
+        """Different values of the attribute; 0 without one."""
 
     @property
     def pairs(self) -> int:
-        """Number of compared pairs of points from different scans."""
+        """Points of one scan that were compared with those of another."""
 
     @property
     def distance_before(self) -> float:
         """
-        Standard deviation of the distance between paired points along the normal, before the alignment.
+        Of these pairs along the normal, as a standard deviation, before anything moved.
         """
 
     @property
     def distance(self) -> float:
-        """
-        Standard deviation of the distance between paired points along the normal, after the alignment.
-        """
+        """The same after."""
 
     @property
     def moved(self) -> float:
-        """Root mean square displacement of all points."""
+        """Root mean square way of all points."""
 
 def align_scans(arg0: PointCloud, arg1: Caller, /) -> tuple: ...
 
 class OrientOptions:
-    """Options of `orient`."""
+    """How normals are found and which side is outside."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -674,7 +652,7 @@ class OrientOptions:
     FIELDS: tuple = ...
 
 class OrientReport:
-    """Report of `orient`."""
+    """Report of orient(), with its certainty."""
 
     def __repr__(self) -> str: ...
 
@@ -687,52 +665,44 @@ class OrientReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def points(self) -> int:
-        """Number of given points."""
+        """Points given."""
 
     @property
     def duplicates(self) -> int:
-        """
-        Number of points at the position of an earlier point, whose normal they share.
-        """
+        """Points at the place of an earlier one, whose normal they share."""
 
     @property
     def neighbors(self) -> int:
-        """Number of neighbours that a normal is fitted to."""
+        """Points of a fit."""
 
     @property
     def components(self) -> int:
-        """
-        Number of connected parts of the neighbour graph; 0 with a centre or a sensor.
-        """
+        """Parts of the graph of neighbours; 0 with a centre or a sensor."""
 
     @property
     def computed(self) -> int:
-        """Number of normals with a newly computed direction."""
+        """Normals whose direction is new."""
 
     @property
     def flipped(self) -> int:
-        """Number of normals whose sign was changed."""
+        """Normals that were turned round."""
 
     @property
     def outliers(self) -> int:
-        """
-        Number of isolated points, which got the normal of the nearest point that is not isolated.
-        """
+        """Points far from all others, which took the normal of the nearest."""
 
     @property
     def undetermined(self) -> int:
-        """
-        Number of points with a zero normal, because their neighbours lie on a line.
-        """
+        """Points whose neighbours lie on a line: their normals are zero."""
 
     @property
     def mean_confidence(self) -> float:
         """
-        Mean confidence of all points; a sign is right with at least the probability (1 + confidence) / 2.
+        Mean over the points: a sign is right with the probability (1 + confidence) / 2.
         """
 
     @property
@@ -770,7 +740,7 @@ def power_spectrum(arg: Coefficients, /) -> NDArray[numpy.float64]: ...
 
 class TruncationErrors:
     """
-    Errors of an expansion relative to its shape, in the unit of lengths; None where unknown.
+    How far a surface is from the shape it was made of, in the unit of lengths; None where it is not known.
     """
 
     def __repr__(self) -> str: ...
@@ -784,64 +754,56 @@ class TruncationErrors:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def rms(self) -> float | None:
-        """Root mean square radial error over solid angle."""
+        """Radial, root mean square over solid angle."""
 
     @property
     def rms_is_exact(self) -> bool:
-        """True if rms is exact by Parseval's identity, false if it is measured."""
+        """Whether rms is by Parseval's identity, not measured."""
 
     @property
     def predicted_max(self) -> float | None:
-        """Largest radial error at the vertices, predicted in closed form."""
+        """Largest radial error at the vertices, in closed form."""
 
     @property
     def predicted_max_distance(self) -> float | None:
-        """
-        Largest distance between the surfaces at the vertices, predicted in closed form.
-        """
+        """The same as a distance."""
 
     @property
     def measured_max(self) -> float | None:
-        """Largest radial error measured at `points` points of the shape."""
+        """Largest radial error at `points` points of the shape."""
 
     @property
     def max_bound(self) -> float | None:
         """
-        Upper bound of the radial error, by branch and bound; None for a gauge, or if larger than the diagonal.
+        No radial error is larger, by branch and bound; None for a gauge, or beyond the diagonal.
         """
 
     @property
     def measured_max_distance(self) -> float | None:
-        """
-        Largest distance between the surfaces, measured at `points` points of the shape.
-        """
+        """The same as a distance."""
 
     @property
     def distance_rms(self) -> float | None:
-        """
-        Root mean square distance between the surfaces over area, the larger of both directions.
-        """
+        """Root mean square of distances over area, the larger of both ways."""
 
     @property
     def distances_are_closest(self) -> bool:
-        """
-        True if distances are to closest points, false if they are first-order estimates.
-        """
+        """Whether distances are by closest points."""
 
     @property
     def points(self) -> int:
-        """Number of points of the shape at which errors are measured."""
+        """At which was measured."""
 
     @property
     def diagonal(self) -> float:
-        """Diagonal of the shape's bounding box; 0 if unknown."""
+        """Of the shape's bounding box; 0 if not known."""
 
 class GravityField:
-    """Reference values of the coefficients of a gravity field."""
+    """References of the coefficients of a gravity field."""
 
     def __repr__(self) -> str: ...
 
@@ -854,18 +816,18 @@ class GravityField:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def gravity_constant(self) -> float:
-        """Gravity constant G M, in m^3/s^2."""
+        """G M in m^3/s^2."""
 
     @property
     def reference_radius(self) -> float:
-        """Radius of the reference sphere about the centre, in m."""
+        """Of the sphere about the centre, in m."""
 
 class Expansion:
-    """A surface as spherical harmonic coefficients."""
+    """A surface as coefficients."""
 
     def __init__(self, coefficients: Coefficients, function: str = 'radius', center: Sequence[float] | numpy.typing.NDArray[numpy.float64] = (0.0, 0.0, 0.0), unit: str = '', method: str = '', norm_squared: float | None = None, tail_strength: float | None = None, errors: TruncationErrors | None = None, signed_sum: bool = False) -> None: ...
 
@@ -941,7 +903,7 @@ def filter(arg0: Coefficients, arg1: Annotated[NDArray[numpy.float64], dict(shap
 def filter(arg0: Expansion, arg1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], arg2: str, /) -> Expansion: ...
 
 class Overshoot:
-    """Overshoot of a filtered step beyond 0 ... 1, relative to its height."""
+    """How far a filtered step leaves 0 ... 1, in parts of its height."""
 
     def __repr__(self) -> str: ...
 
@@ -954,15 +916,15 @@ class Overshoot:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def above(self) -> float:
-        """Largest value of the filtered step, minus 1."""
+        """Largest value - 1."""
 
     @property
     def below(self) -> float:
-        """Smallest value of the filtered step, times -1."""
+        """Minus the smallest value."""
 
 @overload
 def overshoot(arg: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], /) -> Overshoot: ...
@@ -1013,7 +975,7 @@ def analyze_grid(arg0: Annotated[NDArray[numpy.float64], dict(shape=(None,), ord
 def evaluate_rings(arg0: Coefficients, arg1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], arg2: int, arg3: Caller, /) -> NDArray[numpy.float64]: ...
 
 class Rotation:
-    """A rotation as a unit quaternion; its negative is the same rotation."""
+    """A unit quaternion; the same rotation as its negative."""
 
     def __init__(self, w: float = 1.0, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> None: ...
 
@@ -1028,23 +990,23 @@ class Rotation:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def w(self) -> float:
-        """Cosine of half the angle of rotation."""
+        """cos(a/2), a the angle."""
 
     @property
     def x(self) -> float:
-        """Component x of the axis, times the sine of half the angle."""
+        """sin(a/2) times the axis."""
 
     @property
     def y(self) -> float:
-        """Component y of the axis, times the sine of half the angle."""
+        """sin(a/2) times the axis."""
 
     @property
     def z(self) -> float:
-        """Component z of the axis, times the sine of half the angle."""
+        """sin(a/2) times the axis."""
 
 def rotation_about(arg0: Sequence[float] | numpy.typing.NDArray[numpy.float64], arg1: float, /) -> Rotation: ...
 
@@ -1080,7 +1042,7 @@ def mirror(arg0: Coefficients, arg1: str, /) -> Coefficients: ...
 def mirror(arg0: Expansion, arg1: str, arg2: Sequence[float] | numpy.typing.NDArray[numpy.float64], /) -> Expansion: ...
 
 class PrincipalAxes:
-    """Principal axes of the quadratic form of degree 2."""
+    """The axes of the quadratic form of degree 2."""
 
     def __repr__(self) -> str: ...
 
@@ -1093,32 +1055,28 @@ class PrincipalAxes:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def axes(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """
-        Principal axes in rows, right-handed, orthonormal, longest first, (3, 3).
-        """
+        """Rows: right-handed, orthonormal, longest first, (3, 3)."""
 
     @property
     def values(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Values of the form along the axes, descending, (3,); their sum is 0."""
+        """Of the form, descending, (3,); their sum is 0."""
 
     @property
     def to_axes(self) -> Rotation:
-        """Rotation that turns the axes to x, y and z."""
+        """Turns the axes to x, y and z."""
 
     @property
     def free_axes(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """
-        Axes about which the form can turn without changing: none, one or three, (n, 3).
-        """
+        """About these the form turns freely: none, one or three, (n, 3)."""
 
 def principal_axes(arg0: Coefficients, arg1: str, /) -> PrincipalAxes: ...
 
 class AlignOptions:
-    """Options of `align`."""
+    """How a rotation is sought."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1169,7 +1127,7 @@ class AlignOptions:
     FIELDS: tuple = ...
 
 class AlignedRotation:
-    """A rotation of a, and how closely it brings a to b."""
+    """A rotation of a, and how well it lays a on b."""
 
     def __repr__(self) -> str: ...
 
@@ -1182,32 +1140,26 @@ class AlignedRotation:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def rotation(self) -> Rotation:
-        """Rotation that turns a, or the mirror image of a if mirrored, onto b."""
+        """Of the mirror image, if mirrored."""
 
     @property
     def mirrored(self) -> bool:
-        """
-        True if the reflection x -> -x is applied before the rotation; y and z stay.
-        """
+        """Whether the reflection x -> -x comes first; y and z stay."""
 
     @property
     def correlation(self) -> float:
-        """
-        Normalised correlation over the degrees from 1 on; 1 means equal up to a factor.
-        """
+        """Of degrees from 1 on, normalised: 1 is equal up to a factor."""
 
     @property
     def distance(self) -> float:
-        """
-        Root mean square difference between the rotated a and b over the sphere, all degrees.
-        """
+        """Root mean square of R a - b over the sphere, all degrees."""
 
 class Alignment:
-    """The best rotation, and rotations that are nearly as good."""
+    """The best rotation, and those that are nearly as good."""
 
     def __repr__(self) -> str: ...
 
@@ -1220,35 +1172,29 @@ class Alignment:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def best(self) -> AlignedRotation:
-        """
-        Rotation with the largest correlation; among equal ones the one with the smallest angle.
-        """
+        """Of several that are equal the smallest turn."""
 
     @property
     def ambiguities(self) -> list[AlignedRotation]:
         """
-        Other rotations that are nearly as good, best first, at most 32: symmetries of the shape.
+        Others that are nearly as good, best first, at most 32: symmetries of the shape.
         """
 
     @property
     def free_axes(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """
-        Axes in the frame of b about which a turn hardly changes the correlation, (n, 3).
-        """
+        """Axes in the frame of b about which turning changes nothing, (n, 3)."""
 
     @property
     def unaligned_distance(self) -> float:
-        """
-        Root mean square difference between a and b over the sphere, before any rotation.
-        """
+        """Before any rotation."""
 
 class Placement:
     """
-    Rigid motion of a point p to R (p - from_point) + to_point, of the mirror image if mirrored.
+    The point p becomes R (p - from_point) + to_point, of the mirror image if mirrored.
     """
 
     def __repr__(self) -> str: ...
@@ -1262,30 +1208,30 @@ class Placement:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def alignment(self) -> Alignment:
-        """Rotation R, and whether the mirror image is taken."""
+        """R and whether it is mirrored."""
 
     @property
     def from_point(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Point of a that is moved to to_point, (3,)."""
+        """The point of a that is laid on b's, (3,)."""
 
     @property
     def to_point(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Point of b that from_point is moved to, (3,)."""
+        """The point of b, (3,)."""
 
     @property
     def centers(self) -> str:
         """
-        Choice of from_point and to_point: "volume", the centroids, or "own", the centres of the expansions.
+        Which points these are: "volume", the centroids, or "own", the centres of the expansions.
         """
 
     @property
     def why_own(self) -> str:
         """
-        Reason why the centroids could not be used; empty if they were used or not wanted.
+        Why the centroids could not be taken; empty if they were, or not asked for.
         """
 
 @overload
@@ -1306,8 +1252,8 @@ def seen_center(arg0: Expansion, arg1: Sequence[float] | numpy.typing.NDArray[nu
 
 def recentered(arg0: Expansion, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64], arg2: Caller, /) -> Expansion: ...
 
-class AnalyzeOptions:
-    """Options of the transform from a chart to coefficients."""
+class TransformOptions:
+    """Function to expand, and method."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1340,7 +1286,7 @@ class AnalyzeOptions:
     FIELDS: tuple = ...
 
 class Tolerance:
-    """Largest allowed error of a model."""
+    """The largest error that is allowed."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1379,7 +1325,7 @@ class Tolerance:
     FIELDS: tuple = ...
 
 class CenterOptions:
-    """Options of the centre."""
+    """Where the centre is sought."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1408,7 +1354,7 @@ class CenterOptions:
 def parse_center(arg: str, /) -> CenterOptions: ...
 
 class ChartOptions:
-    """Options of a chart: the centre, and surfaces that are not star-shaped."""
+    """Rules for the centre, and for surfaces that are not star-shaped."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1428,18 +1374,36 @@ class ChartOptions:
 
     FIELDS: tuple = ...
 
-class EncodeOptions:
-    """Options of `expand`: degree, precision and errors."""
+class ExpandOptions:
+    """Degree, precision and error figures of an expansion."""
 
     def __init__(self, **fields: Any) -> None: ...
 
     def __repr__(self) -> str: ...
 
     @property
-    def analyze(self) -> AnalyzeOptions: ...
+    def degree(self) -> int: ...
 
-    @analyze.setter
-    def analyze(self, arg: AnalyzeOptions | None, /) -> None: ...
+    @degree.setter
+    def degree(self, arg: int | None, /) -> None: ...
+
+    @property
+    def method(self) -> str: ...
+
+    @method.setter
+    def method(self, arg: str, /) -> None: ...
+
+    @property
+    def engine(self) -> str: ...
+
+    @engine.setter
+    def engine(self, arg: str, /) -> None: ...
+
+    @property
+    def precision(self) -> float: ...
+
+    @precision.setter
+    def precision(self, arg: float | None, /) -> None: ...
 
     @property
     def tolerance(self) -> Tolerance | None: ...
@@ -1468,7 +1432,7 @@ class EncodeOptions:
     FIELDS: tuple = ...
 
 class StarReport:
-    """Visibility of a mesh from a centre."""
+    """How a mesh is seen from a centre."""
 
     def __repr__(self) -> str: ...
 
@@ -1481,62 +1445,54 @@ class StarReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def center(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Centre in the coordinates of the mesh, (3,)."""
+        """In the coordinates of the mesh, (3,)."""
 
     @property
     def min_d(self) -> float:
-        """
-        Smallest distance of the centre from the plane of a face; negative if a face points away from the centre.
-        """
+        """Distance of the nearest face plane; negative if a face turns its back."""
 
     @property
     def min_cos_gamma(self) -> float:
-        """
-        Smallest cosine of the angle between normal and ray from the centre, over all corners of all faces.
-        """
+        """Over all corners of all triangles."""
 
     @property
     def bad_triangles(self) -> int:
-        """Number of faces that point away from the centre."""
+        """Triangles that turn their backs."""
 
     @property
     def star_shaped(self) -> bool:
-        """
-        True if no face points away from the centre and every direction meets the surface once.
-        """
+        """No such triangle, and every direction covered once."""
 
     @property
     def rays(self) -> int:
-        """Number of tested directions."""
+        """Directions tried."""
 
     @property
     def once_share(self) -> float:
-        """Share of the tested directions that meet the surface exactly once."""
+        """Part of them that meet the surface once."""
 
     @property
     def multiple_share(self) -> float:
-        """Share of the tested directions that meet the surface more than once."""
+        """Part that meet it more than once."""
 
     @property
     def missed_share(self) -> float:
-        """Share of the tested directions that never meet the surface."""
+        """Part that never meet it."""
 
     @property
     def center_fell_back(self) -> bool:
-        """
-        True if no point sees the whole surface, so that the centre is only the best guess.
-        """
+        """Whether no point sees all faces, and the centre is the best guess."""
 
 def find_center(arg0: Mesh, arg1: CenterOptions, arg2: Caller, /) -> StarReport: ...
 
 def check_star(arg0: Mesh, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64], arg2: int, arg3: Caller, /) -> StarReport: ...
 
 class StarChart:
-    """A mesh relative to its centre."""
+    """A mesh seen from a centre."""
 
     def __getstate__(self) -> tuple: ...
 
@@ -1551,7 +1507,7 @@ class StarChart:
 def make_star_chart(arg0: Mesh, arg1: ChartOptions, arg2: Caller, /) -> StarChart: ...
 
 class FastReport:
-    """Report of the fast engine."""
+    """How the fast engine did it."""
 
     def __repr__(self) -> str: ...
 
@@ -1564,66 +1520,62 @@ class FastReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def single(self) -> bool:
-        """True if sources were spread in single precision."""
+        """Whether sources were spread in single precision."""
 
     @property
     def width(self) -> int:
-        """Number of grid points of the spreading window."""
+        """Grid points of the window."""
 
     @property
     def oversampling(self) -> float:
-        """Oversampling factor of the grid."""
+        """Of the grid."""
 
     @property
     def lumped_triangles(self) -> int:
-        """Number of faces represented by sources at their vertices."""
+        """Triangles whose sources are those of their vertices."""
 
     @property
     def nodes(self) -> int:
-        """Number of sources that are not at vertices."""
+        """Sources of their own."""
 
     @property
     def vertices(self) -> int:
-        """Number of sources at vertices."""
+        """Sources at vertices."""
 
     @property
     def error(self) -> float:
         """
-        L2 error of the coefficients from degree 1 on, relative to the norm of the function without its mean.
+        Of the coefficients, l2 over degrees from 1 on, relative to the norm without mean.
         """
 
     @property
     def band_error(self) -> float:
-        """
-        L2 error of the degrees above 3L/4, relative to the norm of these degrees.
-        """
+        """Of the degrees above 3L/4 relative to their own norm."""
 
     @property
     def measured_share(self) -> float:
         """
-        Share of the faces on which errors were measured; 1: a second, finer pass; less: a sample; 0: errors are estimated.
+        Part of the triangles that errors were measured on: 1 by a second, finer reading, less on a sample; 0 where they are estimates.
         """
 
     @property
-    def error_uncertainty(self) -> float:
-        """Possible excess of the true error over a measured error."""
+    def error_doubt(self) -> float:
+        """By how much more a measured error may be off."""
 
     @property
     def passes(self) -> int:
-        """Number of passes over the faces."""
+        """Over the triangles until the coefficients were found."""
 
     @property
     def reached(self) -> bool:
-        """
-        True if the error is within the precision, or within the least error that rounding allows.
-        """
+        """Whether the error is within the precision."""
 
-class Analysis:
-    """Report of a transform to coefficients."""
+class Transform:
+    """How coefficients were found."""
 
     def __repr__(self) -> str: ...
 
@@ -1636,49 +1588,49 @@ class Analysis:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def edge_nodes(self) -> int:
-        """Number of quadrature nodes on edges."""
+        """Quadrature nodes on edges."""
 
     @property
     def face_nodes(self) -> int:
-        """Number of quadrature nodes on faces."""
+        """Quadrature nodes on faces."""
 
     @property
     def closure_residual(self) -> float | None:
         """
-        Closure error of the mesh, zero if it is closed and consistently oriented; None with the fast engine.
+        Zero for a closed, consistently oriented mesh; None with the fast engine.
         """
 
     @property
     def fast(self) -> FastReport | None:
-        """Report of the fast engine, or None if it was not used."""
+        """Of the fast engine, or None."""
 
     @property
     def precision(self) -> float:
-        """Precision that the coefficients were computed for."""
+        """That the coefficients were wanted with."""
 
     @property
     def times(self) -> dict:
-        """Wall and CPU time of each stage, in seconds: (wall, cpu)."""
+        """Stages: (wall, cpu) in seconds."""
 
     @property
     def truncation_rms(self) -> float | None:
         """
-        Root mean square truncation error over solid angle, in the unit of the function; None if too uncertain.
+        Truncation error over solid angle, in the unit of the function, or None.
         """
 
     @property
-    def truncation_rms_uncertainty(self) -> float | None:
-        """Uncertainty of truncation_rms, from the precision of the coefficients."""
+    def truncation_rms_doubt(self) -> float | None:
+        """How far it is at most from that of exact coefficients."""
 
     @property
     def expansion(self) -> Expansion: ...
 
 class ToleranceReport:
-    """Report on a wanted tolerance."""
+    """How a tolerance was kept."""
 
     def __repr__(self) -> str: ...
 
@@ -1691,28 +1643,26 @@ class ToleranceReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def allowed(self) -> float:
-        """Largest allowed error, in the unit of the mesh."""
+        """Error, in the mesh's unit."""
 
     @property
     def reached(self) -> float:
-        """Error of the model, in the unit of the mesh."""
+        """Error, in the mesh's unit."""
 
     @property
     def met(self) -> bool:
-        """True if the error of the model is at most the allowed error."""
+        """Whether reached is at most allowed."""
 
     @property
     def degrees(self) -> list[int]:
-        """
-        Degrees that were tried; the model has the last degree or is truncated from it.
-        """
+        """That were tried; the model's is the last one, or cut off from it."""
 
-class Encoded:
-    """Report of `expand`."""
+class Expanded:
+    """What was found out on the way from a mesh to an expansion."""
 
     def __repr__(self) -> str: ...
 
@@ -1725,59 +1675,59 @@ class Encoded:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
-    def analysis(self) -> Analysis:
-        """Report of the transform that computed the coefficients."""
+    def transform(self) -> Transform:
+        """How the coefficients were found."""
 
     @property
     def tolerance(self) -> ToleranceReport | None:
-        """Report on the wanted tolerance, or None without a tolerance."""
+        """How the tolerance was kept, or None."""
 
     @property
     def star(self) -> StarReport:
-        """Centre, and visibility of the surface from the centre."""
+        """The centre, and how well it sees the surface."""
 
     @property
     def diagonal(self) -> float:
-        """Diagonal of the bounding box of the mesh."""
+        """Of the bounding box."""
 
     @property
     def vertices(self) -> int:
-        """Number of vertices, after welding if the mesh was welded."""
+        """After welding, where that was needed."""
 
     @property
     def faces(self) -> int:
-        """Number of faces, after welding if the mesh was welded."""
+        """Likewise."""
 
     @property
     def edges(self) -> int:
-        """Number of edges, after welding if the mesh was welded."""
+        """Likewise."""
 
     @property
     def merged_vertices(self) -> int:
-        """Number of vertices removed by welding."""
+        """By welding."""
 
     @property
     def collapsed_triangles(self) -> int:
-        """Number of faces removed because welding merged two of their corners."""
+        """By welding."""
 
     @property
     def flipped(self) -> bool:
-        """True if the mesh was inside out and was turned."""
+        """Whether the mesh was inside out."""
 
     @property
     def times(self) -> dict:
-        """Wall and CPU time of each stage, in seconds: (wall, cpu)."""
+        """Stages: (wall, cpu) in seconds."""
 
-def encode(arg0: Annotated[NDArray, dict(shape=(None, 3), device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.uint32], dict(shape=(None, 3), device='cpu', writable=False)], arg2: EncodeOptions, arg3: Caller, /) -> Encoded: ...
+def expand_mesh(arg0: Annotated[NDArray, dict(shape=(None, 3), device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.uint32], dict(shape=(None, 3), device='cpu', writable=False)], arg2: ExpandOptions, arg3: Caller, /) -> Expanded: ...
 
-def encode_file(arg0: str, arg1: EncodeOptions, arg2: Caller, /) -> tuple: ...
+def expand_file(arg0: str, arg1: ExpandOptions, arg2: Caller, /) -> tuple: ...
 
-def analyze(arg0: StarChart, arg1: AnalyzeOptions, arg2: Caller, /) -> Analysis: ...
+def expand_chart(arg0: StarChart, arg1: TransformOptions, arg2: Caller, /) -> Transform: ...
 
-def analyze_to_tolerance(arg0: StarChart, arg1: Tolerance, arg2: AnalyzeOptions, arg3: Caller, /) -> tuple: ...
+def expand_chart_to_tolerance(arg0: StarChart, arg1: Tolerance, arg2: TransformOptions, arg3: Caller, /) -> tuple: ...
 
 def radius_norm_squared(arg: StarChart, /) -> float: ...
 
@@ -1788,7 +1738,7 @@ def tail_strength(arg0: StarChart, arg1: str, /) -> float: ...
 def vertex_error_strength(arg0: StarChart, arg1: str, /) -> float: ...
 
 class ErrorStrengths:
-    """Largest truncation errors at vertices, times 2 pi (L + 1)."""
+    """The largest truncation errors at vertices, times 2 pi (L + 1)."""
 
     def __repr__(self) -> str: ...
 
@@ -1801,25 +1751,19 @@ class ErrorStrengths:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def radius(self) -> float:
-        """
-        Largest error of the radius at a vertex, times 2 pi (L + 1), in the unit of the mesh.
-        """
+        """Of the radius, in the mesh's unit."""
 
     @property
     def gauge(self) -> float:
-        """
-        Largest error of 1/r at a vertex, times 2 pi (L + 1), in 1/unit of the mesh.
-        """
+        """Of 1/r, in 1/unit."""
 
     @property
     def distance(self) -> float:
-        """
-        Largest distance between the surfaces at a vertex, times 2 pi (L + 1), in the unit of the mesh.
-        """
+        """Of the distance between the surfaces."""
 
 def vertex_error_strengths(arg0: Mesh, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64], /) -> ErrorStrengths: ...
 
@@ -1828,7 +1772,7 @@ def rms_beyond(arg: Expansion, /) -> NDArray[numpy.float64]: ...
 def truncation_errors(arg0: Mesh, arg1: Expansion, arg2: float | None, arg3: bool, arg4: Caller, /) -> TruncationErrors: ...
 
 class MonteCarloOptions:
-    """Options of `monte_carlo`."""
+    """How much is wanted, and when to stop."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1873,7 +1817,7 @@ class MonteCarloOptions:
     FIELDS: tuple = ...
 
 class MonteCarlo:
-    """Coefficients from random points, and their standard errors."""
+    """Coefficients by random points, and how far they may be off."""
 
     def __repr__(self) -> str: ...
 
@@ -1886,51 +1830,45 @@ class MonteCarlo:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def places(self) -> int:
-        """Number of edges or faces that were sampled."""
+        """Edges or triangles that were sampled."""
 
     @property
     def samples(self) -> int:
-        """Number of points on each sampled edge or face."""
+        """Points on each of them."""
 
     @property
     def rounds(self) -> int:
-        """Number of rounds in which points were added."""
+        """Rounds in which they were added."""
 
     @property
     def relative_deviation(self) -> float | None:
         """
-        Standard error relative to the coefficients without the mean; None with too few points to estimate it.
+        Standard error relative to the coefficients without the mean; none if too few points tell.
         """
 
     @property
     def reached(self) -> bool:
-        """
-        True if the wanted deviation is reached, or if the number of samples was given.
-        """
+        """Whether the wanted deviation is reached."""
 
     @property
     def degree_deviation(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """
-        Standard error of all coefficients of a degree together, for each degree.
-        """
+        """For each degree the standard error of its coefficients together."""
 
     @property
     def truncation_rms(self) -> float | None:
-        """
-        Root mean square truncation error over solid angle, in the unit of the function; None if too uncertain.
-        """
+        """Root mean square of what degrees above L would add."""
 
     @property
-    def truncation_rms_uncertainty(self) -> float | None:
-        """Uncertainty of truncation_rms: three standard deviations."""
+    def truncation_rms_doubt(self) -> float | None:
+        """How far that may be off, by 3 deviations."""
 
     @property
     def times(self) -> dict:
-        """Wall and CPU time of each stage, in seconds: (wall, cpu)."""
+        """Seconds of each stage."""
 
     @property
     def expansion(self) -> Expansion: ...
@@ -1945,7 +1883,7 @@ def synthesize(arg0: Expansion, arg1: Mesh, arg2: Sequence[int], arg3: Caller, /
 def directions_of(arg0: Mesh, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64], /) -> Mesh: ...
 
 class SurfaceMeasures:
-    """Measures of the solid bounded by a surface."""
+    """Of the solid bounded by a surface."""
 
     def __repr__(self) -> str: ...
 
@@ -1958,29 +1896,29 @@ class SurfaceMeasures:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def volume(self) -> float | None:
         """
-        Volume of the solid bounded by the surface (exact for a radius), in the unit of length to the power 3. None for a signed sum.
+        The volume of the solid that the surface bounds; exact for a radius, in the unit of length to the power 3. None for a signed sum.
         """
 
     @property
     def area(self) -> float | None:
         """
-        Area of the surface (accurate to about 1e-12), in the unit of length to the power 2. None for a signed sum.
+        The area of the surface, to about 1e-12, in the unit of length to the power 2. None for a signed sum.
         """
 
     @property
     def sphericity(self) -> float | None:
         """
-        Area of the ball of equal volume divided by the area of the surface, at most 1 (Wadell 1935). None for a signed sum.
+        The area of the ball of the same volume over the area of the surface, at most 1 (Wadell 1935). None for a signed sum.
         """
 
     @property
     def centroid(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)] | None:
-        """Centroid of the solid, (3,)."""
+        """Of the solid, (3,)."""
 
 def descriptors() -> list: ...
 
@@ -1989,7 +1927,7 @@ def measure(arg0: Expansion, arg1: Caller, /) -> SurfaceMeasures: ...
 def inertia(arg0: Expansion, arg1: Caller, /) -> NDArray[numpy.float64]: ...
 
 class CompareOptions:
-    """Options of `compare`."""
+    """Where distances are measured."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2016,7 +1954,7 @@ class CompareOptions:
     FIELDS: tuple = ...
 
 class Distances:
-    """Distances of all samples, in the unit of the shape."""
+    """Of all samples, in the shape's unit."""
 
     def __repr__(self) -> str: ...
 
@@ -2029,22 +1967,22 @@ class Distances:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def rms(self) -> float:
-        """Root mean square distance."""
+        """Root mean square."""
 
     @property
     def mean(self) -> float:
-        """Mean distance."""
+        """Mean."""
 
     @property
     def max(self) -> float:
-        """Largest distance."""
+        """Largest."""
 
 class Comparison:
-    """Distance between two surfaces A and B, in the unit of the shape."""
+    """How far two surfaces lie apart, in the shape's unit."""
 
     def __repr__(self) -> str: ...
 
@@ -2057,47 +1995,45 @@ class Comparison:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def samples(self) -> int:
-        """Number of sample points on each surface."""
+        """Points on each surface."""
 
     @property
     def seed(self) -> int:
-        """Seed of the random sample points."""
+        """That they were drawn with."""
 
     @property
     def diagonal(self) -> float:
-        """Diagonal of A's bounding box."""
+        """Of A's bounding box."""
 
     @property
     def a_to_b(self) -> Distances:
-        """Distances from samples of A to their closest points on B."""
+        """From samples of A to their closest points on B."""
 
     @property
     def b_to_a(self) -> Distances:
-        """Distances from samples of B to their closest points on A."""
+        """From samples of B to their closest points on A."""
 
     @property
     def hausdorff(self) -> float:
         """
-        Larger of the two largest distances, a lower bound of the Hausdorff distance.
+        Larger of the two largest distances: a lower bound of the Hausdorff distance.
         """
 
     @property
     def threshold(self) -> float:
-        """
-        Distance within which a sample counts for precision, recall and F-score.
-        """
+        """Of the F-score."""
 
     @property
     def precision(self) -> float:
-        """Share of the samples of B within the threshold of A."""
+        """Share of B's samples within the threshold of A."""
 
     @property
     def recall(self) -> float:
-        """Share of the samples of A within the threshold of B."""
+        """Share of A's samples within the threshold of B."""
 
     @property
     def f_score(self) -> float:
@@ -2106,14 +2042,12 @@ class Comparison:
     @property
     def normal_median_degrees(self) -> float:
         """
-        Median angle between the normal at a sample and the normal at its closest point, 0 ... 180 degrees.
+        Median of the angle between the normal at a sample and that at its closest point, 0 ... 180.
         """
 
     @property
     def normal_mean_degrees(self) -> float:
-        """
-        Mean angle between the normal at a sample and the normal at its closest point, 0 ... 180 degrees.
-        """
+        """Mean of that angle."""
 
 def compare(arg0: Mesh, arg1: Mesh, arg2: CompareOptions, arg3: Caller, /) -> Comparison: ...
 
@@ -2133,69 +2067,63 @@ class Cap:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def center(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Centre of the cap's sphere, in the coordinates of the shape, (3,)."""
+        """Of its sphere, in the coordinates of the shape, (3,)."""
 
     @property
     def axes(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Axes of the cap's frame, rows x, y, z; z points outwards, (3, 3)."""
+        """Of its frame, rows x, y, z; z points outwards, (3, 3)."""
 
     @property
     def radius(self) -> float:
-        """Radius of the cap's sphere."""
+        """Of its sphere."""
 
     @property
     def dilation(self) -> float:
-        """Dilation a of the cap: tan(theta'/2) = a tan(theta/2)."""
+        """a: tan(theta'/2) = a tan(theta/2) opens the sphere."""
 
     @property
     def support(self) -> float:
-        """Radius of the points around the seed that the cap was fitted to."""
+        """Radius of the points around the seed that it was made of."""
 
     @property
     def seed(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Point of the cap's sphere in the middle of the cap, (3,)."""
+        """The point of the sphere in the middle of the cap, (3,)."""
 
     @property
     def ellipse(self) -> tuple:
-        """
-        Ellipse of the cap's support: centre (px, py) and quadratic form (xx, xy, yy).
-        """
+        """Of its support: middle (px, py) and form (xx, xy, yy)."""
 
     @property
     def basis(self) -> str:
-        """Set of harmonics of the cap: full or even."""
+        """Which harmonics it uses."""
 
     @property
     def degree(self) -> int:
-        """Highest degree of the cap."""
+        """Its highest degree."""
 
     @property
     def first(self) -> int:
-        """Index of the cap's first coefficient in the coefficients of the atlas."""
+        """Where its coefficients start."""
 
     @property
     def error(self) -> float:
-        """Root mean square distance of the fitted points from the cap."""
+        """Root mean square distance of the fitted points to it."""
 
     @property
     def area(self) -> float:
-        """
-        Area of the surface assigned to the cap; the areas of all caps add up to the whole.
-        """
+        """Of the surface that it was made for."""
 
     @property
     def weight(self) -> float:
-        """Factor of the blend weight of the cap."""
+        """A factor of its blend weight."""
 
     @property
     def deviation(self) -> float:
-        """
-        Largest distance of the cap's surface from the tangent plane at its seed.
-        """
+        """Largest distance of its surface from the tangent plane of the seed."""
 
 class Atlas:
     """A surface of any genus as overlapping caps."""
@@ -2234,7 +2162,7 @@ def evaluate_cap(arg0: Atlas, arg1: int, arg2: Annotated[NDArray[numpy.float64],
 
 class SurfaceRules:
     """
-    Rules with which `reconstruct` made a surface from caps; an atlas with them makes the same surface again.
+    How `reconstruct` made the surface of its caps; an atlas with them makes the same again.
     """
 
     def __getstate__(self) -> tuple: ...
@@ -2248,36 +2176,34 @@ class SurfaceRules:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def holes(self) -> str:
-        """
-        Places without points; 'fill': they are closed; 'keep': they are cut open.
-        """
+        """'fill': places without points are closed; 'keep': cut open."""
 
     @property
     def min_component(self) -> float:
-        """Share of the largest part's area below which a part is dropped."""
+        """Parts with less than this share of the largest one's area are dropped."""
 
     @property
     def simplified(self) -> bool:
-        """True if the surface was simplified."""
+        """Whether the surface has fewer triangles than its grid gave."""
 
     @property
     def tiles(self) -> bool:
         """
-        True if the surface was made in several tiles. `Atlas.mesh` then has another order of vertices and faces, and closed holes may differ by some steps of the grid.
+        Whether it was made in several tiles: `Atlas.mesh` has another order of vertices and faces, and what closes holes may differ by some steps of the grid.
         """
 
     @property
     def left_out(self) -> list[str]:
         """
-        Names of attributes that the surface has from the points, and the atlas does not hold.
+        Attributes of the surface from the points, which the atlas does not hold.
         """
 
 class AtlasErrors:
-    """Measured errors of an atlas, in the unit of the shape."""
+    """What a model is measured by, in the shape's unit."""
 
     def __repr__(self) -> str: ...
 
@@ -2290,7 +2216,7 @@ class AtlasErrors:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def rms_from(self) -> float:
@@ -2298,34 +2224,32 @@ class AtlasErrors:
 
     @property
     def max_from(self) -> float:
-        """Largest distance from the shape to the model's surface."""
+        """Largest of these distances."""
 
     @property
     def rms_to(self) -> float:
         """
-        Root mean square distance from the model's surface to the shape; 0 if the shape is points.
+        Root mean square distance from the model's surface to the shape; 0 if that is points.
         """
 
     @property
     def max_to(self) -> float:
-        """
-        Largest distance from the model's surface to the shape; 0 if the shape is points.
-        """
+        """Largest of these distances; 0 if the shape is points."""
 
     @property
     def rms(self) -> float:
-        """Root mean square distance, the larger of both directions."""
+        """The larger of both ways."""
 
     @property
     def max(self) -> float:
-        """Largest distance, the larger of both directions."""
+        """The larger of both ways."""
 
     @property
     def two_sided(self) -> bool:
-        """True if both directions were measured."""
+        """Whether both ways were measured."""
 
 class AtlasSize:
-    """Size of an atlas."""
+    """How large a model is."""
 
     def __repr__(self) -> str: ...
 
@@ -2338,7 +2262,7 @@ class AtlasSize:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def caps(self) -> int:
@@ -2346,18 +2270,18 @@ class AtlasSize:
 
     @property
     def coefficients(self) -> int:
-        """Number of coefficients that are not zero."""
+        """Coefficients that are not zero."""
 
     @property
     def frame_numbers(self) -> int:
-        """Number of values that describe the frames of all caps."""
+        """Numbers of the caps' frames."""
 
     @property
     def numbers(self) -> int:
-        """Number of values of the whole model: coefficients and frame numbers."""
+        """Of the whole model."""
 
 class AtlasModel:
-    """An atlas and the metadata of its file."""
+    """An atlas and what its file says of it."""
 
     def __getstate__(self) -> tuple: ...
 
@@ -2398,7 +2322,7 @@ def read_atlas(arg0: str, arg1: Caller, /) -> AtlasModel: ...
 def is_atlas_file(arg: str, /) -> bool: ...
 
 class CompressOptions:
-    """Options of `compress`: limits of the size and the error of an atlas."""
+    """Limits of the size and the error of an atlas."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2437,7 +2361,7 @@ class CompressOptions:
     FIELDS: tuple = ...
 
 class CompressReport:
-    """Report of `compress`."""
+    """How a model came about, and what it keeps."""
 
     def __repr__(self) -> str: ...
 
@@ -2450,64 +2374,56 @@ class CompressReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def samples(self) -> int:
-        """Number of points that caps were fitted to."""
+        """Points that caps were fitted to."""
 
     @property
     def turned_normals(self) -> bool:
-        """
-        True if all normals of the points pointed into the solid and were turned.
-        """
+        """Whether all normals of points pointed into the solid, and were turned."""
 
     @property
     def hidden(self) -> float:
-        """Share of a mesh that lies inside its own solid and was left out."""
+        """Share of a mesh that lies inside of its solid, and was left out."""
 
     @property
     def gap(self) -> float:
-        """
-        Distance between sheets that face each other; it is smaller on a twentieth of the area.
-        """
+        """Distance between sheets that face each other."""
 
     @property
     def aimed(self) -> float:
-        """
-        Tolerance that was used; for thin shapes it is smaller than the wanted one.
-        """
+        """Tolerance that was aimed at."""
 
     @property
     def uncovered(self) -> float:
-        """Share of the samples farther than 4 tolerances from every cap."""
+        """Share of the samples that no cap met by 4 tolerances."""
 
     @property
     def components(self) -> int:
-        """Number of connected parts of the extracted surface."""
+        """Parts of the extracted surface."""
 
     @property
     def genus(self) -> int:
-        """Number of handles of the extracted surface."""
+        """Handles of the extracted surface."""
 
     @property
     def met(self) -> bool:
-        """True if the tolerance is met."""
+        """Whether the tolerance is kept."""
 
     @property
     def topology_kept(self) -> bool:
-        """
-        True if the surface has as many parts and handles as the shape, or if they are not compared.
-        """
+        """Whether the surface has as many parts and handles as the shape."""
 
     @property
     def times(self) -> dict:
-        """Wall and CPU time of each stage, in seconds: (wall, cpu)."""
+        """Seconds of each stage."""
 
 def compress(arg0: Mesh | PointCloud, arg1: CompressOptions, arg2: Caller, /) -> tuple: ...
 
 class AtlasSynthesisOptions:
-    """Options for extracting the surface of an atlas."""
+    """How a surface is extracted."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2548,7 +2464,7 @@ def set_cap_colors(arg0: Atlas, arg1: Sequence[int], /) -> list: ...
 def set_degree_colors(arg0: Atlas, arg1: Sequence[int], /) -> list: ...
 
 class PatchAtlasOptions:
-    """Options of `patch_atlas`: the paper's parameters."""
+    """The paper's parameters."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2585,9 +2501,7 @@ def patch_atlas(arg0: Mesh | PointCloud, arg1: PatchAtlasOptions, arg2: Caller, 
 def patch_picture(arg0: Mesh | PointCloud, arg1: str, arg2: PatchAtlasOptions, arg3: Caller, /) -> tuple: ...
 
 class ReconstructOptions:
-    """
-    Options of `reconstruct`: resolution, cleaning and holes of the surface.
-    """
+    """Resolution, cleaning and holes of the surface."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2698,7 +2612,9 @@ class ReconstructOptions:
     FIELDS: tuple = ...
 
 class ReconstructReport:
-    """Report of `reconstruct`; lengths are in the unit of the points."""
+    """
+    What was found in the points, and what became of them; lengths are in their unit.
+    """
 
     def __repr__(self) -> str: ...
 
@@ -2711,222 +2627,208 @@ class ReconstructReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def points(self) -> int:
-        """Number of given points."""
+        """Number of points given."""
 
     @property
     def dropped_points(self) -> int:
-        """
-        Number of points dropped: not finite, at the position of another point, or without a normal.
-        """
+        """Not finite, at the place of another, without a normal."""
 
     @property
     def outliers(self) -> int:
-        """Number of removed outliers."""
+        """Points removed."""
 
     @property
     def computed_normals(self) -> bool:
-        """
-        True if all normals were computed, because there were none or they were replaced.
-        """
+        """Whether the points had none, or given ones were replaced."""
 
     @property
     def scans(self) -> ScanAlignment:
-        """Report on the alignment of the scans, if there are any."""
+        """What became of scans, if there are any."""
 
     @property
     def unsure(self) -> float:
-        """Share of the points whose computed normal has an unsure sign."""
+        """Share of the points the sign of whose computed normal is unsure."""
 
     @property
     def turned_normals(self) -> bool:
-        """True if all given normals pointed into the solid and were turned."""
+        """Whether all pointed into the solid, and were turned."""
 
     @property
     def mended_normals(self) -> int:
-        """
-        Number of given normals that contradicted the points around them and were turned.
-        """
+        """Given normals that contradicted those around them, and were turned."""
 
     @property
     def crooked_normals(self) -> float:
         """
-        Share of given normals more than 45 degrees off the surface; above 0.25 all normals are computed instead.
+        Share of given normals more than 45 degrees off the surface; above 0.25 all are computed instead.
         """
 
     @property
     def contradicting_normals(self) -> int:
         """
-        Number of points whose normals contradict their neighbours even if turned; above half the square root of the number of points the surface is unreliable.
+        Points whose normals contradict those around them, where turning does not help: above half the square root of the number of points the surface should not be trusted.
         """
 
     @property
     def contradictions(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Up to three points whose normals contradict their neighbours, n x 3."""
+        """The first three of these points, n x 3."""
 
     @property
     def crossing_length(self) -> float:
         """
-        Length of the lines where sheets of the points cross, in diagonals of the points; above 0.12 the surface is unreliable.
+        Length of the lines along which sheets of the points cross, in diagonals of the points: above 0.12 the surface should not be trusted.
         """
 
     @property
     def crossings(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """
-        Up to three points near the lines where sheets of the points cross, n x 3.
-        """
+        """The first three points near these lines, n x 3."""
 
     @property
     def points_off_surface(self) -> float:
         """
-        Share of the points that lie off the surface, between its walls or around it; above 0.5 the surface is unreliable.
+        Share of the points that fill what lies between the walls of the surface, or around it: above 0.5 the surface should not be trusted.
         """
 
     @property
     def places_off_surface(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Up to three points that lie off the surface, n x 3."""
+        """Up to three of these points, n x 3."""
 
     @property
     def inward_normals(self) -> float:
         """
-        Share of the points whose given normal contradicts the winding number; above 0.1 the surface is unreliable.
+        Share of the points at which the winding number contradicts the given normal: above 0.1 the surface should not be trusted.
         """
 
     @property
     def spacing(self) -> float:
-        """Median distance of neighbouring points, as on a square grid."""
+        """Median distance between neighbours, as if on a square grid."""
 
     @property
     def noise(self) -> float:
-        """
-        Standard deviation of the points along the normal; 0 if it is within the shape's own variation.
-        """
+        """Standard deviation along the normal."""
 
     @property
     def normal_noise_degrees(self) -> float:
-        """Noise of the normals relative to the surface, in degrees."""
+        """Of the normals against the surface."""
 
     @property
     def neighbours(self) -> int:
-        """Number of points of a typical cap."""
+        """Points of a typical cap."""
 
     @property
     def caps(self) -> int:
-        """Number of caps of the atlas."""
+        """Of the atlas."""
 
     @property
     def step(self) -> float:
-        """Edge length of the grid's cubes."""
+        """Edge of the grid's cubes."""
 
     @property
     def holes(self) -> int:
-        """Number of places without points that were closed or cut out."""
+        """Places without points that were closed, or cut out."""
 
     @property
     def smooth_holes(self) -> int:
-        """Number of holes closed by a surface that continues the rim."""
+        """Of those closed, by a surface that continues the rim."""
 
     @property
     def cut_handles(self) -> int:
         """
-        Number of removed bridges and tunnels that are too small for the points to show.
+        Bridges and tunnels of the surface that were smaller than points can tell.
         """
 
     @property
     def dropped_components(self) -> int:
-        """Number of parts of the surface dropped because they are too small."""
+        """Parts of the surface that were too small."""
 
     @property
     def faces(self) -> int:
-        """Number of faces of the surface before simplification."""
+        """Of the surface before it was simplified."""
 
     @property
     def simplify_error(self) -> float:
-        """Error of the simplification, measured as max_error of simplify."""
+        """By simplify()."""
 
     @property
     def area(self) -> float:
-        """Area of the surface."""
+        """Of the surface."""
 
     @property
     def closed_area(self) -> float:
-        """Area of the parts of the surface that close holes."""
+        """Of it, what closes holes."""
 
     @property
     def points_area(self) -> float:
-        """Area that the points represent, from the circles of their neighbours."""
+        """That the points stand for, by the circles of their neighbours."""
 
     @property
     def volume(self) -> float:
-        """
-        Signed volume inside the surface; negative if its normals point inwards.
-        """
+        """Signed, of the surface: negative if its normals point inwards."""
 
     @property
     def unseen_area(self) -> float:
         """
-        Share of the surface's area without points within three spacings, if confidence is wanted.
+        Of the surface, if confidence is asked for: share of the area without data nearer than three spacings.
         """
 
     @property
     def thin_area(self) -> float:
         """
-        Share of the surface's area thinner than one and a half spacings, if confidence is wanted.
+        Of the surface, if confidence is asked for: share of the area thinner than one and a half spacings.
         """
 
     @property
     def unsure_area(self) -> float:
         """
-        Share of the surface's area with a confidence below 1/2, if confidence is wanted.
+        Of the surface, if confidence is asked for: share of the area with a confidence below 1/2.
         """
 
     @property
     def memory(self) -> int:
-        """Estimated memory, in bytes."""
+        """Foreseen, bytes."""
 
     @property
     def times(self) -> dict:
-        """Wall and CPU time of each stage, in seconds: (wall, cpu)."""
+        """Stages: (wall, cpu) in seconds."""
 
     @property
     def bounds(self) -> Bounds:
         """
-        Bounding box of the finite points; with several tiles, without points isolated far away.
+        The box of the points that are finite; of several tiles without far strays.
         """
 
     @property
     def tiles(self) -> int:
-        """Number of tiles that space was cut into."""
+        """Number that space was cut into."""
 
     @property
     def stored(self) -> int:
-        """
-        Largest number of bytes stored at a time between the steps of several tiles.
-        """
+        """Bytes between the steps of several tiles, at most at a time."""
 
     @property
     def vertices(self) -> int:
-        """Number of vertices of the surface."""
+        """Number of them, of the surface."""
 
     @property
     def triangles(self) -> int:
-        """Number of faces of the surface."""
+        """Number of them, of the surface."""
 
     @property
     def coefficients(self) -> int:
-        """Number of coefficients of all caps."""
+        """Number of those of all caps."""
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings from reading the file of points, list of str."""
+        """Of the file that the points were read from, list of str."""
 
 def reconstruct(points: PointCloud | str | os.PathLike, dropped: int, columns: str, options: ReconstructOptions, foreseen: object | None, caller: Caller) -> tuple: ...
 
 class TileForecast:
-    """Estimated resources of a reconstruction in tiles."""
+    """What a reconstruction in tiles will take, about."""
 
     def __repr__(self) -> str: ...
 
@@ -2939,36 +2841,36 @@ class TileForecast:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def points(self) -> int:
-        """Number of finite points, without points isolated far away."""
+        """That are finite, and no far strays."""
 
     @property
     def tiles(self) -> int:
-        """Number of tiles that space is cut into."""
+        """That space is cut into."""
 
     @property
     def memory(self) -> int:
-        """Memory in bytes, without the stored bytes."""
+        """Bytes, beside what is stored."""
 
     @property
     def stored(self) -> int:
         """
-        Number of bytes stored between the steps, in a folder, or in memory if there is room.
+        Bytes between the steps, in a folder, or in memory if there is room for them.
         """
 
     @property
     def written(self) -> int:
-        """Size of the surface's file, in bytes."""
+        """Bytes of the surface as a file."""
 
 def foresee_tiles(arg0: int, arg1: int, /) -> TileForecast: ...
 
 def region_weights(arg0: Mesh, arg1: Sequence[str], arg2: float, /) -> NDArray[numpy.float64]: ...
 
 class PatchOptions:
-    """Options of `smooth`: the detail to remove from a region."""
+    """Detail to remove from a region."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -3001,7 +2903,7 @@ class PatchOptions:
     FIELDS: tuple = ...
 
 class Patch:
-    """Vertices of a region that may move, and their positions on the fits."""
+    """The vertices that may move, and where fits want them."""
 
     def __getstate__(self) -> tuple: ...
 
@@ -3041,7 +2943,7 @@ def apply_in_place(arg0: Patch, arg1: float, arg2: float, arg3: Mesh, /) -> None
 def copy_mesh(arg: Mesh, /) -> Mesh: ...
 
 class TransferOptions:
-    """Options of `transfer`: the detail to take, and its size on the target."""
+    """Detail to take, and its size on the target."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -3080,7 +2982,7 @@ class TransferOptions:
     FIELDS: tuple = ...
 
 class TransferUpdate:
-    """Options of `transfer` that can be updated quickly."""
+    """Values that sliders change."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -3119,7 +3021,7 @@ class TransferUpdate:
     FIELDS: tuple = ...
 
 class TransferReport:
-    """Report of `transfer`; lengths are in the units of the two meshes."""
+    """Findings of the analysis; lengths are in the units of the two meshes."""
 
     def __repr__(self) -> str: ...
 
@@ -3132,7 +3034,7 @@ class TransferReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """Returns all fields by name; records in fields become dicts, too."""
+        """All fields by name; records within it are dicts, too."""
 
     @property
     def source_radius(self) -> float:
@@ -3144,44 +3046,42 @@ class TransferReport:
 
     @property
     def scale(self) -> float:
-        """Length on the target, divided by the length on the source."""
+        """Lengths on the target per length on the source."""
 
     @property
     def source_wavelength(self) -> float:
-        """Wavelength of the source's base."""
+        """Of the source's base."""
 
     @property
     def target_wavelength(self) -> float:
-        """Wavelength of the target's base."""
+        """Of the target's base."""
 
     @property
     def source_edge(self) -> float:
-        """Median edge length of the source."""
+        """Median length of an edge of the source."""
 
     @property
     def target_edge(self) -> float:
-        """Median edge length of the target, after refinement."""
+        """Median length of an edge of the target, after refinement."""
 
     @property
     def source_rms(self) -> float:
-        """Root mean square height of the detail in the source region."""
+        """Height of the texture in its region."""
 
     @property
     def angle(self) -> float:
-        """Angle of best correlation, in radians; 0 if it was not searched for."""
+        """Turn of best correlation, radians."""
 
     @property
     def correlation(self) -> float:
-        """
-        Correlation with the target's own detail at the angle of best correlation, -1 ... 1.
-        """
+        """With the target's own detail there, -1 ... 1."""
 
     @property
     def new_vertices(self) -> int:
-        """Number of vertices added by refinement."""
+        """Vertices made by refinement."""
 
 class TransferSource:
-    """A texture extracted from its source."""
+    """A texture taken from its source."""
 
     @property
     def from_degree(self) -> int: ...
@@ -3219,7 +3119,7 @@ def update_transfer(arg0: TransferAnalysis, arg1: TransferUpdate, arg2: Caller, 
 def apply_transfer_in_place(arg0: TransferAnalysis, arg1: TransferUpdate, arg2: Mesh, arg3: Caller, /) -> None: ...
 
 class Panel:
-    """A mesh or points in a picture; the caller keeps them alive."""
+    """One thing in a picture; the mesh, or the points, must be kept."""
 
     @overload
     def __init__(self, arg0: Mesh, arg1: str, arg2: bool, arg3: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, arg4: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, /) -> None: ...
@@ -3228,7 +3128,7 @@ class Panel:
     def __init__(self, arg0: PointCloud, arg1: str, arg2: float, arg3: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, arg4: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, /) -> None: ...
 
 class RenderOptions:
-    """Options of `render`: size, point of view, light and colours."""
+    """Size, point of view, light and colours."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -3331,7 +3231,7 @@ def write_png(arg0: str, arg1: Annotated[NDArray[numpy.uint8], dict(shape=(None,
 def write_file(arg0: str, arg1: bytes, /) -> None: ...
 
 class ReportOptions:
-    """Options of `report_html`: texts of the page, and size of its pictures."""
+    """Texts of a page beside its figures."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -3394,7 +3294,7 @@ def report_html(arg0: Expansion | AtlasModel, arg1: Mesh | None, arg2: ReportOpt
 def view_data(arg0: Expansion, arg1: Mesh | None, arg2: str, arg3: Caller, /) -> bytes: ...
 
 class StudioListener:
-    """A receiver of the events of a session."""
+    """Who listens to a session."""
 
     def wait(self, seconds: float) -> list: ...
 
@@ -3402,7 +3302,7 @@ class StudioListener:
     def ended(self) -> bool: ...
 
 class Studio:
-    """The studio without a transport: takes requests and returns responses."""
+    """Requests in, responses out."""
 
     def __init__(self, folder: str, threads: int) -> None: ...
 
@@ -3415,7 +3315,7 @@ class Studio:
     def close(self) -> None: ...
 
 class BatchTable:
-    """Table of batch results, column by column."""
+    """Rows as columns."""
 
     def __getstate__(self) -> tuple: ...
 
@@ -3433,7 +3333,7 @@ class BatchTable:
     def write(self, arg0: str, arg1: bool, arg2: bool, /) -> None: ...
 
 class BatchJournal:
-    """File of the finished rows of a batch."""
+    """Rows that are done, in a file."""
 
     def __init__(self, arg0: str, arg1: Sequence[str], arg2: int, /) -> None: ...
 

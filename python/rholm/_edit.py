@@ -1,29 +1,29 @@
-"""Regions of meshes, local smoothing, and functions for all editors."""
+"""Regions of meshes, and local smoothing."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Union
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _core
-from ._arrays import FloatArray, IndexArray, float_rows, plain_array, read_only
+from ._arguments import public
+from ._arrays import FloatArray, IndexArray, Rows, plain_array, read_only
+from ._convert import MeshLike, as_mesh
 from ._errors import InvalidInputError
 from ._options import options_of, takes
 from ._run import Progress, caller
-from ._shapes import Mesh, MeshLike, as_mesh
+from ._shapes import Mesh
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._keywords import PatchKeywords
-    from ._transfer import TransferEditor
 
 #: A region of a mesh. Texts are "ball:X,Y,Z,R", "vertex:INDEX,RADIUS", "box:X0,Y0,Z0,X1,Y1,Z1",
 #: "property:NAME", "color:RRGGBB", as in the program. A list of texts is their union. Arrays are a
 #: mask (N,) of bools, weights (N,) in 0 ... 1, or indices of vertices. None is the whole mesh.
-RegionLike = Union[str, list[str], tuple[str, ...], npt.ArrayLike, None]
+RegionLike = Union[str, Rows, None]
 
 _MASK = "rholm_region"
 
@@ -58,9 +58,10 @@ def _without_region(mesh: Mesh) -> Mesh:
     attributes = mesh.attributes
     if attributes.pop(_MASK, None) is None:
         return mesh
-    return Mesh(mesh.vertices, mesh.triangles, attributes)
+    return Mesh(mesh.vertices, mesh.faces, attributes)
 
 
+@public
 def region_weights(mesh: MeshLike, region: RegionLike, transition: float = 0.0) -> FloatArray:
     """Returns the weight of every vertex, 1 in the region and falling to 0 around it, (N,).
 
@@ -72,15 +73,30 @@ def region_weights(mesh: MeshLike, region: RegionLike, transition: float = 0.0) 
         The region: see `smooth`.
     transition : float
         Width of the transition around the region, in the mesh's unit.
+
+    Examples
+    --------
+    >>> ball = rholm.icosphere(2)
+    >>> weights = rholm.meshes.region_weights(ball, "ball:0,0,1,0.5", transition=0.2)
+    >>> float(weights.min()), float(weights.max())
+    (0.0, 1.0)
     """
     marked, regions = _with_region(as_mesh(mesh), region)
     return _core.region_weights(marked._core, regions, transition)
 
 
+@public
 class SmoothEditor:
     """A region of a mesh with adjustable detail, made by `analyze_patch`.
 
     Setting `strength` or `wavelength` moves the vertices of `mesh` at once, in place.
+
+    Examples
+    --------
+    >>> editor = rholm.meshes.analyze_patch(rholm.bumpy_sphere(4), "ball:0,0,1,0.6", 0.5)
+    >>> editor.strength = 0.5
+    >>> editor.mesh
+    <rholm.Mesh: 2562 vertices, 5120 faces>
     """
 
     __slots__ = ("_mesh", "_patch", "_strength", "_wavelength")
@@ -143,6 +159,12 @@ class SmoothEditor:
         ----------
         strength, wavelength : float, optional
             By default the present values.
+
+        Examples
+        --------
+        >>> editor = rholm.meshes.analyze_patch(rholm.bumpy_sphere(4), "ball:0,0,1,0.6", 0.5)
+        >>> editor.positions(strength=1).shape == (len(editor.vertices), 3)
+        True
         """
         return _core.update_patch(
             self._patch,
@@ -161,7 +183,7 @@ class SmoothEditor:
 
     def __repr__(self) -> str:
         return (
-            f"<rholm.SmoothEditor: {len(self.vertices)} vertices, strength {self._strength:g}, "
+            f"<rholm.meshes.SmoothEditor: {len(self.vertices)} vertices, strength {self._strength:g}, "
             f"wavelength {self._wavelength:g}>"
         )
 
@@ -169,6 +191,7 @@ class SmoothEditor:
         return self.mesh._repr_png_()
 
 
+@public
 @takes(_core.PatchOptions)
 def analyze_patch(
     mesh: MeshLike,
@@ -187,12 +210,18 @@ def analyze_patch(
         As in `smooth`.
     {options}
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     Returns
     -------
     editor : SmoothEditor
         Editor with strength 0. Setting `SmoothEditor.strength` moves the mesh.
+
+    Examples
+    --------
+    >>> editor = rholm.meshes.analyze_patch(rholm.bumpy_sphere(4), "ball:0,0,1,0.6", 0.5)
+    >>> editor.strength
+    0.0
     """
     wanted = options_of(_core.PatchOptions, {**options}, "analyze_patch", wavelength=wavelength)
     return _editor(mesh, region, wanted, threads, progress)
@@ -208,6 +237,7 @@ def _editor(
     return SmoothEditor(patch, _core.copy_mesh(whole._core))
 
 
+@public
 @takes(_core.PatchOptions)
 def smooth(
     mesh: MeshLike,
@@ -236,13 +266,21 @@ def smooth(
         0 changes nothing, 1 removes the detail, -1 doubles it.
     {options}
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     Raises
     ------
     InvalidInputError
         For a region without a vertex, for "around" if nothing is around it (the whole mesh), and
         for a wavelength too short for the mesh's edges.
+
+    Examples
+    --------
+    >>> body = rholm.bumpy_sphere(4)
+    >>> smoother = rholm.smooth(body, "ball:0,0,1,0.6", wavelength=0.5)
+    >>> moved = (smoother.vertices != body.vertices).any(axis=1)
+    >>> bool(moved.any()), bool(moved.all())
+    (True, False)
     """
     wanted = options_of(_core.PatchOptions, {**options}, "smooth", wavelength=wavelength)
     editor = _editor(mesh, region, wanted, threads, progress)
@@ -250,6 +288,7 @@ def smooth(
     return editor.mesh
 
 
+@public
 def longest_wavelength(editor: SmoothEditor) -> float:
     """Returns the wavelength of the lowest fitted degree; see `SmoothEditor.longest_wavelength`.
 
@@ -257,37 +296,11 @@ def longest_wavelength(editor: SmoothEditor) -> float:
     ----------
     editor : SmoothEditor
         Editor from `analyze_patch`.
+
+    Examples
+    --------
+    >>> editor = rholm.meshes.analyze_patch(rholm.bumpy_sphere(4), "ball:0,0,1,0.6", 0.5)
+    >>> rholm.meshes.longest_wavelength(editor) == editor.longest_wavelength
+    True
     """
     return editor.longest_wavelength
-
-
-def update(editor: SmoothEditor | TransferEditor, **wanted: Any) -> FloatArray:
-    """Returns the positions of an editor's vertices for other settings, (n, 3). Its mesh does not
-    change.
-
-    Parameters
-    ----------
-    editor : SmoothEditor or TransferEditor
-        Editor from `analyze_patch` or `analyze_transfer`.
-    **wanted
-        Arguments of `SmoothEditor.positions` or `TransferEditor.positions`.
-    """
-    return editor.positions(**wanted)
-
-
-def apply(
-    editor: SmoothEditor | TransferEditor, positions: npt.ArrayLike, mesh: MeshLike | None = None
-) -> Mesh:
-    """Returns a mesh with an editor's vertices at other positions, and with updated normals.
-
-    Parameters
-    ----------
-    editor : SmoothEditor or TransferEditor
-        Editor from `analyze_patch` or `analyze_transfer`.
-    positions : array_like, (n, 3)
-        Positions from `update`.
-    mesh : mesh-like, optional
-        Mesh to use; by default the editor's own, which does not change.
-    """
-    target = editor._mesh if mesh is None else as_mesh(mesh)._core
-    return Mesh._of(_core.apply(editor._patch, float_rows(positions, "positions"), target))

@@ -8,14 +8,16 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import triangle_rows, triple, unwritable, vertex_rows
+from ._arguments import public
+from ._arrays import face_rows, triple, unwritable, vertex_rows
 from ._coefficients import Function, Normalization, core_of, from_convention
+from ._convert import MeshLike, as_mesh
 from ._errors import InvalidInputError
 from ._expansion import Expansion
 from ._interop import foreign_mesh
 from ._options import given_of, takes
 from ._run import Progress, caller
-from ._shapes import MeshLike, as_mesh, name_of
+from ._shapes import name_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -53,6 +55,7 @@ def tolerance_of(
     return kept
 
 
+@public
 @takes(_core.Tolerance, _core.CenterOptions, _core.ChartOptions, _core.ExpandOptions)
 def expand(
     shape: MeshLike,
@@ -71,7 +74,7 @@ def expand(
     Parameters
     ----------
     shape : mesh-like
-        (vertices, triangles), a path, or a mesh of rholm, trimesh, PyVista or meshio. Writable
+        (vertices, faces), a path, or a mesh of rholm, trimesh, PyVista or meshio. Writable
         arrays are copied first, because other threads may write to them. Read-only arrays of
         float32 or float64 and of 32-bit integers are not copied, and neither is a `Mesh`. A mesh
         that is inside out or has duplicate vertices is corrected.
@@ -93,7 +96,7 @@ def expand(
     length_unit : str
         Unit of the vertices: "km", "mm", ...
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     Returns
     -------
@@ -136,16 +139,17 @@ def expand(
 
 
 def _mesh_arrays(shape: Any) -> tuple[Any, Any]:
-    """Returns vertices and triangles, copied only if other threads could write to them."""
+    """Returns vertices and faces, copied only if other threads could write to them."""
     arrays = foreign_mesh(shape)
     if arrays is None:
         if type(shape) not in (tuple, list) or len(shape) != 2:
             core = as_mesh(shape)._core
             return core.vertices, core.triangles
         arrays = (shape[0], shape[1], {})
-    return unwritable(vertex_rows(arrays[0])), unwritable(triangle_rows(arrays[1]))
+    return unwritable(vertex_rows(arrays[0])), unwritable(face_rows(arrays[1]))
 
 
+@public
 def from_array(
     values: npt.ArrayLike,
     *,
@@ -169,12 +173,20 @@ def from_array(
         Meaning of the function.
     unit : str
         Unit of lengths.
+
+    Examples
+    --------
+    >>> c = np.zeros((2, 3, 3))
+    >>> c[0, 0, 0] = 5
+    >>> rholm.from_array(c, unit="km").mean_radius
+    5.0
     """
     return Expansion(
         from_convention(values, normalization, csphase), center=center, function=function, unit=unit
     )
 
 
+@public
 def from_pyshtools(
     clm: Any, *, center: npt.ArrayLike = (0.0, 0.0, 0.0), function: Function = "radius"
 ) -> Expansion:
@@ -189,6 +201,12 @@ def from_pyshtools(
         Centre of the surface.
     function : {"radius", "gauge", "other"}
         Meaning of the function.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+    >>> rholm.from_pyshtools(s.to_pyshtools(), center=s.center).degree
+    4
     """
     if hasattr(clm, "expand") and not hasattr(clm, "coeffs"):
         clm = clm.expand()
@@ -196,6 +214,7 @@ def from_pyshtools(
     return Expansion(core_of(clm), center=center, function=function, unit=unit)
 
 
+@public
 def as_expansion(thing: Any) -> Expansion:
     """Returns an `Expansion` unchanged, or makes one from pyshtools.SHCoeffs.
 
@@ -203,6 +222,12 @@ def as_expansion(thing: Any) -> Expansion:
     ----------
     thing : Expansion or pyshtools.SHCoeffs
         Any other object raises TypeError.
+
+    Examples
+    --------
+    >>> s = rholm.from_array(np.zeros((2, 3, 3)))
+    >>> rholm.harmonics.as_expansion(s) is s
+    True
     """
     if isinstance(thing, Expansion):
         return thing

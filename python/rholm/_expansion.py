@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Literal, Union
+from typing import TYPE_CHECKING, Any, Literal, Protocol, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arguments import whole
-from ._arrays import FloatArray, float_row, floats, plain_array, read_only, triple
+from ._arguments import form, public, whole
+from ._arrays import FloatArray, Rows, float_row, floats, plain_array, read_only, triple
 from ._arrays import directions as unit_rows
 from ._coefficients import (
     Function,
@@ -22,13 +22,15 @@ from ._coefficients import (
     from_convention,
     power_spectrum,
 )
+from ._convert import MeshLike
 from ._errors import InvalidInputError, UnsupportedError
 from ._formats import coefficients_formats
-from ._interop import to_pyshtools, to_xarray
+from ._interop import required, to_pyshtools, to_xarray
 from ._primitives import directions_for
 from ._rotations import RotationLike, as_rotation
 from ._run import Progress, caller, named
-from ._shapes import Mesh, MeshLike
+from ._shapes import Mesh
+from ._shown import Reported
 from ._tables import Described
 
 if TYPE_CHECKING:
@@ -39,12 +41,19 @@ if TYPE_CHECKING:
     from ._tables import Window
 
 
-class Expansion(Described):
+@public
+class Expansion(Described, Reported):
     """A surface x = center + r(u) u, u a direction, as coefficients of spherical harmonics.
 
     `expand`, `load`, `from_array` and `from_pyshtools` make expansions. Operations return new ones.
 
     Calling an expansion returns radii: ``s(directions)``.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.icosphere(4), degree=4)
+    >>> s.degree, round(float(s([0, 0, 1])), 1)
+    (4, 1.0)
     """
 
     __slots__ = ("_core", "_expanded", "_name", "_shape")
@@ -72,7 +81,8 @@ class Expansion(Described):
         self._name = name
         return self
 
-    # Properties
+    # Properties. "X | Any" stands for values that are missing only in rare cases, then None: type
+    # checkers let users read their fields without a check.
 
     @property
     def degree(self) -> int:
@@ -101,6 +111,12 @@ class Expansion(Described):
         -------
         coefficients : float64, (2, L+1, L+1)
             Cosine plane, sine plane: ``[0, l, m]`` and ``[1, l, m]``.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+        >>> s.to_array("orthonormal", csphase=-1).shape
+        (2, 5, 5)
         """
         return array_of(self._core.coefficients, normalization, csphase)
 
@@ -120,7 +136,7 @@ class Expansion(Described):
         return self._core.unit
 
     @property
-    def gravity(self) -> _core.GravityField | None:
+    def gravity(self) -> _core.GravityField | Any:
         """Reference values of a gravity field: ``gravity_constant``, G M in m^3/s^2, and
         ``reference_radius`` in m. None if unknown. `with_gravity` sets them.
         """
@@ -132,7 +148,7 @@ class Expansion(Described):
         return self._core.method
 
     @property
-    def errors(self) -> _core.TruncationErrors | None:
+    def errors(self) -> _core.TruncationErrors | Any:
         """Distance of the surface from the original shape; None if unknown. After `truncate`,
         `filter` and `recenter` it holds the errors that follow without the shape: see there.
         """
@@ -156,7 +172,7 @@ class Expansion(Described):
         return self._core.tail_strength
 
     @property
-    def expanded(self) -> _core.Expanded | None:
+    def expanded(self) -> _core.Expanded | Any:
         """Report of `expand`: centre, star check, times. None for other expansions."""
         return self._expanded
 
@@ -170,7 +186,7 @@ class Expansion(Described):
         return self._core.signed_sum
 
     @property
-    def mean_radius(self) -> float | None:
+    def mean_radius(self) -> float | Any:
         """Mean of r over directions; for a gauge 1 / the mean of 1/r. None for a signed sum."""
         if self.signed_sum:
             return None
@@ -178,7 +194,7 @@ class Expansion(Described):
         return 1 / mean if self.function == "gauge" else mean
 
     @property
-    def centroid(self) -> FloatArray | None:
+    def centroid(self) -> FloatArray | Any:
         """Centroid of the solid, in the coordinates of the shape, (3,). None for a signed sum."""
         return self.measure().centroid
 
@@ -188,19 +204,33 @@ class Expansion(Described):
         Parameters
         ----------
         threads : int
-            Number of threads; see `rholm.caller`.
+            Number of threads; see ``help(rholm)``.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.icosphere(4), degree=4)
+        >>> round(s.measure().volume / (4 / 3 * np.pi), 1)
+        1.0
         """
         self._require_surface()
         with caller(threads, False) as how:
             return _core.measure(self._core, how)
 
     def inertia(self, *, threads: int = 0) -> FloatArray:
-        """Returns the tensor of inertia of the solid about its centroid; see `rholm.inertia`.
+        """Returns the tensor of inertia of the solid about its centroid; see `rholm.harmonics.inertia`.
 
         Parameters
         ----------
         threads : int
-            Number of threads; see `rholm.caller`.
+            Number of threads; see ``help(rholm)``.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.icosphere(4), degree=4)
+        >>> (s.inertia() / (8 / 15 * np.pi)).round(1) + 0.0
+        array([[1., 0., 0.],
+               [0., 1., 0.],
+               [0., 0., 1.]])
         """
         self._require_surface()
         with caller(threads, False) as how:
@@ -217,7 +247,13 @@ class Expansion(Described):
         Parameters
         ----------
         kind, unit, base
-            As in `rholm.power_spectrum`. The default is "power", as in pyshtools.
+            As in `rholm.harmonics.power_spectrum`. The default is "power", as in pyshtools.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+        >>> s.spectrum().shape
+        (5,)
         """
         return power_spectrum(self._core.coefficients, kind, unit, base)
 
@@ -231,6 +267,12 @@ class Expansion(Described):
             the function's unit. NaN where it is unknown: without `norm_squared`, and where it is
             below the resolution of `precision` (1e-8 if unknown). The last value is the truncation
             error of the expansion.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=8)
+        >>> bool(s.rms_beyond()[0] > s.rms_beyond()[8])
+        True
         """
         return _core.rms_beyond(self._core)
 
@@ -251,9 +293,9 @@ class Expansion(Described):
         directions : array_like, (..., 3)
             Directions, vectors of any length.
         precision : float
-            Precision of the sums; see `rholm.evaluate`.
+            Precision of the sums; see `rholm.harmonics.evaluate`.
         threads, progress
-            See `rholm.caller`.
+            See ``help(rholm)``.
 
         Returns
         -------
@@ -284,6 +326,12 @@ class Expansion(Described):
         Returns
         -------
         gradients : float64, (..., 3)
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+        >>> s.gradient([[0, 0, 1], [0, 1, 0]]).shape
+        (2, 3)
         """
         rows, shape = unit_rows(directions)
         with caller(threads, progress) as how:
@@ -304,6 +352,12 @@ class Expansion(Described):
             Directions, vectors of any length.
         **options
             Arguments as when the expansion is called.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.icosphere(4), degree=4)
+        >>> s.points([0, 0, 2]).round(1) + 0.0
+        array([0., 0., 1.])
         """
         self._require_surface()
         rows, shape = unit_rows(directions)
@@ -336,7 +390,13 @@ class Expansion(Described):
         like : mesh-like, optional
             Mesh whose directions and connectivity are used instead.
         threads, progress
-            See `rholm.caller`.
+            See ``help(rholm)``.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=8)
+        >>> s.mesh(subdivisions=2)
+        <rholm.Mesh: 162 vertices, 320 faces, attributes nx, ny, nz>
         """
         return self.meshes(
             [self.degree if degree is None else degree],
@@ -366,6 +426,12 @@ class Expansion(Described):
             Degree of each mesh.
         subdivisions, grid, like, threads, progress
             As in `mesh`.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=8)
+        >>> len(s.meshes([2, 4, 8], subdivisions=2))
+        3
         """
         wanted = [
             whole(degree, "meshes(): a degree") for degree in np.atleast_1d(plain_array(degrees, "degrees"))
@@ -392,6 +458,11 @@ class Expansion(Described):
         expansion : Expansion
             Truncated expansion. For a radius ``errors.rms`` is kept, increased by the energy cut
             off.
+
+        Examples
+        --------
+        >>> rholm.expand(rholm.bumpy_sphere(3), degree=8).truncate(3).degree
+        3
         """
         return Expansion._of(_core.truncated(self._core, degree), shape=self._shape, name=self._name)
 
@@ -412,7 +483,14 @@ class Expansion(Described):
         about : array_like, (3,)
             Fixed point of the rotation; the centre moves too.
         threads, progress
-            See `rholm.caller`.
+            See ``help(rholm)``.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=8)
+        >>> turned = s.rotate(rholm.rotation_about((0, 0, 1), np.pi / 2), about=s.center)
+        >>> bool(np.isclose(turned([0, 1, 0]), s([1, 0, 0])))
+        True
         """
         at = triple(about, "about")
         with caller(threads, progress) as how:
@@ -427,6 +505,12 @@ class Expansion(Described):
             The coordinate that changes its sign.
         about : array_like, (3,)
             A point of the plane.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=8)
+        >>> bool(np.isclose(s.mirror("x")([1, 0, 0]), s([-1, 0, 0])))
+        True
         """
         return Expansion._of(_core.mirror(self._core, axis, triple(about, "about")))
 
@@ -445,6 +529,13 @@ class Expansion(Described):
         expansion : Expansion
             Filtered expansion. For a radius ``errors.rms`` is kept; 4 pi times its square grows by
             sum (1 - g_l)^2 E_l.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=8)
+        >>> ball = s.filter([1])
+        >>> bool(ball.coeffs[0, 1:].any())
+        False
         """
         return Expansion._of(_core.filter(self._core, floats(gains, "gains"), name))
 
@@ -464,6 +555,12 @@ class Expansion(Described):
         expansion : Expansion
             Expansion truncated at the cutoff; "heat" keeps all degrees. The filter is added to
             `method`.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=8)
+        >>> s.low_pass(4).degree
+        4
         """
         given = {"order": order, "time": time}
         in_place_of_cutoff = [
@@ -484,15 +581,21 @@ class Expansion(Described):
         ----------
         center : array_like, (3,), optional
             New centre. By default the centroid of the solid, or a point near it that sees the whole
-            surface: see `rholm.seen_center`.
+            surface: see `rholm.harmonics.seen_center`.
         threads, progress
-            See `rholm.caller`.
+            See ``help(rholm)``.
 
         Returns
         -------
         expansion : Expansion
             Expansion about the new centre. Its errors contain only the diagonal of the shape;
-            `rholm.truncation_errors` with the shape measures the others.
+            `rholm.harmonics.truncation_errors` with the shape measures the others.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=8, center=(0, 0, 0))
+        >>> bool(np.allclose(s.recenter().center, s.centroid))
+        True
         """
         with caller(threads, progress) as how:
             if center is None:
@@ -510,6 +613,12 @@ class Expansion(Described):
             Factor, above 0.
         unit : str, optional
             Name of the new unit.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.icosphere(4), degree=4)
+        >>> s.scale(1000, unit="m").unit
+        'm'
         """
         scaled = Expansion._of(_core.scaled(self._core, factor))
         return scaled if unit is None else scaled.with_unit(unit)
@@ -521,6 +630,11 @@ class Expansion(Described):
         ----------
         unit : str
             Name of the unit: "km", "mm", ...
+
+        Examples
+        --------
+        >>> rholm.expand(rholm.icosphere(3), degree=4).with_unit("km").unit
+        'km'
         """
         return Expansion._of(self._core.with_unit(unit), self._expanded, self._shape, self._name)
 
@@ -541,13 +655,25 @@ class Expansion(Described):
         ------
         InvalidInputError
             For numbers that are not above 0, or an expansion whose function is not "other".
+
+        Examples
+        --------
+        >>> field = rholm.from_array(np.zeros((2, 3, 3)), function="other")
+        >>> field.with_gravity(3.986004415e14, 6378136.3).gravity.reference_radius
+        6378136.3
         """
         core = self._core.with_gravity(gravity_constant, reference_radius)
         return Expansion._of(core, self._expanded, self._shape, self._name)
 
     def principal_axes(self) -> _core.PrincipalAxes:
         """Returns the axes of the degree-2 coefficients, longest first, about the expansion's
-        centre; see `rholm.principal_axes`. `inertia` gives the axes of inertia.
+        centre; see `rholm.harmonics.principal_axes`. `inertia` gives the axes of inertia.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.ellipsoid((1, 2, 3), 4), degree=8)
+        >>> np.abs(s.principal_axes().axes[0]).round(6)
+        array([0., 0., 1.])
         """
         return _core.principal_axes(self._core.coefficients, self.function)
 
@@ -640,6 +766,12 @@ class Expansion(Described):
             Normalization of the result.
         csphase : {1, -1}
             Phase convention of the result.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+        >>> s.to_pyshtools().lmax
+        4
         """
         return to_pyshtools(self, normalization, csphase)
 
@@ -651,6 +783,12 @@ class Expansion(Described):
         ----------
         normalization, csphase
             Convention of the result.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+        >>> s.to_xarray().dims
+        ('kind', 'l', 'm')
         """
         return to_xarray(self, normalization, csphase)
 
@@ -669,9 +807,9 @@ class Expansion(Described):
         Parameters
         ----------
         path : path
-            File to write. The extension chooses one of `rholm.coefficients_formats`.
+            File to write. The extension chooses one of `rholm.files.coefficients_formats`.
         format : str, optional
-            Name of the format, used instead of the extension: from `rholm.coefficients_formats`, or
+            Name of the format, used instead of the extension: from `rholm.files.coefficients_formats`, or
             "hdf5".
         normalization, csphase
             Convention of the numbers, in formats other than the model file.
@@ -683,6 +821,13 @@ class Expansion(Described):
         ------
         IoError
             If the file cannot be written. An existing file is unchanged then.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+        >>> s.save("body.h5")
+        >>> rholm.load("body.h5") == s
+        True
         """
         target = os.fspath(path)
         kind = format or ("h5" if _core.is_model_name(target) else None)
@@ -693,20 +838,15 @@ class Expansion(Described):
             else:
                 _core.write_coefficients(core, target, format, normalization, csphase, how)
 
-    def report_html(self, path: str | os.PathLike[str] | None = None, **options: Any) -> str:
-        """Returns a report on one HTML page that needs no other file; see `rholm.report_html`."""
-        from ._pictures import report_html
-
-        return report_html(self, path, **options)
-
-    def render(self, **options: Any) -> Any:
-        """Returns a picture; see `rholm.render`."""
-        from ._pictures import render
-
-        return render(self, **options)
-
     def spectrum_svg(self, title: str = "", tolerance: float | None = None) -> str:
-        """Returns the spectrum on logarithmic scales as an SVG document; see `rholm.spectrum_svg`."""
+        """Returns the spectrum on logarithmic scales as an SVG document; see `rholm.figures.spectrum_svg`.
+
+        Examples
+        --------
+        >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+        >>> "<svg" in s.spectrum_svg("A body")
+        True
+        """
         return _core.spectrum_svg(self._core, title or self._name, tolerance)
 
     def plot_spectrum(self, ax: matplotlib.axes.Axes | None = None, **options: Any) -> matplotlib.axes.Axes:
@@ -719,11 +859,27 @@ class Expansion(Described):
             Axes to draw in; by default a new figure.
         **options
             Arguments of ``Axes.loglog``.
-        """
-        from ._pictures import plot_spectrum
 
-        drawn: matplotlib.axes.Axes = plot_spectrum(self, ax, **options)
-        return drawn
+        Examples
+        --------
+        >>> import matplotlib
+        >>> matplotlib.use("agg")
+        >>> axes = rholm.expand(rholm.bumpy_sphere(3), degree=4).plot_spectrum()
+        >>> axes.get_xlabel()
+        'degree l'
+        """
+        if ax is None:
+            _, ax = required("matplotlib.pyplot", "matplotlib").subplots()
+            assert ax is not None
+        degrees = np.arange(1, self.degree + 1)
+        ax.loglog(degrees, self.spectrum("energy")[1:], **{"label": self._name or "energy", **options})
+        if self.tail_strength is not None and self.degree > 0:
+            tail = self.tail_strength / (np.pi * degrees**4.0)
+            ax.loglog(degrees, tail, ":", color="0.5", label="predicted tail")
+        ax.legend()
+        ax.set_xlabel("degree l")
+        ax.set_ylabel(f"energy per degree [{self.unit}²]" if self.unit else "energy per degree")
+        return ax
 
     def __repr__(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
@@ -755,16 +911,6 @@ class Expansion(Described):
     def __deepcopy__(self, memo: dict[int, Any]) -> Expansion:
         return self.__copy__()  # nothing in it can be changed
 
-    def _repr_png_(self) -> bytes | None:
-        from ._pictures import notebook_png
-
-        return notebook_png(self)
-
-    def _repr_html_(self) -> str:
-        from ._pictures import expansion_html
-
-        return expansion_html(self)
-
     def _with_gravity(
         self, target: str, format: str | None, constant: float | None, radius: float | None
     ) -> _core.Expansion:
@@ -788,9 +934,18 @@ class Expansion(Described):
         _core.require_surface(self._core)
 
 
+class HasCoefficients(Protocol):
+    """Coefficients with their convention, as pyshtools has them."""
+
+    @property
+    def coeffs(self) -> Any: ...
+
+
 #: Coefficients: an `Expansion`, pyshtools.SHCoeffs, or an array (2, L+1, L+1) in pyshtools' default
 #: convention: 4 pi-normalised, without Condon-Shortley phase.
-CoefficientsLike = Union[Expansion, npt.ArrayLike, Any]
+CoefficientsLike = Union[Expansion, _core.Coefficients, Rows, HasCoefficients]
+
+form(CoefficientsLike, "coefficients: an Expansion, or an array (2, L+1, L+1)")
 
 
 def _is_number(value: Any) -> bool:

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import public
 from ._arrays import FloatArray, floats
 from ._coefficients import array_of, core_of
 from ._expansion import CoefficientsLike, Expansion
@@ -36,6 +37,7 @@ def _with_windows(function: _Function) -> _Function:
     return function
 
 
+@public
 @_with_windows
 def low_pass(
     cutoff: int, degree: int, window: Window = "lanczos", *, order: int = 4, time: float | None = None
@@ -52,10 +54,16 @@ def low_pass(
         How gains fall from 1 at degree 0. A sharper fall keeps more of the shape and rings more at
         edges: see `overshoot`.
     <parameters>
+
+    Examples
+    --------
+    >>> rholm.low_pass(2, 4, "ideal")
+    array([1., 1., 1., 0., 0.])
     """
     return _core.low_pass(cutoff, degree, window, order, time)
 
 
+@public
 def high_pass(
     cutoff: int, degree: int, window: Window = "lanczos", *, order: int = 4, time: float | None = None
 ) -> FloatArray:
@@ -67,10 +75,16 @@ def high_pass(
         First degree to keep, at least 1.
     degree, window, order, time
         As in `low_pass`.
+
+    Examples
+    --------
+    >>> rholm.high_pass(2, 4, "ideal")
+    array([0., 0., 1., 1., 1.])
     """
     return _core.high_pass(cutoff, degree, window, order, time)
 
 
+@public
 def band_pass(
     first: int,
     last: int,
@@ -88,10 +102,16 @@ def band_pass(
         First and last degree of the band.
     degree, window, order, time
         As in `low_pass`.
+
+    Examples
+    --------
+    >>> rholm.band_pass(1, 3, 4, "ideal")
+    array([0., 1., 1., 1., 0.])
     """
     return _core.band_pass(first, last, degree, window, order, time)
 
 
+@public
 def sharpened(gains: npt.ArrayLike, amount: float) -> FloatArray:
     """Returns gains for unsharp masking: 1 + amount (1 - g).
 
@@ -101,10 +121,16 @@ def sharpened(gains: npt.ArrayLike, amount: float) -> FloatArray:
         Gains of a low-pass filter.
     amount : float
         Strength; 0 changes nothing.
+
+    Examples
+    --------
+    >>> rholm.harmonics.sharpened([1, 0.5, 0], 2)
+    array([1., 2., 3.])
     """
     return _core.sharpened(floats(gains, "gains"), amount)
 
 
+@public
 def overshoot(gains_or_window: npt.ArrayLike | str, degree: int | None = None) -> _core.Overshoot:
     """Returns the overshoot of a filtered step beyond 0 ... 1, relative to its height.
 
@@ -114,6 +140,14 @@ def overshoot(gains_or_window: npt.ArrayLike | str, degree: int | None = None) -
         Gains of a filter, or the name of a window.
     degree : int, optional
         Cutoff of that window.
+
+    Examples
+    --------
+    >>> (
+    ...     round(rholm.harmonics.overshoot("ideal", 64).above, 2),
+    ...     rholm.harmonics.overshoot("heat", 64).above,
+    ... )
+    (0.09, 0.0)
     """
     if isinstance(gains_or_window, str):
         if degree is None:
@@ -122,6 +156,7 @@ def overshoot(gains_or_window: npt.ArrayLike | str, degree: int | None = None) -
     return _core.overshoot(floats(gains_or_window, "gains"))
 
 
+@public
 def filter(thing: Expansion | CoefficientsLike, gains: npt.ArrayLike, name: str = "filter") -> Any:
     """Multiplies each degree of an expansion, or of coefficients, by a factor.
 
@@ -133,6 +168,12 @@ def filter(thing: Expansion | CoefficientsLike, gains: npt.ArrayLike, name: str 
         Gains of the degrees from 0 on.
     name : str
         Name of the filter, which is added to the expansion's method.
+
+    Examples
+    --------
+    >>> c = np.ones((2, 1, 1)) * [[[2.0]], [[0.0]]]
+    >>> float(rholm.harmonics.filter(c, [0.5])[0, 0, 0])
+    1.0
     """
     if isinstance(thing, Expansion):
         return thing.filter(gains, name)

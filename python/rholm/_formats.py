@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from . import _core
+from ._arguments import public
 
 
 class FileFormat(NamedTuple):
@@ -30,11 +31,25 @@ class FileFormat(NamedTuple):
     """Description of the format, in one sentence."""
 
 
+@public
 def shape_formats() -> tuple[FileFormat, ...]:
-    """Returns the formats of meshes and points."""
+    """Returns the formats of meshes and points.
+
+    Examples
+    --------
+    >>> [f.name for f in rholm.files.shape_formats() if "ply" in f.extensions]
+    ['ply']
+    """
     return tuple(FileFormat(*line) for line in _core.shape_formats())
 
 
+@public
 def coefficients_formats() -> tuple[FileFormat, ...]:
-    """Returns the formats of coefficients, first the model file."""
+    """Returns the formats of coefficients, first the model file.
+
+    Examples
+    --------
+    >>> rholm.files.coefficients_formats()[0].extensions[0]
+    'h5'
+    """
     return tuple(FileFormat(*line) for line in _core.coefficients_formats())

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from . import _core
 from ._arrays import plain_array
 from ._errors import InvalidInputError
 
@@ -60,7 +61,7 @@ def foreign_has_faces(shape: Any) -> bool | None:
 
 
 def foreign_mesh(shape: Any) -> Arrays | None:
-    """Returns (vertices, triangles, attributes) of another package's mesh; None for any other object."""
+    """Returns (vertices, faces, attributes) of another package's mesh; None for any other object."""
     package = _package(shape)
     if package == "trimesh":
         return _trimesh_mesh(shape)
@@ -146,8 +147,6 @@ def _cut(points: npt.NDArray[Any], polygons: npt.NDArray[Any]) -> npt.NDArray[An
         return polygons
     if polygons.shape[1] < 3:
         return np.empty((0, 3), np.int64)
-    from . import _core
-
     rows = np.ascontiguousarray(points, dtype=np.float64)
     if polygons.size and (polygons.min() < 0 or polygons.max() >= len(rows)):
         raise InvalidInputError(
@@ -192,7 +191,7 @@ def mesh_to_trimesh(mesh: Mesh) -> trimesh.Trimesh:
         attributes.pop(name, None)
     return trimesh.Trimesh(
         vertices=np.array(mesh.vertices),
-        faces=np.array(mesh.triangles, dtype=np.int64),
+        faces=np.array(mesh.faces, dtype=np.int64),
         vertex_normals=normals,
         vertex_colors=None if colors is None else np.round(255 * colors).astype(np.uint8),
         vertex_attributes=attributes,
@@ -217,8 +216,8 @@ def _set_point_data(data: Any, attributes: dict[str, npt.NDArray[Any]]) -> None:
 def mesh_to_pyvista(mesh: Mesh) -> pyvista.PolyData:
     """Converts a mesh; see `Mesh.to_pyvista`."""
     pyvista = required("pyvista")
-    triangles = np.array(mesh.triangles, dtype=np.int64)
-    result = pyvista.PolyData.from_regular_faces(np.array(mesh.vertices), triangles)
+    faces = np.array(mesh.faces, dtype=np.int64)
+    result = pyvista.PolyData.from_regular_faces(np.array(mesh.vertices), faces)
     _set_point_data(result.point_data, mesh.attributes)
     return result
 
@@ -236,7 +235,7 @@ def mesh_to_meshio(mesh: Mesh) -> meshio.Mesh:
     """Converts a mesh; see `Mesh.to_meshio`."""
     return required("meshio").Mesh(
         np.array(mesh.vertices),
-        [("triangle", np.array(mesh.triangles, dtype=np.int64))],
+        [("triangle", np.array(mesh.faces, dtype=np.int64))],
         point_data={name: values.copy() for name, values in mesh.attributes.items()},
     )
 

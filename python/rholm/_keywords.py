@@ -10,14 +10,14 @@ import numpy.typing as npt
 
 
 class RepairKeywords(TypedDict, total=False):
-    """Options of `repair`."""
+    """Steps of the repair of a mesh."""
 
     weld: float
     max_hole: int
 
 
 class SimplifyKeywords(TypedDict, total=False):
-    """Options of `simplify`: when it stops."""
+    """Where simplify() stops."""
 
     triangles: int
     share: float
@@ -25,7 +25,7 @@ class SimplifyKeywords(TypedDict, total=False):
 
 
 class SampleKeywords(TypedDict, total=False):
-    """Options of `sample_surface`: errors, outliers and places of the samples."""
+    """Errors, outliers and places of the samples of a surface."""
 
     noise: float
     normal_noise: float
@@ -45,7 +45,7 @@ class SampleKeywords(TypedDict, total=False):
 
 
 class OrientKeywords(TypedDict, total=False):
-    """Options of `orient`."""
+    """How normals are found and which side is outside."""
 
     neighbors: int
     keep_directions: bool
@@ -56,7 +56,7 @@ class OrientKeywords(TypedDict, total=False):
 
 
 class AlignKeywords(TypedDict, total=False):
-    """Options of `align`."""
+    """How a rotation is sought."""
 
     start: Literal["correlation", "principal-axes"]
     bandwidth: int
@@ -67,8 +67,8 @@ class AlignKeywords(TypedDict, total=False):
     unknown_b: float
 
 
-class AnalyzeKeywords(TypedDict, total=False):
-    """Options of the transform from a chart to coefficients."""
+class TransformKeywords(TypedDict, total=False):
+    """Function to expand, and method."""
 
     method: Literal["edge", "gauge", "curl", "area"]
     engine: Literal["fast", "direct"]
@@ -76,7 +76,7 @@ class AnalyzeKeywords(TypedDict, total=False):
 
 
 class ToleranceKeywords(TypedDict, total=False):
-    """Largest allowed error of a model."""
+    """The largest error that is allowed."""
 
     unit: Literal["absolute", "diagonal", "radius"]
     norm: Literal["rms", "max"]
@@ -84,26 +84,29 @@ class ToleranceKeywords(TypedDict, total=False):
 
 
 class CenterKeywords(TypedDict, total=False):
-    """Options of the centre."""
+    """Where the centre is sought."""
 
     rays: int
 
 
 class ChartKeywords(TypedDict, total=False):
-    """Options of a chart: the centre, and surfaces that are not star-shaped."""
+    """Rules for the centre, and for surfaces that are not star-shaped."""
 
     signed: bool
 
 
-class EncodeKeywords(TypedDict, total=False):
-    """Options of `expand`: degree, precision and errors."""
+class ExpandKeywords(TypedDict, total=False):
+    """Degree, precision and error figures of an expansion."""
 
+    method: Literal["edge", "gauge", "curl", "area"]
+    engine: Literal["fast", "direct"]
+    precision: float
     errors: bool
     weld: float
 
 
 class MonteCarloKeywords(TypedDict, total=False):
-    """Options of `monte_carlo`."""
+    """How much is wanted, and when to stop."""
 
     places: Literal["edge", "triangle"]
     seed: int
@@ -113,7 +116,7 @@ class MonteCarloKeywords(TypedDict, total=False):
 
 
 class CompareKeywords(TypedDict, total=False):
-    """Options of `compare`."""
+    """Where distances are measured."""
 
     samples: int
     seed: int
@@ -121,7 +124,7 @@ class CompareKeywords(TypedDict, total=False):
 
 
 class CompressKeywords(TypedDict, total=False):
-    """Options of `compress`: limits of the size and the error of an atlas."""
+    """Limits of the size and the error of an atlas."""
 
     samples: int
     max_degree: int
@@ -130,7 +133,7 @@ class CompressKeywords(TypedDict, total=False):
 
 
 class AtlasSynthesisKeywords(TypedDict, total=False):
-    """Options for extracting the surface of an atlas."""
+    """How a surface is extracted."""
 
     step: float
     degree: int | None
@@ -139,7 +142,7 @@ class AtlasSynthesisKeywords(TypedDict, total=False):
 
 
 class PatchAtlasKeywords(TypedDict, total=False):
-    """Options of `patch_atlas`: the paper's parameters."""
+    """The paper's parameters."""
 
     extension: Literal["zero", "sphere"]
     min_cosine: float
@@ -147,7 +150,7 @@ class PatchAtlasKeywords(TypedDict, total=False):
 
 
 class ReconstructKeywords(TypedDict, total=False):
-    """Options of `reconstruct`: resolution, cleaning and holes of the surface."""
+    """Resolution, cleaning and holes of the surface."""
 
     step: float
     tolerance: float
@@ -169,7 +172,7 @@ class ReconstructKeywords(TypedDict, total=False):
 
 
 class PatchKeywords(TypedDict, total=False):
-    """Options of `smooth`: the detail to remove from a region."""
+    """Detail to remove from a region."""
 
     transition: float | None
     fitting: Literal["mean", "robust", "around"]
@@ -177,7 +180,7 @@ class PatchKeywords(TypedDict, total=False):
 
 
 class TransferKeywords(TypedDict, total=False):
-    """Options of `transfer`: the detail to take, and its size on the target."""
+    """Detail to take, and its size on the target."""
 
     from_degree: int
     scale: float
@@ -186,7 +189,7 @@ class TransferKeywords(TypedDict, total=False):
 
 
 class TransferUpdateKeywords(TypedDict, total=False):
-    """Options of `transfer` that can be updated quickly."""
+    """Values that sliders change."""
 
     height: float
     angle: float | None
@@ -196,7 +199,7 @@ class TransferUpdateKeywords(TypedDict, total=False):
 
 
 class RenderKeywords(TypedDict, total=False):
-    """Options of `render`: size, point of view, light and colours."""
+    """Size, point of view, light and colours."""
 
     perspective: bool
     fit_each: bool
@@ -210,7 +213,7 @@ class RenderKeywords(TypedDict, total=False):
 
 
 class ReportKeywords(TypedDict, total=False):
-    """Options of `report_html`: texts of the page, and size of its pictures."""
+    """Texts of a page beside its figures."""
 
     title: str
     shape_name: str

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from . import _core
+from ._arguments import public
 from ._atlas import Atlas, as_atlas
 from ._coefficients import Normalization
 from ._errors import InvalidInputError, UnsupportedError
@@ -22,7 +23,7 @@ class CoefficientsFile(NamedTuple):
     expansion: Expansion
     """The function, in the library's own convention."""
     format: str
-    """A name of `rholm.coefficients_formats`; "shtools" for a model file."""
+    """A name of `rholm.files.coefficients_formats`; "shtools" for a model file."""
     normalization: str
     """Normalisation of the numbers in the file."""
     csphase: int
@@ -58,6 +59,7 @@ def _not_a_shape(path: str | os.PathLike[str]) -> str:
     return name
 
 
+@public
 def read_coefficients(
     path: str | os.PathLike[str],
     *,
@@ -75,6 +77,12 @@ def read_coefficients(
         Convention of a file that states none.
     override_file : bool
         True: uses this convention for all files, whatever they state.
+
+    Examples
+    --------
+    >>> rholm.expand(rholm.bumpy_sphere(3), degree=4).save("body.json")
+    >>> rholm.files.read_coefficients("body.json").expansion.degree
+    4
     """
     source = _not_a_shape(path)
     with caller(0, False) as how:
@@ -82,6 +90,7 @@ def read_coefficients(
     return _file_of(read)
 
 
+@public
 def read_any_coefficients(
     path: str | os.PathLike[str],
     *,
@@ -95,6 +104,12 @@ def read_any_coefficients(
     ----------
     path, normalization, csphase, override_file
         As in `read_coefficients`.
+
+    Examples
+    --------
+    >>> rholm.expand(rholm.bumpy_sphere(3), degree=4).save("body.h5")
+    >>> rholm.files.read_any_coefficients("body.h5").expansion.degree
+    4
     """
     source = _not_a_shape(path)
     with caller(0, False) as how:
@@ -102,6 +117,7 @@ def read_any_coefficients(
     return _file_of(read)
 
 
+@public
 def parse_coefficients(
     data: bytes,
     name: str = "",
@@ -120,12 +136,19 @@ def parse_coefficients(
         Name for messages. Its extension is used if the content does not identify the format.
     normalization, csphase, override_file
         As in `read_coefficients`.
+
+    Examples
+    --------
+    >>> text = b"0, 0, 2.5, 0"
+    >>> float(rholm.files.parse_coefficients(text, "body.sh").expansion.coeffs[0, 0, 0])
+    2.5
     """
     with caller(0, False) as how:
         read = _core.parse_coefficients(data, name, normalization, csphase, override_file, how)
     return _file_of(read)
 
 
+@public
 def looks_like_coefficients(data: bytes) -> bool:
     """Returns True if bytes begin like a file of coefficients. Bare text is not recognised.
 
@@ -133,10 +156,16 @@ def looks_like_coefficients(data: bytes) -> bool:
     ----------
     data : bytes
         The beginning of a file.
+
+    Examples
+    --------
+    >>> rholm.files.looks_like_coefficients(b"product_type gravity_field")
+    True
     """
     return _core.looks_like_coefficients(bytes(data))
 
 
+@public
 def coefficients_format_of(path: str | os.PathLike[str]) -> str | None:
     """Returns the format for an extension, a name of `coefficients_formats`; None for a model file
     and others.
@@ -145,10 +174,19 @@ def coefficients_format_of(path: str | os.PathLike[str]) -> str | None:
     ----------
     path : path
         Name of a file, which need not exist.
+
+    Examples
+    --------
+    >>> (
+    ...     rholm.files.coefficients_format_of("moon.gfc"),
+    ...     rholm.files.coefficients_format_of("moon.stl"),
+    ... )
+    ('icgem', None)
     """
     return _core.coefficients_format_of(os.fspath(path))
 
 
+@public
 def load(
     path: str | os.PathLike[str], *, normalization: Normalization = "4pi", csphase: int = 1
 ) -> Expansion | Atlas:
@@ -160,6 +198,12 @@ def load(
         File to read. The content decides the format.
     normalization, csphase
         Convention of a file that states none (bare text, .npy).
+
+    Examples
+    --------
+    >>> rholm.expand(rholm.bumpy_sphere(3), degree=4).save("body.h5")
+    >>> rholm.load("body.h5").degree
+    4
     """
     source = _not_a_shape(path)
     with caller(0, False) as how:
@@ -169,6 +213,7 @@ def load(
     return Expansion._of(expansion, name=name_of(path))
 
 
+@public
 def read_model(path: str | os.PathLike[str]) -> Expansion:
     """Reads a model file of one expansion.
 
@@ -176,11 +221,18 @@ def read_model(path: str | os.PathLike[str]) -> Expansion:
     ----------
     path : path
         HDF5 file; layout in docs/model-file.md.
+
+    Examples
+    --------
+    >>> rholm.expand(rholm.bumpy_sphere(3), degree=4).save("body.h5")
+    >>> rholm.files.read_model("body.h5").degree
+    4
     """
     with caller(0, False) as how:
         return Expansion._of(_core.read_model(os.fspath(path), how), name=name_of(path))
 
 
+@public
 def write_model(expansion: Expansion, path: str | os.PathLike[str]) -> None:
     """Writes a model file.
 
@@ -190,10 +242,17 @@ def write_model(expansion: Expansion, path: str | os.PathLike[str]) -> None:
         Expansion, written with all its metadata.
     path : path
         File to write; an existing file is replaced when the new one is complete.
+
+    Examples
+    --------
+    >>> rholm.files.write_model(rholm.expand(rholm.bumpy_sphere(3), degree=4), "body.h5")
+    >>> rholm.files.is_model_file("body.h5")
+    True
     """
     as_expansion(expansion).save(path, format="hdf5")
 
 
+@public
 def write_coefficients(expansion: Expansion, path: str | os.PathLike[str], **options: Any) -> None:
     """Writes a file of coefficients; see `Expansion.save`.
 
@@ -205,12 +264,20 @@ def write_coefficients(expansion: Expansion, path: str | os.PathLike[str], **opt
         File to write; its extension chooses the format.
     **options
         Arguments format, normalization, csphase, gravity_constant, reference_radius.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+    >>> rholm.files.write_coefficients(s, "body.gfc")
+    >>> rholm.load("body.gfc").degree
+    4
     """
     if Path(path).suffix.lower() in (".h5", ".hdf5") and options.get("format") is None:
         raise UnsupportedError(f"{os.fspath(path)}: model files are written by write_model(), or save()")
     as_expansion(expansion).save(path, **options)
 
 
+@public
 def is_model_file(path: str | os.PathLike[str]) -> bool:
     """Returns True for a model file, by its first bytes.
 
@@ -218,10 +285,17 @@ def is_model_file(path: str | os.PathLike[str]) -> bool:
     ----------
     path : path
         Any file.
+
+    Examples
+    --------
+    >>> rholm.icosphere(1).save("ball.ply")
+    >>> rholm.files.is_model_file("ball.ply")
+    False
     """
     return _core.is_model_file(os.fspath(path))
 
 
+@public
 def read_atlas(path: str | os.PathLike[str]) -> Atlas:
     """Reads a model file of an atlas.
 
@@ -229,11 +303,18 @@ def read_atlas(path: str | os.PathLike[str]) -> Atlas:
     ----------
     path : path
         HDF5 file; layout in docs/model-file.md.
+
+    Examples
+    --------
+    >>> rholm.load("ring.h5").save("copy.h5")
+    >>> len(rholm.files.read_atlas("copy.h5")) == len(rholm.load("ring.h5"))
+    True
     """
     with caller(0, False) as how:
         return Atlas._of(_core.read_atlas(os.fspath(path), how), name=name_of(path))
 
 
+@public
 def write_atlas(atlas: Atlas, path: str | os.PathLike[str]) -> None:
     """Writes a model file of an atlas.
 
@@ -243,10 +324,17 @@ def write_atlas(atlas: Atlas, path: str | os.PathLike[str]) -> None:
         Atlas to write.
     path : path
         File to write; an existing file is replaced when the new one is complete.
+
+    Examples
+    --------
+    >>> rholm.files.write_atlas(rholm.load("ring.h5"), "copy.h5")
+    >>> rholm.files.is_atlas_file("copy.h5")
+    True
     """
     as_atlas(atlas).save(path)
 
 
+@public
 def is_atlas_file(path: str | os.PathLike[str]) -> bool:
     """Returns True for a model file that holds an atlas.
 
@@ -254,5 +342,31 @@ def is_atlas_file(path: str | os.PathLike[str]) -> bool:
     ----------
     path : path
         Any file.
+
+    Examples
+    --------
+    >>> rholm.expand(rholm.bumpy_sphere(3), degree=4).save("body.h5")
+    >>> rholm.files.is_atlas_file("body.h5")
+    False
     """
     return _core.is_atlas_file(os.fspath(path))
+
+
+@public
+def write_file(path: str | os.PathLike[str], data: bytes) -> None:
+    """Writes bytes to a temporary file that replaces `path` when complete.
+
+    Parameters
+    ----------
+    path : path
+        File to write.
+    data : bytes
+        Content of the file.
+
+    Examples
+    --------
+    >>> rholm.files.write_file("notes.txt", b"measured twice")
+    >>> open("notes.txt").read()
+    'measured twice'
+    """
+    _core.write_file(os.fspath(path), bytes(data))

@@ -19,17 +19,16 @@ _PLACE = "{options}"
 
 
 def simplify_options(simplify: Any) -> _core.SimplifyOptions | None:
-    """Returns when to stop, for None, "auto", a number of triangles (1 or more), or a dict of options."""
+    """Returns when to stop, for None, "auto", a number of faces (1 or more), or a dict of options."""
     if simplify is None or simplify is False:
         return None
     if simplify is True or simplify == "auto":
         return _core.SimplifyOptions()
     if isinstance(simplify, dict):
-        return _core.SimplifyOptions(**simplify)
+        named = {"triangles" if name == "faces" else str(name): value for name, value in simplify.items()}
+        return _core.SimplifyOptions(**named)
     if isinstance(simplify, str):
-        raise InvalidInputError(
-            f"simplify is {simplify!r}; it must be 'auto', a number of triangles or a dict"
-        )
+        raise InvalidInputError(f"simplify is {simplify!r}; it must be 'auto', a number of faces or a dict")
     return _core.SimplifyOptions(triangles=whole(simplify, "simplify"))
 
 

@@ -12,20 +12,22 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import public
 from ._arrays import float_rows, floats, plain_array
+from ._atlas import Atlas
+from ._convert import outward_mesh
 from ._errors import Error, InvalidInputError
 from ._expand import as_expansion
 from ._expansion import Expansion
-from ._interop import required
 from ._options import options_of, takes
 from ._run import Progress, caller, named
-from ._shapes import Mesh, PointCloud, finite_points, outward_mesh
+from ._shapes import Mesh, PointCloud, finite_points
 from ._surfaces import surface_of
+from ._view import viewer_script
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._atlas import Atlas
     from ._keywords import RenderKeywords, ReportKeywords
 
 Pixels = npt.NDArray[np.uint8]
@@ -33,13 +35,25 @@ Pixels = npt.NDArray[np.uint8]
 _NOTEBOOK_SIZE = (480, 400)  # pixels; chosen: fits beside text
 
 
+@public
 class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
     """Pixels, (height, width, 3) uint8, as a screen shows them (sRGB). It is an array that can be
     saved, and notebooks display it.
+
+    Examples
+    --------
+    >>> rholm.render(rholm.icosphere(3), (64, 48)).dtype
+    dtype('uint8')
     """
 
     def png(self) -> bytes:
-        """Returns the bytes of a PNG file."""
+        """Returns the bytes of a PNG file.
+
+        Examples
+        --------
+        >>> rholm.render(rholm.icosphere(3), (64, 48)).png()[1:4]
+        b'PNG'
+        """
         return encode_png(self)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -49,13 +63,23 @@ class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
         ----------
         path : path
             File to write; an existing file is replaced when the new one is complete.
+
+        Examples
+        --------
+        >>> rholm.render(rholm.icosphere(3), (64, 48)).save("ball.png")
         """
         write_png(path, self)
+
+    def __repr__(self) -> str:
+        if self.ndim != 3:
+            return super().__repr__()
+        return f"<rholm.figures.Picture: {self.shape[1]} x {self.shape[0]} pixels>"
 
     def _repr_png_(self) -> bytes | None:
         return self.png() if self.ndim == 3 and self.shape[2] == 3 else None
 
 
+@public
 class Panel:
     """One object in a picture.
 
@@ -63,7 +87,7 @@ class Panel:
     ----------
     shape : mesh-like, Expansion, Atlas, Reconstruction, PointCloud or array_like (N, 3)
         Object to show. A file may also hold points. For points of other packages use
-        `rholm.as_points`.
+        `rholm.clouds.as_points`.
     label : str
         Text below it.
     scalars : array_like, (N,), optional
@@ -81,6 +105,16 @@ class Panel:
     ------
     InvalidInputError
         For both scalars and colors, or arrays of a wrong shape.
+
+    Examples
+    --------
+    >>> ball, ring = rholm.icosphere(3), rholm.torus(2, 0.7, 40, 20)
+    >>> panels = [
+    ...     rholm.Panel(ball, "a ball", scalars=ball.vertices[:, 2]),
+    ...     rholm.Panel(ring, "a ring"),
+    ... ]
+    >>> rholm.render(panels, (128, 64)).shape
+    (64, 128, 3)
     """
 
     __slots__ = ("_arguments", "_core", "shape")
@@ -118,6 +152,9 @@ class Panel:
                 smooth = "nx" in shape.attributes
             self._core = _core.Panel(shape._core, label, smooth, values, rows)
 
+    def __repr__(self) -> str:
+        return f"<rholm.Panel {self._arguments['label']!r}: {self.shape!r}>"
+
     def __reduce__(self) -> Any:
         return (_panel_of, (self.shape, self._arguments))
 
@@ -138,6 +175,7 @@ def _positive(radius: float) -> float:
     return float(radius)
 
 
+@public
 @takes(_core.RenderOptions)
 def render(
     shape: Any,
@@ -176,7 +214,7 @@ def render(
         PNG file to write as well.
     {options}
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     Returns
     -------
@@ -188,6 +226,12 @@ def render(
     InvalidInputError
         For a shape without faces or points, more than 20 million points, arrays of a wrong length,
         or sizes out of range.
+
+    Examples
+    --------
+    >>> picture = rholm.render(rholm.bumpy_sphere(3), (64, 48), path="body.png")
+    >>> picture.shape
+    (48, 64, 3)
     """
     if path is not None:
         named(path, (".png",), "a picture")  # checked before the work
@@ -228,6 +272,7 @@ def _pixels(image: npt.ArrayLike) -> Pixels:
     return np.ascontiguousarray(array)
 
 
+@public
 def encode_png(image: npt.ArrayLike) -> bytes:
     """Returns the bytes of a PNG file.
 
@@ -235,10 +280,16 @@ def encode_png(image: npt.ArrayLike) -> bytes:
     ----------
     image : array_like of uint8, (height, width, 3)
         Pixels, rows from the top.
+
+    Examples
+    --------
+    >>> rholm.figures.encode_png(np.zeros((4, 4, 3), np.uint8))[1:4]
+    b'PNG'
     """
     return _core.encode_png(_pixels(image))
 
 
+@public
 def write_png(path: str | os.PathLike[str], image: npt.ArrayLike) -> None:
     """Writes a PNG file to a temporary file that replaces `path` when complete.
 
@@ -248,23 +299,15 @@ def write_png(path: str | os.PathLike[str], image: npt.ArrayLike) -> None:
         File to write.
     image : array_like of uint8, (height, width, 3)
         Pixels, rows from the top.
+
+    Examples
+    --------
+    >>> rholm.figures.write_png("black.png", np.zeros((4, 4, 3), np.uint8))
     """
     _core.write_png(named(path, (".png",), "a picture"), _pixels(image))
 
 
-def write_file(path: str | os.PathLike[str], data: bytes) -> None:
-    """Writes bytes to a temporary file that replaces `path` when complete.
-
-    Parameters
-    ----------
-    path : path
-        File to write.
-    data : bytes
-        Content of the file.
-    """
-    _core.write_file(os.fspath(path), bytes(data))
-
-
+@public
 def spectrum_svg(expansion: Expansion, title: str = "", tolerance: float | None = None) -> str:
     """Returns the energy per degree on logarithmic scales as an SVG document.
 
@@ -277,25 +320,17 @@ def spectrum_svg(expansion: Expansion, title: str = "", tolerance: float | None 
     tolerance : float, optional
         Wanted rms error, in the function's unit. It adds its energy, and the energy of all degrees
         beyond l.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+    >>> "<svg" in rholm.figures.spectrum_svg(s, title="A body")
+    True
     """
     return as_expansion(expansion).spectrum_svg(title, tolerance)
 
 
-def plot_spectrum(expansion: Expansion, ax: Any = None, **options: Any) -> Any:
-    """Plots the spectrum; see `Expansion.plot_spectrum`."""
-    if ax is None:
-        _, ax = required("matplotlib.pyplot", "matplotlib").subplots()
-    degrees = np.arange(1, expansion.degree + 1)
-    ax.loglog(degrees, expansion.spectrum("energy")[1:], **{"label": expansion._name or "energy", **options})
-    if expansion.tail_strength is not None and expansion.degree > 0:
-        tail = expansion.tail_strength / (np.pi * degrees**4.0)
-        ax.loglog(degrees, tail, ":", color="0.5", label="predicted tail")
-    ax.legend()
-    ax.set_xlabel("degree l")
-    ax.set_ylabel(f"energy per degree [{expansion.unit}²]" if expansion.unit else "energy per degree")
-    return ax
-
-
+@public
 @takes(_core.ReportOptions)
 def report_html(
     model: Expansion | Atlas,
@@ -325,7 +360,7 @@ def report_html(
         degree. It needs no network.
     {options}
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     Raises
     ------
@@ -333,10 +368,14 @@ def report_html(
         For an interactive report of an atlas, options out of range, or a model without a surface.
     UnsupportedError
         If `interactive` and the package was built without the viewer.
-    """
-    from ._atlas import Atlas
-    from ._view import viewer_script
 
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+    >>> page = rholm.report_html(s, "body.html", title="A body", picture_size=64)
+    >>> "A body" in page
+    True
+    """
     if interactive and isinstance(model, Atlas):
         raise InvalidInputError("interactive pages are of expansions, not of atlases")
     if path is not None:
@@ -354,7 +393,7 @@ def report_html(
     with caller(threads, progress) as how:
         page = _core.report_html(model._core, None if mesh is None else mesh._core, wanted, how)
     if path is not None:
-        write_file(path, page.encode())
+        _core.write_file(os.fspath(path), page.encode())
     return page
 
 
@@ -385,7 +424,12 @@ def _table(rows: list[tuple[str, str]]) -> str:
     return f"<table>{cells}</table>"
 
 
-def expansion_html(expansion: Expansion) -> str:
+def notebook_html(model: Expansion | Atlas) -> str:
+    """Returns HTML with a picture and numbers of a model."""
+    return _atlas_html(model) if isinstance(model, Atlas) else _expansion_html(model)
+
+
+def _expansion_html(expansion: Expansion) -> str:
     """Returns HTML with a picture, numbers and the spectrum of an expansion."""
     unit = f" {expansion.unit}" if expansion.unit else ""
     rows = [
@@ -421,7 +465,7 @@ def expansion_html(expansion: Expansion) -> str:
     return f"<div>{figure}{_table(rows)}{svg[svg.index('<svg') :]}</div>"
 
 
-def atlas_html(atlas: Atlas) -> str:
+def _atlas_html(atlas: Atlas) -> str:
     """Returns HTML with a picture and numbers of an atlas."""
     size = atlas.size
     unit = f" {atlas.unit}" if atlas.unit else ""

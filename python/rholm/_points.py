@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import public
+from ._convert import MeshLike, PointsLike, as_mesh, as_points
 from ._options import options_of, takes
 from ._run import Progress, caller
-from ._shapes import MeshLike, PointCloud, PointsLike, as_mesh, as_points, finite_points
+from ._shapes import PointCloud, finite_points
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     from ._keywords import OrientKeywords, SampleKeywords
 
 
+@public
 @takes(_core.SampleOptions)
 def sample_surface(
     mesh: MeshLike,
@@ -37,7 +40,7 @@ def sample_surface(
         Number of points before holes; approximate with a pattern.
     {options}
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     Returns
     -------
@@ -50,6 +53,12 @@ def sample_surface(
     ------
     InvalidInputError
         For a mesh without area, options out of range, or holes that leave no point.
+
+    Examples
+    --------
+    >>> cloud = rholm.sample_surface(rholm.icosphere(3), 1000, seed=1)
+    >>> cloud
+    <rholm.PointCloud: 1000 points with normals>
     """
     wanted = options_of(_core.SampleOptions, {**options}, "sample_surface", points=points)
     with caller(threads, progress) as how:
@@ -65,6 +74,7 @@ class Cleaned(NamedTuple):
     """Number and kinds of dropped points."""
 
 
+@public
 def clean(points: PointsLike) -> Cleaned:
     """Drops points that are not finite, and merges points at one place.
 
@@ -72,6 +82,12 @@ def clean(points: PointsLike) -> Cleaned:
     ----------
     points : points-like
         Points, which do not change.
+
+    Examples
+    --------
+    >>> cleaned = rholm.clouds.clean([[0, 0, 0], [0, 0, 0], [1, 0, 0], [np.nan, 0, 0]])
+    >>> len(cleaned.cloud)
+    2
     """
     with caller(0, False) as how:
         cloud, report = _core.clean(as_points(points)._core, how)
@@ -87,6 +103,7 @@ class AlignedScans(NamedTuple):
     """How far scans were apart, and are."""
 
 
+@public
 def align_scans(
     points: PointsLike, scan: npt.ArrayLike | None = None, *, threads: int = 0, progress: Progress = None
 ) -> AlignedScans:
@@ -103,12 +120,19 @@ def align_scans(
         Number of the scan of each point, whole numbers; by default the attribute ``scan``. Without
         both nothing is done.
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     References
     ----------
     Y. Chen, G. Medioni, Object modelling by registration of multiple range images, 1992.
     S. Rusinkiewicz, A symmetric objective function for ICP, 2019.
+
+    Examples
+    --------
+    >>> scans = rholm.sample_surface(rholm.torus(2, 0.7, 40, 20), 3000, scans=3, misalignment=1e-3)
+    >>> aligned = rholm.clouds.align_scans(scans)
+    >>> len(aligned.cloud) == len(scans)
+    True
     """
     cloud = as_points(points)
     if scan is not None:
@@ -128,6 +152,7 @@ class Oriented(NamedTuple):
     """Report: the steps that were done, and how sure the result is."""
 
 
+@public
 @takes(_core.OrientOptions)
 def orient(
     points: PointsLike,
@@ -150,11 +175,18 @@ def orient(
         Meaning of the columns of a text table or array, as in `read_shape`.
     {options}
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     References
     ----------
     H. Hoppe et al., Surface reconstruction from unorganized points, 1992.
+
+    Examples
+    --------
+    >>> cloud = rholm.sample_surface(rholm.icosphere(4), 1000)
+    >>> found = rholm.orient(cloud.points).cloud.normals
+    >>> bool(((found * cloud.normals).sum(axis=1) > 0).all())
+    True
     """
     wanted = options_of(_core.OrientOptions, {**options}, "orient")
     given = finite_points(as_points(points, normals, columns=columns))[0]

@@ -6,7 +6,9 @@ from typing import Any
 
 import pyvista
 
-from . import Atlas, Comparison, Expansion, compare, compress, expand, reconstruct, repair, smooth
+from .clouds import reconstruct
+from .harmonics import Atlas, Expansion, compress, expand
+from .meshes import Comparison, compare, repair, smooth
 
 
 @pyvista.register_dataset_accessor("rholm", pyvista.PolyData)

@@ -11,11 +11,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import public
 from ._atlas import Atlas
+from ._convert import PointsLike, as_mesh, as_points
 from ._errors import InvalidInputError
+from ._model_files import load
 from ._options import options_of, takes
-from ._run import Progress, caller
-from ._shapes import Mesh, PointsLike, as_mesh, as_points, columns_text, shape_of_path, warn
+from ._run import Progress, caller, warn
+from ._shape_files import shape_of_path
+from ._shapes import Mesh, columns_text
+from ._shown import Shown
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -29,11 +34,18 @@ class _Parts(NamedTuple):
     report: _core.ReconstructReport
 
 
-class Reconstruction(_Parts):
+@public
+class Reconstruction(_Parts, Shown):
     """Result of `reconstruct`: ``mesh, atlas, report = r``.
 
     With an ``output`` the first two items are None. ``r.mesh`` and ``r.atlas`` then read the files
     each time they are asked for.
+
+    Examples
+    --------
+    >>> mesh, atlas, report = rholm.reconstruct(rholm.sample_surface(rholm.icosphere(3), 1000))
+    >>> mesh.inspect().closed
+    True
     """
 
     report: _core.ReconstructReport
@@ -56,20 +68,32 @@ class Reconstruction(_Parts):
         if self[1] is None and self._files is not None:
             if self._files[1] is None:
                 raise InvalidInputError("the caps are not kept beside an output: give a model=")
-            from ._model_files import load
-
             return cast(Atlas, load(self._files[1]))
         atlas: Atlas = self[1]
         return atlas
 
     def save(self, path: str | os.PathLike[str], format: str | None = None, ascii: bool = False) -> None:
-        """Writes the mesh; see `write_shape`."""
+        """Writes the mesh.
+
+        Parameters
+        ----------
+        path, format, ascii
+            As in `write_shape`.
+
+        Examples
+        --------
+        >>> rholm.reconstruct(rholm.sample_surface(rholm.icosphere(3), 1000)).save("ball.ply")
+        >>> rholm.inspect("ball.ply").closed
+        True
+        """
         self.mesh.save(path, format, ascii)
 
-    def _repr_png_(self) -> bytes | None:
-        from ._pictures import notebook_png
+    def __repr__(self) -> str:
+        report = f"{self.report.vertices} vertices, {self.report.triangles} faces"
+        return f"<rholm.clouds.Reconstruction: {report} from {self.report.points} points>"
 
-        return None if self[0] is None else notebook_png(self.mesh)
+    def _repr_png_(self) -> bytes | None:
+        return None if self[0] is None else self.mesh._repr_png_()
 
 
 def _warn_of_normals(report: _core.ReconstructReport) -> None:
@@ -103,6 +127,7 @@ def _warn_of_normals(report: _core.ReconstructReport) -> None:
         )
 
 
+@public
 @takes(_core.ReconstructOptions)
 def reconstruct(
     points: PointsLike,
@@ -142,7 +167,7 @@ def reconstruct(
         are counted. An exception in it ends the run.
     {options}
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     Returns
     -------
@@ -168,6 +193,13 @@ def reconstruct(
     -----
     UserWarning
         If the surface is unreliable, for example where normals contradict each other.
+
+    Examples
+    --------
+    >>> cloud = rholm.sample_surface(rholm.torus(2, 0.7, 40, 20), 3000)
+    >>> r = rholm.reconstruct(cloud)
+    >>> r.mesh.inspect().closed, r.mesh.inspect().genus
+    (True, 1)
     """
     if foreseen is not None and not callable(foreseen):
         raise TypeError(f"foreseen is a callable or None, not {foreseen!r}")
@@ -197,6 +229,7 @@ def _source(
     return as_points(shape, normals, attributes, columns)._core, dropped
 
 
+@public
 def foresee_tiles(points: int, tile_points: int = 1 << 20) -> _core.TileForecast:
     """Estimates the resources of `reconstruct` for a number of points, without attributes.
 
@@ -217,5 +250,10 @@ def foresee_tiles(points: int, tile_points: int = 1 << 20) -> _core.TileForecast
     ------
     InvalidInputError
         For `tile_points` out of range.
+
+    Examples
+    --------
+    >>> rholm.clouds.foresee_tiles(1_000_000).tiles
+    1
     """
     return _core.foresee_tiles(points, tile_points)

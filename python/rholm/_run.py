@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -103,3 +104,30 @@ def caller(threads: int = 0, progress: Progress = None) -> Iterator[_core.Caller
         raise ValueError(f"threads is a whole number from 0 on, not {threads!r}")
     with reporter(progress) as report:
         yield _core.Caller(threads, report)
+
+
+def warn(text: str, kind: type[Warning] = UserWarning) -> None:
+    """Warns the caller of the package: the warning points to the first frame outside of it.
+
+    Parameters
+    ----------
+    text : str
+        One sentence.
+    kind : type of warning
+        Category of the warning.
+    """
+    frame, depth = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("rholm"):
+        frame, depth = frame.f_back, depth + 1
+    warnings.warn(text, kind, stacklevel=depth)
+
+
+def renamed(old: str, new: str) -> None:
+    """Warns the caller of the package of a name that the next version does not have.
+
+    Parameters
+    ----------
+    old, new : str
+        The name that was used, and the name that replaces it.
+    """
+    warn(f"{old} is {new} now; the next version has no other name for it", DeprecationWarning)

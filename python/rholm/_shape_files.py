@@ -1,4 +1,4 @@
-"""Reads and writes files of meshes and points."""
+"""Reads files of meshes and points."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import public
 from ._arrays import IndexArray
-from ._run import Progress, caller
-from ._shapes import Mesh, MeshLike, PointCloud, as_shape, columns_text, warn
+from ._run import Progress, caller, warn
+from ._shapes import Mesh, PointCloud, columns_text
 
 
 class ShapeFile(NamedTuple):
@@ -21,7 +22,7 @@ class ShapeFile(NamedTuple):
     shape: Mesh | PointCloud
     """A `Mesh` if the file has faces, else a `PointCloud`."""
     format: str
-    """As its content showed: a name of `rholm.shape_formats`."""
+    """As its content showed: a name of `rholm.files.shape_formats`."""
     encoding: str
     """"ascii", "binary little endian" or "binary big endian"."""
     warnings: list[str]
@@ -43,6 +44,7 @@ def _shape_file(read: Any) -> ShapeFile:
     return ShapeFile(wrapped, form, encoding, warnings, taken, note, unsure, dropped)
 
 
+@public
 def read_shape(
     path: str | os.PathLike[str],
     *,
@@ -50,7 +52,7 @@ def read_shape(
     columns: str | Sequence[str] | None = None,
     progress: Progress = None,
 ) -> ShapeFile:
-    """Reads a mesh or points in any format of `rholm.shape_formats`.
+    """Reads a mesh or points in any format of `rholm.files.shape_formats`.
 
     Parameters
     ----------
@@ -64,7 +66,7 @@ def read_shape(
         are a (alpha), and lat,lon,radius (degrees north and east) for x,y,z. A - skips a column;
         any other word names an attribute. By default the header and the values decide.
     progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     Raises
     ------
@@ -74,16 +76,23 @@ def read_shape(
         If the file is malformed (with the line or the byte), truncated or empty.
     UnsupportedError
         If the format is unknown.
+
+    Examples
+    --------
+    >>> rholm.icosphere(1).save("ball.stl")
+    >>> rholm.read_shape("ball.stl").shape
+    <rholm.Mesh: 240 vertices, 80 faces>
     """
     with caller(0, progress) as how:
         read = _core.read_shape(os.fspath(path), attributes, columns_text(columns), how)
     return _shape_file(read)
 
 
+@public
 def parse_shape(
     data: bytes, name: str = "", *, attributes: bool = True, columns: str | Sequence[str] | None = None
 ) -> ShapeFile:
-    """Reads a mesh or points from the bytes of a file.
+    r"""Reads a mesh or points from the bytes of a file.
 
     Parameters
     ----------
@@ -95,61 +104,18 @@ def parse_shape(
         True: reads attributes.
     columns : str or sequence of str, optional
         As in `read_shape`.
+
+    Examples
+    --------
+    >>> rholm.files.parse_shape(b"0 0 0\n1 0 0\n0 1 0\n", "points.xyz").shape
+    <rholm.PointCloud: 3 points>
     """
     with caller(0, False) as how:
         read = _core.parse_shape(bytes(data), name, attributes, columns_text(columns), how)
     return _shape_file(read)
 
 
-def write_shape(
-    shape: MeshLike | PointCloud,
-    path: str | os.PathLike[str],
-    *,
-    format: str | None = None,
-    ascii: bool = False,
-) -> None:
-    """Writes a mesh or points to a temporary file that replaces `path` when complete.
-
-    Warns (`UserWarning`) if the format's single precision changes a shape by more than rounding.
-
-    Parameters
-    ----------
-    shape : mesh-like or PointCloud
-        Shape to write. Attributes are written if the format has room for them.
-    path : path
-        File to write. Its extension chooses the format, unless `format` is given.
-    format : str, optional
-        Name of the format, from `rholm.shape_formats`.
-    ascii : bool
-        True: writes text if the format has text and binary files.
-
-    Raises
-    ------
-    IoError
-        If the file cannot be written.
-    UnsupportedError
-        For a format that cannot hold the shape.
-    """
-    core = as_shape(shape)._core
-    with caller(0, False) as how:
-        said = _core.write_shape(core, os.fspath(path), format, ascii, how)
-    for text in said:
-        warn(f"{os.fspath(path)}: {text}")
-
-
-def attributes_left_out(shape: MeshLike | PointCloud, format: str) -> list[str]:
-    """Returns the names of the attributes that a format has no room for.
-
-    Parameters
-    ----------
-    shape : mesh-like or PointCloud
-        Shape that would be written.
-    format : str
-        Name of the format, from `rholm.shape_formats`.
-    """
-    return _core.attributes_left_out(list(as_shape(shape).attributes), format)
-
-
+@public
 def map_mesh(path: str | os.PathLike[str]) -> tuple[npt.NDArray[Any], IndexArray] | None:
     """Maps vertices and faces of a binary PLY file as arrays without a copy; None for other files.
 
@@ -159,14 +125,21 @@ def map_mesh(path: str | os.PathLike[str]) -> tuple[npt.NDArray[Any], IndexArray
     Parameters
     ----------
     path : path
-        PLY file of native byte order with vertices, then triangles.
+        PLY file of native byte order with vertices, then faces of three corners.
 
     Returns
     -------
     vertices : float32 or float64, (N, 3)
         Read-only; not checked.
-    triangles : uint32, (M, 3)
+    faces : uint32, (M, 3)
         Read-only; not checked, and not aligned: most functions copy them.
+
+    Examples
+    --------
+    >>> rholm.icosphere(1).save("ball.ply")
+    >>> vertices, faces = rholm.files.map_mesh("ball.ply")
+    >>> vertices.shape, faces.shape
+    ((42, 3), (80, 3))
     """
     with caller(0, False) as how:
         mapped = _core.map_mesh(os.fspath(path), how)
@@ -183,3 +156,29 @@ def map_mesh(path: str | os.PathLike[str]) -> tuple[npt.NDArray[Any], IndexArray
         rows(mapped.vertex_bytes, mapped.vertex_layout),
         rows(mapped.triangle_bytes, mapped.triangle_layout),
     )
+
+
+def shape_of_path(shape: Any, columns: str | Sequence[str] | None = None) -> tuple[Any, int]:
+    """Reads the shape of a path; returns any other object unchanged.
+
+    Parameters
+    ----------
+    shape : path, or anything else
+        Path or other object. A warning tells which meanings are unsure, and how many points are
+        dropped.
+    columns : str or sequence of str, optional
+        Meaning of the columns of a text table, as in `read_shape`.
+
+    Returns
+    -------
+    shape, dropped
+        The shape, and the number of points dropped because they are not finite.
+    """
+    if not isinstance(shape, (str, os.PathLike)):
+        return shape, 0
+    name, file = os.fspath(shape), read_shape(shape, columns=columns)
+    if file.unsure:
+        warn(f"{name}: {file.note}")
+    if file.dropped:
+        warn(f"{name}: {file.dropped} points with a coordinate that is not finite dropped")
+    return file.shape, file.dropped

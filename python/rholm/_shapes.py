@@ -3,29 +3,29 @@
 from __future__ import annotations
 
 import os
-import sys
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar, Union, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import public
 from ._arrays import (
     FloatArray,
     IndexArray,
     attribute_dict,
     attribute_tuples,
+    face_rows,
     float_rows,
     numeric,
-    plain_array,
     read_only,
-    triangle_rows,
 )
 from ._errors import InvalidInputError
-from ._interop import foreign_has_faces, foreign_mesh
+from ._interop import cloud_to_pyvista, cloud_to_trimesh, mesh_to_meshio, mesh_to_pyvista, mesh_to_trimesh
+from ._run import caller, renamed, warn
+from ._shown import Shown
 
 if TYPE_CHECKING:
     import meshio
@@ -33,14 +33,15 @@ if TYPE_CHECKING:
     import trimesh
 
 
-class Mesh:
-    """A mesh of triangles that share vertices.
+@public
+class Mesh(Shown):
+    """A mesh of triangular faces that share vertices.
 
     Parameters
     ----------
     vertices : array_like, (N, 3)
         Coordinates in any unit, copied to float64.
-    triangles : array_like of integers, (M, 3)
+    faces : array_like of integers, (M, 3)
         Vertex indices, counter-clockwise seen from outside, copied to uint32.
     attributes : mapping of str to array_like, optional
         Attributes of vertices, (N,) or (N, k) each: ``{"quality": q, "rgb": colors}``. Columns of
@@ -54,16 +55,23 @@ class Mesh:
 
     Notes
     -----
-    `vertices` and `triangles` are arrays over the library's own memory: a mesh that is given to a
+    `vertices` and `faces` are arrays over the library's own memory: a mesh that is given to a
     function is not copied.
+
+    Examples
+    --------
+    >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    >>> mesh = rholm.Mesh(corners, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    >>> mesh.faces.shape, round(mesh.volume, 6)
+    ((4, 3), 0.166667)
     """
 
     __slots__ = ("_core",)
 
-    def __init__(self, vertices: npt.ArrayLike, triangles: npt.ArrayLike, attributes: Any = None) -> None:
+    def __init__(self, vertices: npt.ArrayLike, faces: npt.ArrayLike, attributes: Any = None) -> None:
         rows = float_rows(vertices, "vertices")
         mesh = _core.Mesh(
-            rows, np.ascontiguousarray(triangle_rows(triangles)), attribute_tuples(attributes, len(rows))
+            rows, np.ascontiguousarray(face_rows(faces)), attribute_tuples(attributes, len(rows))
         )
         _core.validate(mesh)
         self._core = mesh
@@ -80,9 +88,15 @@ class Mesh:
         return self._core.vertices
 
     @property
-    def triangles(self) -> IndexArray:
+    def faces(self) -> IndexArray:
         """Vertex indices, (M, 3) uint32; read-only, not copied."""
         return self._core.triangles
+
+    @property
+    def triangles(self) -> IndexArray:
+        """Old name of `faces`."""
+        renamed("Mesh.triangles", "Mesh.faces")
+        return self.faces
 
     @property
     def attributes(self) -> dict[str, npt.NDArray[Any]]:
@@ -106,7 +120,7 @@ class Mesh:
     @property
     def colors(self) -> npt.NDArray[np.float32] | None:
         """Colours of vertices, (N, 3) float32 in 0 ... 1, or None."""
-        return vertex_colors(self)
+        return colors_of(self)
 
     @property
     def bounds(self) -> _core.Bounds:
@@ -124,7 +138,14 @@ class Mesh:
         return _core.enclosed_volume(self._core)
 
     def copy(self) -> Mesh:
-        """Returns a copy in its own memory, for example a snapshot of a mesh that an editor moves."""
+        """Returns a copy in its own memory, for example a snapshot of a mesh that an editor moves.
+
+        Examples
+        --------
+        >>> mesh = rholm.icosphere(1)
+        >>> mesh.copy() == mesh
+        True
+        """
         return Mesh._of(_core.copy_mesh(self._core))
 
     def with_attributes(self, **attributes: npt.ArrayLike) -> Mesh:
@@ -134,60 +155,83 @@ class Mesh:
         ----------
         **attributes : array_like, (N,) or (N, k)
             Attributes as in the constructor.
+
+        Examples
+        --------
+        >>> rholm.icosphere(0).with_attributes(quality=np.arange(12))
+        <rholm.Mesh: 12 vertices, 20 faces, attributes quality>
         """
-        return Mesh(self.vertices, self.triangles, {**self.attributes, **attributes})
+        return Mesh(self.vertices, self.faces, {**self.attributes, **attributes})
 
     def inspect(self) -> _core.Inspection:
-        """Returns counts and measures: closed, manifold, oriented, genus, area, volume."""
+        """Returns counts and measures: closed, manifold, oriented, genus, area, volume.
+
+        Examples
+        --------
+        >>> rholm.box((1, 1, 1)).inspect().closed
+        True
+        """
         return _core.inspect(self._core)
 
     def save(self, path: str | os.PathLike[str], format: str | None = None, ascii: bool = False) -> None:
-        """Writes a file; see `write_shape`."""
-        from ._shape_files import write_shape
+        """Writes a file.
 
-        write_shape(self, path, format=format, ascii=ascii)
+        Parameters
+        ----------
+        path, format, ascii
+            As in `write_shape`.
 
-    def render(self, **options: Any) -> Any:
-        """Returns a picture; see `rholm.render`."""
-        from ._pictures import render
-
-        return render(self, **options)
+        Examples
+        --------
+        >>> rholm.icosphere(1).save("ball.obj")
+        >>> rholm.meshes.as_mesh("ball.obj")
+        <rholm.Mesh: 42 vertices, 80 faces>
+        """
+        _save(self._core, path, format, ascii)
 
     def to_trimesh(self) -> trimesh.Trimesh:
-        """Returns a `trimesh.Trimesh` with the same vertices, triangles, normals and colours."""
-        from ._interop import mesh_to_trimesh
+        """Returns a `trimesh.Trimesh` with the same vertices, faces, normals and colours.
 
+        Examples
+        --------
+        >>> rholm.icosphere(1).to_trimesh().faces.shape
+        (80, 3)
+        """
         return mesh_to_trimesh(self)
 
     def to_pyvista(self) -> pyvista.PolyData:
-        """Returns a `pyvista.PolyData` with the attributes as point data."""
-        from ._interop import mesh_to_pyvista
+        """Returns a `pyvista.PolyData` with the attributes as point data.
 
+        Examples
+        --------
+        >>> rholm.icosphere(1).to_pyvista().n_points
+        42
+        """
         return mesh_to_pyvista(self)
 
     def to_meshio(self) -> meshio.Mesh:
-        """Returns a `meshio.Mesh` with the attributes as point data."""
-        from ._interop import mesh_to_meshio
+        """Returns a `meshio.Mesh` with the attributes as point data.
 
+        Examples
+        --------
+        >>> rholm.icosphere(1).to_meshio().cells[0].type
+        'triangle'
+        """
         return mesh_to_meshio(self)
 
     def __repr__(self) -> str:
         names = sorted(self.attributes)
         with_ = f", attributes {', '.join(names)}" if names else ""
-        return f"<rholm.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles{with_}>"
+        return f"<rholm.Mesh: {len(self.vertices)} vertices, {len(self.faces)} faces{with_}>"
 
     def __eq__(self, other: object) -> bool:
         return self._core == other._core if isinstance(other, Mesh) else NotImplemented
 
     __hash__ = None  # type: ignore[assignment]
 
-    def _repr_png_(self) -> bytes | None:
-        from ._pictures import notebook_png
 
-        return notebook_png(self)
-
-
-class PointCloud:
+@public
+class PointCloud(Shown):
     """Points without faces.
 
     Parameters
@@ -202,6 +246,11 @@ class PointCloud:
         Attributes of points, as in `Mesh`.
     columns : str or sequence of str, optional
         Meaning of the columns of `points`, as in `read_shape`.
+
+    Examples
+    --------
+    >>> rholm.PointCloud([[0, 0, 1], [0, 1, 0]], normals=[[0, 0, 1], [0, 1, 0]])
+    <rholm.PointCloud: 2 points with normals>
     """
 
     __slots__ = ("_columns", "_core")
@@ -264,7 +313,7 @@ class PointCloud:
     @property
     def colors(self) -> npt.NDArray[np.float32] | None:
         """Colours of points, (N, 3) float32 in 0 ... 1, or None."""
-        return vertex_colors(self)
+        return colors_of(self)
 
     @property
     def bounds(self) -> _core.Bounds:
@@ -272,27 +321,39 @@ class PointCloud:
         return _core.bounds(self._core.points)
 
     def save(self, path: str | os.PathLike[str], format: str | None = None, ascii: bool = False) -> None:
-        """Writes a file; see `write_shape`."""
-        from ._shape_files import write_shape
+        """Writes a file.
 
-        write_shape(self, path, format=format, ascii=ascii)
+        Parameters
+        ----------
+        path, format, ascii
+            As in `write_shape`.
 
-    def render(self, **options: Any) -> Any:
-        """Returns a picture; see `rholm.render`."""
-        from ._pictures import render
-
-        return render(self, **options)
+        Examples
+        --------
+        >>> rholm.PointCloud([[0, 0, 1], [0, 1, 0]]).save("points.ply")
+        >>> rholm.read_shape("points.ply").shape
+        <rholm.PointCloud: 2 points>
+        """
+        _save(self._core, path, format, ascii)
 
     def to_trimesh(self) -> trimesh.PointCloud:
-        """Returns a `trimesh.PointCloud`."""
-        from ._interop import cloud_to_trimesh
+        """Returns a `trimesh.PointCloud`.
 
+        Examples
+        --------
+        >>> rholm.PointCloud([[0, 0, 1], [0, 1, 0]]).to_trimesh().vertices.shape
+        (2, 3)
+        """
         return cloud_to_trimesh(self)
 
     def to_pyvista(self) -> pyvista.PolyData:
-        """Returns a `pyvista.PolyData` of vertices, with normals and attributes as point data."""
-        from ._interop import cloud_to_pyvista
+        """Returns a `pyvista.PolyData` of vertices, with normals and attributes as point data.
 
+        Examples
+        --------
+        >>> rholm.PointCloud([[0, 0, 1], [0, 1, 0]]).to_pyvista().n_points
+        2
+        """
         return cloud_to_pyvista(self)
 
     def __len__(self) -> int:
@@ -307,145 +368,20 @@ class PointCloud:
 
     __hash__ = None  # type: ignore[assignment]
 
-    def _repr_png_(self) -> bytes | None:
-        from ._pictures import notebook_png
 
-        return notebook_png(self)
-
-
-#: A mesh is a `Mesh`, (vertices, triangles), a path, or a mesh of trimesh, PyVista or meshio. A
-#: result that contains a mesh is accepted too, for example from `repair`.
-MeshLike = Union[Mesh, tuple[Any, Any], str, os.PathLike[str], Any]
-
-#: Points are a `PointCloud`, an array (N, 3) or (N, k), (points, normals), a path, or points of
-#: trimesh, PyVista or meshio. A result that contains points is accepted too, for example from
-#: `orient`. A mesh stands for its vertices with their normals. A second array of whole numbers
-#: holds triangles.
-PointsLike = Union[PointCloud, npt.ArrayLike, tuple[Any, Any], str, os.PathLike[str], Any]
+def _save(
+    core: _core.Mesh | _core.PointCloud, path: str | os.PathLike[str], format: str | None, ascii: bool
+) -> None:
+    with caller(0, False) as how:
+        said = _core.write_shape(core, os.fspath(path), format, ascii, how)
+    for text in said:
+        warn(f"{os.fspath(path)}: {text}")
 
 
-def as_mesh(shape: MeshLike, attributes: bool = True) -> Mesh:
-    """Converts any form of a mesh to a `Mesh`.
-
-    Parameters
-    ----------
-    shape : Mesh, (vertices, triangles), path, trimesh.Trimesh, pyvista.PolyData, meshio.Mesh
-        The mesh. Packages are recognised by their types; none is imported.
-    attributes : bool
-        True: keeps attributes of vertices.
-
-    Raises
-    ------
-    InvalidInputError
-        For an invalid mesh, or a file of points.
-    TypeError
-        For any other object.
-    """
-    shape = _within(shape)
-    if isinstance(shape, Mesh):
-        return shape
-    if isinstance(shape, _core.Mesh):
-        return Mesh._of(shape)
-    if isinstance(shape, (str, os.PathLike)):
-        from ._shape_files import read_shape
-
-        read = read_shape(shape, attributes=attributes).shape
-        if isinstance(read, Mesh):
-            return read
-        raise InvalidInputError(f"{os.fspath(shape)} holds points, not a mesh; reconstruct() makes one")
-
-    arrays = foreign_mesh(shape)
-    if arrays is None:
-        if isinstance(shape, (tuple, list)) and len(shape) == 2:
-            return Mesh(*shape)
-        if isinstance(shape, PointCloud):
-            raise TypeError("a mesh is needed, not a PointCloud; reconstruct() makes one of points")
-        raise TypeError(
-            "a mesh is a rholm.Mesh, (vertices, triangles), a path, or one of trimesh, PyVista or "
-            f"meshio, not {type(shape).__name__}"
-        )
-    vertices, triangles, values = arrays
-    return Mesh(vertices, triangles, values if attributes else None)
-
-
-def outward_mesh(shape: MeshLike) -> Mesh:
-    """Returns a mesh without attributes, prepared as in `expand`: welded, and turned if it is inside out."""
-    return Mesh._of(_core.outward(as_mesh(shape, attributes=False)._core))
-
-
-def as_shape(shape: Any) -> Mesh | PointCloud:
-    """Converts any form of a mesh to a `Mesh`, and any form of points to a `PointCloud`."""
-    shape = _within(shape)
-    if isinstance(shape, (str, os.PathLike)):
-        from ._shape_files import read_shape
-
-        return read_shape(shape).shape
-    if isinstance(shape, PointCloud):
-        return shape
-    if foreign_has_faces(shape) is False or _are_points(shape):
-        return _points_of(shape)
-    return as_mesh(shape)
-
-
-def _within(shape: Any) -> Any:
-    """Returns the shape in a result that contains one, for example in a result of `repair` or `orient`."""
-    if isinstance(shape, tuple):
-        for name in ("mesh", "cloud", "shape"):
-            inner = getattr(shape, name, None)
-            if isinstance(inner, (Mesh, PointCloud)):
-                return inner
-    return shape
-
-
-def _is_pair(shape: Any) -> bool:
-    """Returns True for a pair of arrays, False for a list of two points."""
-    if not isinstance(shape, (tuple, list)) or len(shape) != 2:
-        return False
-    return isinstance(shape, tuple) or np.ndim(shape[1]) == 2
-
-
-def _are_triangles(values: Any) -> bool:
-    """Returns True if the second of two arrays holds indices, False for normals."""
-    return plain_array(values, "triangles").dtype.kind in "iu"
-
-
-def _are_points(shape: Any) -> bool:
-    if isinstance(shape, (Mesh, _core.Mesh)) or foreign_has_faces(shape) is not None:
-        return False
-    if _is_pair(shape):
-        return not _are_triangles(shape[1])
-    return hasattr(shape, "__array__") or isinstance(shape, list)
-
-
-def as_points(
-    shape: PointsLike,
-    normals: npt.ArrayLike | None = None,
-    attributes: Any = None,
-    columns: str | Sequence[str] | None = None,
-) -> PointCloud:
-    """Converts any form of points to a `PointCloud`.
-
-    Parameters
-    ----------
-    shape : PointCloud, array_like (N, 3), (points, normals), path, points of trimesh, PyVista, meshio
-        The points. An array may have more columns, as in `PointCloud`. A mesh stands for its
-        vertices, with their normals. A masked number (`numpy.ma`) is unknown: NaN. `clean` and
-        `reconstruct` drop such points and count them; other functions drop them with a warning.
-    normals : array_like, (N, 3), optional
-        Normals that replace the shape's own.
-    attributes : mapping of str to array_like, optional
-        Attributes that replace the shape's own.
-    columns : str or sequence of str, optional
-        Meaning of the columns of a text table or array, as in `read_shape`.
-    """
-    cloud = _points_of(shape, columns)
-    if normals is None and attributes is None:
-        return cloud
-    return PointCloud(
-        cloud.points,
-        cloud.normals if normals is None else normals,
-        cloud.attributes if attributes is None else attributes,
-    )
+def colors_of(shape: Mesh | PointCloud) -> npt.NDArray[np.float32] | None:
+    """Returns the attributes red, green and blue, (N, 3) float32 in 0 ... 1, or None."""
+    colors = _core.vertex_colors(shape._core)
+    return read_only(colors) if len(colors) else None
 
 
 def columns_text(columns: str | Sequence[str] | None) -> str:
@@ -459,66 +395,6 @@ def columns_text(columns: str | Sequence[str] | None) -> str:
     if columns is None or isinstance(columns, str):
         return columns or ""
     return ",".join(columns)
-
-
-def warn(text: str) -> None:
-    """Warns the caller of the package: the warning points to the first frame outside of it.
-
-    Parameters
-    ----------
-    text : str
-        One sentence.
-    """
-    frame, depth = sys._getframe(1), 2
-    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("rholm"):
-        frame, depth = frame.f_back, depth + 1
-    warnings.warn(text, UserWarning, stacklevel=depth)
-
-
-def shape_of_path(shape: Any, columns: str | Sequence[str] | None = None) -> tuple[Any, int]:
-    """Reads the shape of a path; returns any other object unchanged.
-
-    Parameters
-    ----------
-    shape : path, or anything else
-        Path or other object. A warning tells which meanings are unsure, and how many points are
-        dropped.
-    columns : str or sequence of str, optional
-        Meaning of the columns of a text table, as in `read_shape`.
-
-    Returns
-    -------
-    shape, dropped
-        The shape, and the number of points dropped because they are not finite.
-    """
-    if not isinstance(shape, (str, os.PathLike)):
-        return shape, 0
-    from ._shape_files import read_shape
-
-    name, file = os.fspath(shape), read_shape(shape, columns=columns)
-    if file.unsure:
-        warn(f"{name}: {file.note}")
-    if file.dropped:
-        warn(f"{name}: {file.dropped} points with a coordinate that is not finite dropped")
-    return file.shape, file.dropped
-
-
-def _points_of(shape: Any, columns: str | Sequence[str] | None = None) -> PointCloud:
-    shape, _ = shape_of_path(_within(shape), columns)
-    if isinstance(shape, PointCloud):
-        return shape
-    if foreign_has_faces(shape):
-        shape = as_mesh(shape)
-    if isinstance(shape, Mesh):
-        return PointCloud(shape.vertices, shape.normals, shape.attributes)
-    from ._interop import foreign_points
-
-    arrays = foreign_points(shape)
-    if arrays is not None:
-        return PointCloud(*arrays)
-    if _is_pair(shape):
-        return _points_of(Mesh(*shape)) if _are_triangles(shape[1]) else PointCloud(*shape)
-    return PointCloud(shape, columns=columns)
 
 
 AnyShape = TypeVar("AnyShape", bound=Mesh | PointCloud)
@@ -552,30 +428,6 @@ def finite_points(
         {name: rows[known] for name, rows in shape.attributes.items()},
     )
     return cast(AnyShape, cloud), [None if rows is None else rows[known] for rows in values]
-
-
-def vertex_colors(mesh: MeshLike | PointCloud) -> npt.NDArray[np.float32] | None:
-    """Returns the attributes red, green and blue, (N, 3) float32 in 0 ... 1, or None.
-
-    Parameters
-    ----------
-    mesh : mesh-like or PointCloud
-        The shape. Whole numbers count as bytes, others as fractions of 1.
-    """
-    colors = _core.vertex_colors(as_shape(mesh)._core)
-    return read_only(colors) if len(colors) else None
-
-
-def validate(shape: MeshLike | PointCloud) -> None:
-    """Raises InvalidInputError unless coordinates are finite, indices in range, attributes of equal
-    length.
-
-    Parameters
-    ----------
-    shape : mesh-like or PointCloud
-        The shape. An empty shape is valid.
-    """
-    _core.validate(as_shape(shape)._core)
 
 
 def name_of(shape: Any) -> str:

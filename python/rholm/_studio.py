@@ -16,13 +16,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
+from ._arguments import public
 from ._atlas import Atlas
+from ._convert import MeshLike, PointsLike, as_mesh, as_points, write_shape
 from ._errors import BY_CODE, InvalidInputError, UnsupportedError
 from ._expansion import Expansion
 from ._interop import foreign_mesh, required
 from ._model_files import load
-from ._shape_files import parse_shape, write_shape
-from ._shapes import Mesh, MeshLike, PointCloud, PointsLike, as_mesh, as_points, columns_text, name_of
+from ._shape_files import parse_shape
+from ._shapes import Mesh, PointCloud, columns_text, name_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -93,6 +95,7 @@ def _told(core: _core.Studio, session: str, widget: weakref.ref[Any]) -> None:
             shown.send({"event": name, "data": data})
 
 
+@public
 class Studio:
     """Shapes that are edited in a page of the notebook, and their access from Python.
 
@@ -104,6 +107,12 @@ class Studio:
     ----------
     widget : anywidget.AnyWidget
         The page, which can be put into other widgets. A notebook shows it for the studio itself.
+
+    Examples
+    --------
+    >>> with rholm.studio(rholm.icosphere(2)) as page:
+    ...     page.mesh()
+    <rholm.Mesh: 162 vertices, 320 faces>
     """
 
     def __init__(self, threads: int = 0, height: int = _HEIGHT) -> None:
@@ -191,6 +200,13 @@ class Studio:
         ------
         InvalidInputError, UnsupportedError, IoError
             For a shape or file that cannot be read.
+
+        Examples
+        --------
+        >>> with rholm.studio(rholm.icosphere(2)) as page:
+        ...     page.add(rholm.torus(2, 0.7, 40, 20), "ring")
+        ...     page.names[-1]
+        'ring'
         """
         called, data = _file_of(shape)
         before = len(self)
@@ -233,6 +249,12 @@ class Studio:
         ------
         InvalidInputError
             For points, which have no surface.
+
+        Examples
+        --------
+        >>> with rholm.studio(rholm.icosphere(2)) as page:
+        ...     page.mesh(0)
+        <rholm.Mesh: 162 vertices, 320 faces>
         """
         item = self._find(key)
         if item["kind"] == "points":
@@ -248,12 +270,24 @@ class Studio:
         ----------
         path : path
             File to write; an existing file is replaced when the new one is complete.
+
+        Examples
+        --------
+        >>> with rholm.studio(rholm.icosphere(2)) as page:
+        ...     page.save("today.rholm")
         """
         _core.write_file(os.fspath(path), self._ask("GET", "session-file"))
 
     def close(self) -> None:
         """Ends the studio: cancels running work and frees memory. The page tells that Python does
         not answer.
+
+        Examples
+        --------
+        >>> page = rholm.studio(rholm.icosphere(2))
+        >>> page.close()
+        >>> page
+        <rholm.figures.Studio: closed>
         """
         if self._core is None:
             return
@@ -274,13 +308,14 @@ class Studio:
 
     def __repr__(self) -> str:
         with contextlib.suppress(InvalidInputError):
-            return f"<rholm.Studio: {', '.join(self.names) or 'empty'}>"
-        return "<rholm.Studio: closed>"
+            return f"<rholm.figures.Studio: {', '.join(self.names) or 'empty'}>"
+        return "<rholm.figures.Studio: closed>"
 
     def _repr_mimebundle_(self, **options: Any) -> Any:
         return self.widget._repr_mimebundle_(**options)
 
 
+@public
 def studio(
     *shapes: MeshLike | PointsLike | Expansion | Atlas, height: int = _HEIGHT, threads: int = 0
 ) -> Studio:
@@ -297,7 +332,7 @@ def studio(
     height : int
         Height of the page in pixels.
     threads : int
-        Number of threads; see `rholm.caller`.
+        Number of threads; see ``help(rholm)``.
 
     Returns
     -------
@@ -310,6 +345,12 @@ def studio(
         Without the package anywidget: ``pip install rholm[notebook]``.
     UnsupportedError
         If the package was built without the studio's page.
+
+    Examples
+    --------
+    >>> with rholm.studio(rholm.icosphere(2), rholm.torus(2, 0.7, 40, 20)) as page:
+    ...     len(page)
+    2
     """
     opened = Studio(threads, height)
     try:

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import public
 from ._arrays import FloatArray, float_rows, floats, numeric
 from ._arrays import directions as unit_rows
 from ._coefficients import Normalization, array_of, core_of
@@ -19,6 +20,7 @@ from ._run import Progress, caller
 GridKind = Literal["gauss-legendre", "equiangular", "equiangular-with-poles"]
 
 
+@public
 def evaluate(
     coefficients: CoefficientsLike,
     directions: npt.ArrayLike,
@@ -42,17 +44,25 @@ def evaluate(
     precision : float
         1e-14 ... 1e-1: l2 norm of all errors, relative to the l2 norm of sums with random signs.
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     Returns
     -------
     values : float64, (...)
+
+    Examples
+    --------
+    >>> c = np.zeros((2, 2, 2))
+    >>> c[0, 1, 0] = 1
+    >>> rholm.harmonics.evaluate(c, [[0, 0, 1], [1, 0, 0]]).round(6) + 0.0
+    array([1.732051, 0.      ])
     """
     rows, shape = unit_rows(directions)
     with caller(threads, progress) as how:
         return _core.evaluate(core_of(coefficients), rows, engine, precision, how).reshape(shape)
 
 
+@public
 def evaluate_with_gradient(
     coefficients: CoefficientsLike,
     directions: npt.ArrayLike,
@@ -74,6 +84,14 @@ def evaluate_with_gradient(
     values : float64, (...)
     gradients : float64, (..., 3)
         Tangential at each direction.
+
+    Examples
+    --------
+    >>> c = np.zeros((2, 2, 2))
+    >>> c[0, 1, 0] = 1
+    >>> values, gradients = rholm.harmonics.evaluate_with_gradient(c, [[1, 0, 0]])
+    >>> gradients.round(6) + 0.0
+    array([[0.      , 0.      , 1.732051]])
     """
     rows, shape = unit_rows(directions)
     with caller(threads, progress) as how:
@@ -81,6 +99,7 @@ def evaluate_with_gradient(
     return values.reshape(shape), gradients.reshape(*shape, 3)
 
 
+@public
 def adjoint(
     directions: npt.ArrayLike,
     weights: npt.ArrayLike | None = None,
@@ -119,6 +138,12 @@ def adjoint(
     Returns
     -------
     sums : float64, (2, L+1, L+1)
+
+    Examples
+    --------
+    >>> sums = rholm.harmonics.adjoint([[0, 0, 1]], [1.0], degree=1, engine="direct")
+    >>> bool(np.isclose(sums[0, 0, 0], np.sqrt(1 / (4 * np.pi))))
+    True
     """
     rows, _ = unit_rows(float_rows(directions, "directions"))
     six = None
@@ -144,6 +169,7 @@ def adjoint(
     return np.array(sums.values) / np.where(scale == 0, 1.0, scale)
 
 
+@public
 def gauss_legendre(n: int) -> tuple[FloatArray, FloatArray]:
     """Returns nodes, descending, and weights of the Gauss-Legendre rule on [-1, 1], (n,) each.
 
@@ -151,10 +177,17 @@ def gauss_legendre(n: int) -> tuple[FloatArray, FloatArray]:
     ----------
     n : int
         Number of nodes, at least 1. The rule is exact for polynomials of degree 2 n - 1.
+
+    Examples
+    --------
+    >>> nodes, weights = rholm.harmonics.gauss_legendre(2)
+    >>> nodes.round(6), weights.round(6)
+    (array([ 0.57735, -0.57735]), array([1., 1.]))
     """
     return _core.gauss_legendre(n)
 
 
+@public
 def exact_degree(kind: GridKind, n_theta: int, n_phi: int) -> int:
     """Returns the highest degree to which functions on a grid are analysed exactly.
 
@@ -164,10 +197,16 @@ def exact_degree(kind: GridKind, n_theta: int, n_phi: int) -> int:
         Places of the rings.
     n_theta, n_phi : int
         Numbers of rings, and of directions on each.
+
+    Examples
+    --------
+    >>> rholm.harmonics.exact_degree("gauss-legendre", 5, 9)
+    4
     """
     return _core.exact_degree(kind, n_theta, n_phi)
 
 
+@public
 def smallest_grid(kind: GridKind, degree: int) -> tuple[int, int]:
     """Returns (n_theta, n_phi) of the smallest grid with that exact degree.
 
@@ -177,10 +216,16 @@ def smallest_grid(kind: GridKind, degree: int) -> tuple[int, int]:
         Places of the rings.
     degree : int
         Wanted exact degree.
+
+    Examples
+    --------
+    >>> rholm.harmonics.smallest_grid("gauss-legendre", 4)
+    (5, 10)
     """
     return _core.smallest_grid(kind, degree)
 
 
+@public
 def grid_colatitudes(kind: GridKind, n_theta: int) -> FloatArray:
     """Returns the colatitudes of the rings, in radians, (n_theta,).
 
@@ -191,10 +236,16 @@ def grid_colatitudes(kind: GridKind, n_theta: int) -> FloatArray:
         n_theta; i pi / (n_theta - 1).
     n_theta : int
         Number of rings.
+
+    Examples
+    --------
+    >>> np.degrees(rholm.harmonics.grid_colatitudes("equiangular", 3)).round(6)
+    array([ 30.,  90., 150.])
     """
     return _core.grid_colatitudes(kind, n_theta)
 
 
+@public
 def synthesize_grid(
     coefficients: CoefficientsLike,
     kind: GridKind = "gauss-legendre",
@@ -217,7 +268,13 @@ def synthesize_grid(
         Numbers of rings and longitudes. By default the smallest grid that `analyze_grid` inverts
         exactly.
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+    >>> rholm.harmonics.synthesize_grid(s).shape
+    (5, 10)
     """
     core = core_of(coefficients)
     smallest = _core.smallest_grid(kind, core.degree)
@@ -226,6 +283,7 @@ def synthesize_grid(
         return _core.synthesize_grid(core, kind, *shape, how).reshape(shape)
 
 
+@public
 def analyze_grid(
     values: npt.ArrayLike,
     kind: GridKind = "gauss-legendre",
@@ -250,7 +308,14 @@ def analyze_grid(
     normalization, csphase
         Convention of the result.
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+    >>> grid = rholm.harmonics.synthesize_grid(s)
+    >>> bool(np.allclose(rholm.harmonics.analyze_grid(grid, degree=4), s.coeffs))
+    True
     """
     array = numeric(values, "values")
     if array.ndim != 2:
@@ -266,6 +331,7 @@ def analyze_grid(
     return array_of(core, normalization, csphase)
 
 
+@public
 def evaluate_rings(
     coefficients: CoefficientsLike,
     colatitudes: npt.ArrayLike,
@@ -285,7 +351,13 @@ def evaluate_rings(
     n_phi : int
         Number of directions on each ring.
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.bumpy_sphere(3), degree=4)
+    >>> rholm.harmonics.evaluate_rings(s, [0.5, 1.0], n_phi=8).shape
+    (2, 8)
     """
     rings = floats(colatitudes, "colatitudes")
     with caller(threads, progress) as how:

@@ -8,14 +8,16 @@ from typing import TYPE_CHECKING, Any
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import public
 from ._arrays import FloatArray, float_rows, triple
 from ._atlas import Atlas
+from ._convert import MeshLike, as_mesh, as_shape
 from ._expand import as_expansion
 from ._expansion import Expansion
 from ._model_files import load
 from ._options import options_of, takes
 from ._run import Progress, caller
-from ._shapes import Mesh, MeshLike, as_mesh, as_shape
+from ._shapes import Mesh
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
     from ._keywords import CompareKeywords
 
 
+@public
 def distances_to_surface(
     points: npt.ArrayLike, mesh: MeshLike, *, threads: int = 0, progress: Progress = None
 ) -> FloatArray:
@@ -35,12 +38,18 @@ def distances_to_surface(
     mesh : mesh-like
         The surface.
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
+
+    Examples
+    --------
+    >>> rholm.meshes.distances_to_surface([[0, 0, 2]], rholm.box((2, 2, 2)))
+    array([1.])
     """
     with caller(threads, progress) as how:
         return _core.distances_to_surface(float_rows(points), as_mesh(mesh)._core, how)
 
 
+@public
 def measure(expansion: Expansion, *, threads: int = 0) -> _core.SurfaceMeasures:
     """Returns volume, area and centroid of the solid bounded by a surface.
 
@@ -49,11 +58,18 @@ def measure(expansion: Expansion, *, threads: int = 0) -> _core.SurfaceMeasures:
     expansion : Expansion
         Expansion of a surface.
     threads : int
-        Number of threads; see `rholm.caller`.
+        Number of threads; see ``help(rholm)``.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.icosphere(4), degree=4)
+    >>> round(rholm.harmonics.measure(s).area / (4 * np.pi), 1)
+    1.0
     """
     return as_expansion(expansion).measure(threads=threads)
 
 
+@public
 def inertia(expansion: Expansion, *, threads: int = 0) -> FloatArray:
     """Returns the tensor of inertia of the solid of density 1 about its centroid.
 
@@ -62,7 +78,7 @@ def inertia(expansion: Expansion, *, threads: int = 0) -> FloatArray:
     expansion : Expansion
         Expansion of a surface.
     threads : int
-        Number of threads; see `rholm.caller`.
+        Number of threads; see ``help(rholm)``.
 
     Returns
     -------
@@ -77,10 +93,19 @@ def inertia(expansion: Expansion, *, threads: int = 0) -> FloatArray:
         For coefficients that do not represent a surface.
     InvalidInputError
         For a series without volume.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.icosphere(4), degree=4)
+    >>> (rholm.harmonics.inertia(s) / (8 / 15 * np.pi)).round(1) + 0.0
+    array([[1., 0., 0.],
+           [0., 1., 0.],
+           [0., 0., 1.]])
     """
     return as_expansion(expansion).inertia(threads=threads)
 
 
+@public
 def directions_of(mesh: MeshLike, center: npt.ArrayLike) -> Mesh:
     """Returns the directions of a mesh's vertices from a centre, with its connectivity.
 
@@ -90,6 +115,12 @@ def directions_of(mesh: MeshLike, center: npt.ArrayLike) -> Mesh:
         The mesh. No vertex may lie on the centre.
     center : array_like, (3,)
         The centre.
+
+    Examples
+    --------
+    >>> around = rholm.harmonics.directions_of(rholm.box((1, 2, 3)), (0, 0, 0))
+    >>> bool(np.allclose(np.linalg.norm(around.vertices, axis=1), 1))
+    True
     """
     return Mesh._of(_core.directions_of(as_mesh(mesh)._core, triple(center, "center")))
 
@@ -103,10 +134,11 @@ def surface_of(shape: Any, threads: int = 0, progress: Progress = None, points: 
     return as_shape(shape) if points else as_mesh(shape)
 
 
+@public
 @takes(_core.CompareOptions)
 def compare(
-    a: Any,
-    b: Any,
+    a: MeshLike | Expansion | Atlas,
+    b: MeshLike | Expansion | Atlas,
     *,
     threads: int = 0,
     progress: Progress = None,
@@ -120,7 +152,14 @@ def compare(
         Two surfaces.
     {options}
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
+
+    Examples
+    --------
+    >>> ball = rholm.icosphere(4)
+    >>> larger = rholm.Mesh(1.1 * ball.vertices, ball.faces)
+    >>> round(rholm.compare(ball, larger, samples=1000).hausdorff, 2)
+    0.1
     """
     wanted = options_of(_core.CompareOptions, {**options}, "compare")
     first, second = (surface_of(s, threads, progress) for s in (a, b))
@@ -128,6 +167,7 @@ def compare(
         return _core.compare(first._core, second._core, wanted, how)
 
 
+@public
 def synthesize(model: Any, **options: Any) -> Mesh:
     """Returns the surface of an expansion or an atlas.
 
@@ -137,12 +177,19 @@ def synthesize(model: Any, **options: Any) -> Mesh:
         The model.
     **options
         Arguments of `Expansion.mesh` or `Atlas.mesh`.
+
+    Examples
+    --------
+    >>> s = rholm.expand(rholm.icosphere(3), degree=4)
+    >>> rholm.harmonics.synthesize(s, subdivisions=2)
+    <rholm.Mesh: 162 vertices, 320 faces, attributes nx, ny, nz>
     """
     if isinstance(model, Atlas):
         return model.mesh(**options)
     return as_expansion(model).mesh(**options)
 
 
+@public
 def require_star_shaped(expansion: Expansion, what: str) -> None:
     """Raises UnsupportedError for a signed sum, whose graph is not the surface of the body.
 
@@ -157,10 +204,17 @@ def require_star_shaped(expansion: Expansion, what: str) -> None:
     ------
     UnsupportedError
         If `Expansion.signed_sum` is true.
+
+    Examples
+    --------
+    >>> rholm.harmonics.require_star_shaped(
+    ...     rholm.expand(rholm.icosphere(3), degree=4), "the volume"
+    ... )
     """
     _core.require_star_shaped(as_expansion(expansion)._core, what)
 
 
+@public
 def require_surface(expansion: Expansion) -> None:
     """Raises UnsupportedError if the coefficients are declared to be something other than a
     surface.
@@ -177,5 +231,9 @@ def require_surface(expansion: Expansion) -> None:
     ------
     UnsupportedError
         If its function is "other".
+
+    Examples
+    --------
+    >>> rholm.harmonics.require_surface(rholm.expand(rholm.icosphere(3), degree=4))
     """
     as_expansion(expansion)._require_surface()

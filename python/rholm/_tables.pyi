@@ -1,6 +1,6 @@
 """The types of what is made of the library's tables. scripts/python-stub writes this file."""
 
-from typing import Literal
+from typing import Any, Literal
 
 Window = Literal[
     "ideal",
@@ -14,14 +14,14 @@ Window = Literal[
 
 class Described:
     @property
-    def volume(self) -> float | None:
-        """Volume of the solid bounded by the surface (exact for a radius), in the unit of length to
-        the power 3. None for a signed sum."""
+    def volume(self) -> float | Any:
+        """The volume of the solid that the surface bounds; exact for a radius, in the unit of
+        length to the power 3. None for a signed sum."""
     @property
-    def area(self) -> float | None:
-        """Area of the surface (accurate to about 1e-12), in the unit of length to the power 2. None
-        for a signed sum."""
+    def area(self) -> float | Any:
+        """The area of the surface, to about 1e-12, in the unit of length to the power 2. None for a
+        signed sum."""
     @property
-    def sphericity(self) -> float | None:
-        """Area of the ball of equal volume divided by the area of the surface, at most 1 (Wadell
+    def sphericity(self) -> float | Any:
+        """The area of the ball of the same volume over the area of the surface, at most 1 (Wadell
         1935). None for a signed sum."""

@@ -1,15 +1,19 @@
-"""Transfer of detail from one surface to another."""
+"""Transfer of detail from one surface to another, and functions of both kinds of editors."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy.typing as npt
+
 from . import _core
-from ._arrays import FloatArray, IndexArray, read_only
-from ._edit import RegionLike, _with_region, _without_region
+from ._arguments import public
+from ._arrays import FloatArray, IndexArray, float_rows, read_only
+from ._convert import MeshLike, as_mesh
+from ._edit import RegionLike, SmoothEditor, _with_region, _without_region
 from ._options import given_of, options_of, takes
 from ._run import Progress, caller
-from ._shapes import Mesh, MeshLike, as_mesh
+from ._shapes import Mesh
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -20,11 +24,20 @@ if TYPE_CHECKING:
         pass
 
 
+@public
 class TransferEditor:
     """Detail of one surface on another, with adjustable height and angle, made by
     `analyze_transfer`.
 
     Setting a property moves the vertices of `mesh` at once, in place.
+
+    Examples
+    --------
+    >>> body = rholm.bumpy_sphere(4)
+    >>> editor = rholm.meshes.analyze_transfer(body, "ball:0,0,1,0.6", body, "ball:0,0,-1,0.6")
+    >>> editor.height = 1.5
+    >>> editor.mesh
+    <rholm.Mesh: 2562 vertices, 5120 faces>
     """
 
     __slots__ = ("_analysis", "_mesh", "_patch", "_wanted")
@@ -80,6 +93,14 @@ class TransferEditor:
         **wanted
             height and angle. repeat: the texture is repeated over a larger region. remove_own: the
             target's own detail is removed first. mode: "displacement" or "coefficients".
+
+        Examples
+        --------
+        >>> body = rholm.bumpy_sphere(4)
+        >>> editor = rholm.meshes.analyze_transfer(body, "ball:0,0,1,0.6", body, "ball:0,0,-1,0.6")
+        >>> editor.set(height=1, angle=0.5)
+        >>> editor.angle
+        0.5
         """
         new = self._merged(wanted)
         if new["height"] == 0 and not new["remove_own"]:
@@ -96,6 +117,13 @@ class TransferEditor:
         ----------
         **wanted
             Settings as in `set`; by default the present values.
+
+        Examples
+        --------
+        >>> body = rholm.bumpy_sphere(4)
+        >>> editor = rholm.meshes.analyze_transfer(body, "ball:0,0,1,0.6", body, "ball:0,0,-1,0.6")
+        >>> editor.positions(height=1).shape == (len(editor.vertices), 3)
+        True
         """
         update = _core.TransferUpdate(**self._merged(wanted))
         with caller(0, False) as how:
@@ -113,6 +141,10 @@ class TransferEditor:
     def __reduce__(self) -> Any:
         raise TypeError("a TransferEditor cannot be pickled, as what it knows is too large: pickle its mesh")
 
+    def __repr__(self) -> str:
+        set_to = ", ".join(f"{name} {value}" for name, value in self._wanted.items())
+        return f"<rholm.meshes.TransferEditor: {len(self.vertices)} vertices, {set_to}>"
+
     def _merged(self, wanted: dict[str, Any]) -> dict[str, Any]:
         unknown = set(wanted) - set(self._wanted)
         if unknown:
@@ -125,8 +157,16 @@ class TransferEditor:
         return self.mesh._repr_png_()
 
 
+@public
 class TransferSource:
-    """A texture extracted from its source, for any number of targets, made by `analyze_source`."""
+    """A texture extracted from its source, for any number of targets, made by `analyze_source`.
+
+    Examples
+    --------
+    >>> texture = rholm.meshes.analyze_source(rholm.bumpy_sphere(4), "ball:0,0,1,0.6")
+    >>> texture.from_degree
+    8
+    """
 
     __slots__ = ("_source",)
 
@@ -141,6 +181,12 @@ class TransferSource:
 
     def __reduce__(self) -> Any:
         raise TypeError("a TransferSource cannot be pickled, as what it knows is too large: pickle the mesh")
+
+    def __repr__(self) -> str:
+        return (
+            f"<rholm.meshes.TransferSource: radius {self.radius:.6g}, wavelength {self.wavelength:.6g}, "
+            f"rms {self.rms:.6g}>"
+        )
 
     @property
     def from_degree(self) -> int:
@@ -186,12 +232,19 @@ class TransferSource:
         target, target_region, scale, refine, transition, find_angle
             As in `analyze_transfer`.
         threads, progress
-            See `rholm.caller`.
+            See ``help(rholm)``.
 
         Returns
         -------
         editor : TransferEditor
             Editor with height 0. Setting `TransferEditor.height` moves the target.
+
+        Examples
+        --------
+        >>> body = rholm.bumpy_sphere(4)
+        >>> texture = rholm.meshes.analyze_source(body, "ball:0,0,1,0.6")
+        >>> texture.onto(body, "ball:0,0,-1,0.6", find_angle=False).height
+        0.0
         """
         wanted = _core.TransferOptions(
             from_degree=self.from_degree,
@@ -215,6 +268,7 @@ class TransferSource:
             return TransferEditor(_core.analyze_transfer(self._source, laid._core, to, wanted, how))
 
 
+@public
 def analyze_source(
     source: MeshLike,
     source_region: RegionLike,
@@ -231,12 +285,17 @@ def analyze_source(
     source, source_region, from_degree
         As in `transfer`.
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     Returns
     -------
     texture : TransferSource
         Texture for `TransferSource.onto`.
+
+    Examples
+    --------
+    >>> rholm.meshes.analyze_source(rholm.bumpy_sphere(4), "ball:0,0,1,0.6").rms > 0
+    True
     """
     taken, from_ = _with_region(as_mesh(source), source_region)
     with caller(threads, progress) as how:
@@ -258,6 +317,7 @@ def _analyzed(
     return texture._onto(target, target_region, wanted, threads, progress)
 
 
+@public
 @takes(_core.TransferOptions)
 def analyze_transfer(
     source: MeshLike,
@@ -281,17 +341,26 @@ def analyze_transfer(
         is half of the work. False: this angle is 0.
     {options}
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     Returns
     -------
     editor : TransferEditor
         Editor with height 0. Setting `TransferEditor.height` moves the target.
+
+    Examples
+    --------
+    >>> body = rholm.bumpy_sphere(4)
+    >>> rholm.meshes.analyze_transfer(
+    ...     body, "ball:0,0,1,0.6", body, "ball:0,0,-1,0.6", find_angle=False
+    ... ).height
+    0.0
     """
     wanted = options_of(_core.TransferOptions, {**options}, "analyze_transfer", find_angle=find_angle)
     return _analyzed(source, source_region, target, target_region, wanted, threads, progress)
 
 
+@public
 @takes(_core.TransferUpdate, _core.TransferOptions)
 def transfer(
     source: MeshLike,
@@ -313,7 +382,14 @@ def transfer(
         Regions as in `smooth`.
     {options}
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
+
+    Examples
+    --------
+    >>> source, target = rholm.bumpy_sphere(4, seed=2), rholm.icosphere(4)
+    >>> textured = rholm.transfer(source, "ball:0,0,1,0.6", target, "ball:0,0,1,0.6", angle=0)
+    >>> bool((textured.vertices != target.vertices).any())
+    True
     """
     kept, moved = given_of(
         _core.TransferOptions, _core.TransferUpdate, given={**options}, function="transfer"
@@ -322,3 +398,49 @@ def transfer(
     editor = _analyzed(source, source_region, target, target_region, wanted, threads, progress)
     editor.set(**{"height": 1.0, **moved})
     return _without_region(editor.mesh)
+
+
+@public
+def update(editor: SmoothEditor | TransferEditor, **wanted: Any) -> FloatArray:
+    """Returns the positions of an editor's vertices for other settings, (n, 3). Its mesh does not
+    change.
+
+    Parameters
+    ----------
+    editor : SmoothEditor or TransferEditor
+        Editor from `analyze_patch` or `analyze_transfer`.
+    **wanted
+        Arguments of `SmoothEditor.positions` or `TransferEditor.positions`.
+
+    Examples
+    --------
+    >>> editor = rholm.meshes.analyze_patch(rholm.bumpy_sphere(4), "ball:0,0,1,0.6", 0.5)
+    >>> rholm.meshes.update(editor, strength=1).shape == (len(editor.vertices), 3)
+    True
+    """
+    return editor.positions(**wanted)
+
+
+@public
+def apply(
+    editor: SmoothEditor | TransferEditor, positions: npt.ArrayLike, mesh: MeshLike | None = None
+) -> Mesh:
+    """Returns a mesh with an editor's vertices at other positions, and with updated normals.
+
+    Parameters
+    ----------
+    editor : SmoothEditor or TransferEditor
+        Editor from `analyze_patch` or `analyze_transfer`.
+    positions : array_like, (n, 3)
+        Positions from `update`.
+    mesh : mesh-like, optional
+        Mesh to use; by default the editor's own, which does not change.
+
+    Examples
+    --------
+    >>> editor = rholm.meshes.analyze_patch(rholm.bumpy_sphere(4), "ball:0,0,1,0.6", 0.5)
+    >>> rholm.meshes.apply(editor, rholm.meshes.update(editor, strength=1))
+    <rholm.Mesh: 2562 vertices, 5120 faces>
+    """
+    target = editor._mesh if mesh is None else as_mesh(mesh)._core
+    return Mesh._of(_core.apply(editor._patch, float_rows(positions, "positions"), target))

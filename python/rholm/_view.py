@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from . import _core
+from ._arguments import public
+from ._convert import MeshLike, outward_mesh
 from ._errors import InvalidInputError, UnsupportedError
 from ._expand import as_expansion, expand
 from ._expansion import Expansion
 from ._interop import required
 from ._run import Progress, caller
-from ._shapes import outward_mesh
 
 _DEGREE = 64  # chosen: fine enough to recognise the shape, and fast
 _VIEWER = Path(__file__).with_name("viewer.js")
@@ -48,8 +49,14 @@ def _expanded(model: Any) -> Expansion:
         return expand(model, _DEGREE)
 
 
+@public
 def view_data(
-    model: Any, *, shape: Any = None, title: str = "", threads: int = 0, progress: Progress = None
+    model: MeshLike | Expansion,
+    *,
+    shape: Any = None,
+    title: str = "",
+    threads: int = 0,
+    progress: Progress = None,
 ) -> bytes:
     """Returns the data of the viewer for an expansion; docs/studio.md describes them.
 
@@ -63,12 +70,17 @@ def view_data(
     title : str
         Text above the surface; by default the name of the file.
     threads, progress
-        See `rholm.caller`.
+        See ``help(rholm)``.
 
     Returns
     -------
     bytes
         Coefficients to degree 512, errors of degrees, and the shape.
+
+    Examples
+    --------
+    >>> type(rholm.figures.view_data(rholm.expand(rholm.bumpy_sphere(3), degree=4)))
+    <class 'bytes'>
     """
     expansion = _expanded(model)
     known = expansion._shape if shape is None else shape
@@ -78,8 +90,14 @@ def view_data(
     return data
 
 
+@public
 def view(
-    model: Any, *others: Any, shape: Any = None, title: str = "", threads: int = 0, progress: Progress = None
+    model: MeshLike | Expansion,
+    *others: MeshLike | Expansion,
+    shape: Any = None,
+    title: str = "",
+    threads: int = 0,
+    progress: Progress = None,
 ) -> Any:
     """Shows the surface of an expansion in a notebook; several surfaces stand side by side. Users
     can turn it and truncate it at any degree.
@@ -107,6 +125,12 @@ def view(
         Without the package anywidget: ``pip install rholm[notebook]``.
     UnsupportedError
         If the package was built without the viewer.
+
+    Examples
+    --------
+    >>> shown = rholm.view(rholm.expand(rholm.bumpy_sphere(3), degree=4))
+    >>> type(shown.data)
+    <class 'bytes'>
     """
     widget = _widget()
     if not others:

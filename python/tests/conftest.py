@@ -6,14 +6,28 @@ import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import rholm
+import rholm.clouds
+import rholm.figures
+import rholm.files
+import rholm.harmonics
+import rholm.meshes
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "support"))
 import times  # noqa: E402
+
+#: The modules that users see.
+MODULES = (rholm, rholm.harmonics, rholm.meshes, rholm.clouds, rholm.files, rholm.figures)
+
+
+def public_names() -> dict[str, Any]:
+    """Every public object of the package by its name."""
+    return {name: getattr(module, name) for module in MODULES for name in module.__all__}
 
 
 @pytest.hookimpl(hookwrapper=True)

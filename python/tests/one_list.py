@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import rholm
+from rholm import _filters
 
 
 @pytest.fixture
@@ -19,7 +20,7 @@ def expansion():
 
 
 def test_window_is_a_choice_and_documented(expansion):
-    assert typing.get_args(rholm._filters.Window)[-1] == "wedge"
+    assert typing.get_args(_filters.Window)[-1] == "wedge"
     assert np.allclose(rholm.low_pass(3, 5, "wedge", order=1), [1, 0.75, 0.5, 0.25, 0, 0])
     assert expansion.low_pass(3, "wedge").method.endswith("low-pass 3 wedge")
     assert '"wedge"}' in rholm.low_pass.__doc__
@@ -45,7 +46,7 @@ def test_option_is_an_argument_with_its_documentation():
 
 def test_option_is_checked():
     points = rholm.sample_surface(rholm.bumpy_sphere(3), 2000)
-    assert rholm.reconstruct(points, made_up=0.25).mesh.triangles.shape[1] == 3
+    assert rholm.reconstruct(points, made_up=0.25).mesh.faces.shape[1] == 3
     with pytest.raises(rholm.InvalidInputError, match="made_up is"):
         rholm.reconstruct(points, made_up=1.5)
 

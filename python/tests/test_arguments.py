@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 import re
 
 import numpy as np
 import pytest
 import rholm
-from rholm import _arguments
+from conftest import public_names
+from rholm import _arguments, _coefficients, _core, _filters, _sums, harmonics
 
 BINDING = re.compile(r"incompatible function arguments|rholm\._core|std::|nanobind")
 
 
 def public_functions():
-    for name in rholm.__all__:
-        thing = getattr(rholm, name)
+    for name, thing in public_names().items():
         if inspect.isfunction(thing):
             yield name, thing
         elif inspect.isclass(thing) and thing.__module__ != "rholm._core":
@@ -44,10 +45,10 @@ def test_every_function_names_an_argument_of_the_wrong_type():
                     continue
                 # Arguments before it are not checked: only the wrong one is given.
                 places = [one for one, _ in positional]
-                args = [None] * places.index(argument) if argument in places else []
+                before = places[: places.index(argument)] if argument in places else []
+                args = [_accepted(named.get(one)) for one in before]
                 kwargs = {} if argument in places else {argument: wrong}
-                checks = {one: c for one, c in named.items() if one != argument}
-                if any(_refuses_none(checks.get(one)) for one in places[: len(args)]):
+                if any(arg is NOTHING for arg in args):
                     continue  # one of them would be refused first
                 with pytest.raises(TypeError) as refusal:
                     function(*args, *([wrong] if not kwargs else []), **kwargs)
@@ -66,14 +67,18 @@ def _is_optional(check, kind):
     return any(cell.cell_contents is kind for cell in cells)
 
 
-def _refuses_none(check):
-    if check is None:
-        return False
-    try:
-        check(None, "x")
-    except TypeError:
-        return True
-    return False
+#: Stands for an argument that no value below is right for.
+NOTHING = object()
+
+
+def _accepted(check):
+    """Returns a value that a check lets pass, or NOTHING."""
+    for value in (None, object(), 1, "x"):
+        with contextlib.suppress(TypeError, ValueError):
+            if check is not None:
+                check(value, "x")
+            return value
+    return NOTHING
 
 
 def test_whole_numbers_of_any_type_are_taken(bumpy):
@@ -97,8 +102,8 @@ def test_numbers_out_of_range_are_named(bumpy):
         rholm.compare(bumpy, bumpy, samples=-5)
     with pytest.raises((rholm.InvalidInputError, TypeError), match="max_hole is -1"):
         rholm.repair(bumpy, max_hole=-1)
-    with pytest.raises((rholm.InvalidInputError, TypeError), match="triangles is -3"):
-        rholm.simplify(bumpy, triangles=-3)
+    with pytest.raises((rholm.InvalidInputError, TypeError), match="faces is -3"):
+        rholm.simplify(bumpy, faces=-3)
 
 
 def test_choices_are_listed_and_the_nearest_is_named(bumpy):
@@ -116,41 +121,41 @@ def test_choices_are_listed_and_the_nearest_is_named(bumpy):
 
 def test_every_choice_is_one_of_the_library(bumpy):
     s = rholm.expand(bumpy, 4)
-    for window in rholm._filters.Window.__args__:
+    for window in _filters.Window.__args__:
         assert s.low_pass(2, window).degree <= 4
-    for function in rholm._coefficients.Function.__args__:
+    for function in _coefficients.Function.__args__:
         assert rholm.from_array(s.coeffs, function=function).function == function
-    for normalization in rholm._coefficients.Normalization.__args__:
+    for normalization in _coefficients.Normalization.__args__:
         assert s.to_array(normalization).shape == (2, 5, 5)
     choices = {
         field["name"]: field["choices"]
-        for kind in (rholm._core.TransformOptions, rholm._core.Tolerance)
+        for kind in (_core.TransformOptions, _core.Tolerance)
         for field in kind.FIELDS
     }
     for method in choices["method"]:
         assert rholm.expand(bumpy, 2, method=method).degree == 2
     for unit in choices["unit"]:
         assert rholm.expand(bumpy, tolerance=0.5, unit=unit).degree >= 0
-    for kind in rholm._sums.GridKind.__args__:
-        assert rholm.synthesize_grid(s, kind).ndim == 2
+    for kind in _sums.GridKind.__args__:
+        assert harmonics.synthesize_grid(s, kind).ndim == 2
 
 
 def test_properties_and_classes_are_checked_too(bumpy):
-    editor = rholm.analyze_patch(bumpy, None, 1.0)
+    editor = rholm.meshes.analyze_patch(bumpy, None, 1.0)
     with pytest.raises(TypeError, match=r"SmoothEditor.strength is 'much'"):
         editor.strength = "much"
     with pytest.raises(TypeError, match=r"Rotation\(\): x is 'a'"):
-        rholm.Rotation(x="a")
-    with pytest.raises(TypeError, match=r"editor is 5; it must be a rholm\.SmoothEditor"):
-        rholm.update(5)
+        harmonics.Rotation(x="a")
+    with pytest.raises(TypeError, match=r"editor is 5; it must be a SmoothEditor"):
+        rholm.meshes.update(5)
     with pytest.raises(TypeError, match="placement is 5"):
         rholm.placed(rholm.expand(bumpy, 2), 5)
     with pytest.raises(TypeError, match=r"size is 64"):
         rholm.render(bumpy, 64)
     with pytest.raises(TypeError, match=r"size\[1\] is 'x'"):
         rholm.render(bumpy, (64, "x"))
-    with pytest.raises(TypeError, match="triangles is 'x'"):
-        rholm.simplify(bumpy, triangles="x")
+    with pytest.raises(TypeError, match="faces is 'x'"):
+        rholm.simplify(bumpy, faces="x")
     with pytest.raises(TypeError, match="share is 'x'"):
         rholm.compress(bumpy, 0.1).mesh(simplify={"share": "x"})
 
@@ -159,11 +164,11 @@ def test_what_passes_options_on_is_checked_behind(bumpy):
     with pytest.raises(TypeError, match="degree is '8'"):
         rholm.expand(bumpy, degree="8")
     with pytest.raises(TypeError, match="subdivisions is '2'"):
-        rholm.synthesize(rholm.expand(bumpy, 2), subdivisions="2")
+        harmonics.synthesize(rholm.expand(bumpy, 2), subdivisions="2")
 
 
 def test_negative_indices_are_shown_as_they_were(bumpy):
-    for triangles in (bumpy.triangles - np.uint32(1), bumpy.triangles.astype(int) - 1):
+    for triangles in (bumpy.faces - np.uint32(1), bumpy.faces.astype(int) - 1):
         with pytest.raises(rholm.InvalidInputError, match="-1") as refusal:
             rholm.expand((bumpy.vertices, triangles), 4)
         assert "4294967295" not in str(refusal.value)
@@ -184,7 +189,7 @@ def test_no_file_is_written_under_the_name_of_another_format(tmp_path, bumpy):
     atlas = rholm.compress(bumpy, 0.1)
     for write in (
         lambda path: bumpy.render(size=(16, 16), path=path),
-        lambda path: rholm.write_png(path, np.zeros((4, 4, 3), np.uint8)),
+        lambda path: rholm.figures.write_png(path, np.zeros((4, 4, 3), np.uint8)),
         lambda path: atlas.save(path),
         lambda path: s.save(path, format="hdf5"),
         lambda path: s.report_html(path),

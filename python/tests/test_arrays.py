@@ -8,7 +8,8 @@ import pickle
 import numpy as np
 import pytest
 import rholm
-from rholm._arrays import triangle_rows, vertex_rows
+from rholm import _arrays, harmonics
+from rholm._arrays import face_rows, vertex_rows
 
 
 def layouts(array: np.ndarray) -> dict[str, np.ndarray]:
@@ -39,7 +40,7 @@ FLOATS, INTS = ("f4", "f8"), ("i4", "u4", "i8", "u8", "i2")
 @pytest.mark.parametrize("ints", INTS)
 def test_every_layout_gives_the_same_bits(bumpy, floats, ints):
     vertices = bumpy.vertices.astype(floats)
-    triangles = bumpy.triangles.astype(ints)
+    triangles = bumpy.faces.astype(ints)
     how = {"degree": 12, "errors": False, "rays": 0}  # the fastest way to coefficients
     expected = rholm.expand((vertices, triangles), **how).coeffs
     assert expected.any()
@@ -55,9 +56,9 @@ def test_every_layout_gives_the_same_bits(bumpy, floats, ints):
 def test_arrays_that_can_be_used_as_they_lie_are_not_copied(bumpy):
     for floats, ints in itertools.product(("f4", "f8"), ("i4", "u4")):
         vertices = bumpy.vertices.astype(floats)
-        triangles = bumpy.triangles.astype(ints)
+        triangles = bumpy.faces.astype(ints)
         assert vertex_rows(vertices) is vertices
-        assert np.shares_memory(triangle_rows(triangles), triangles)
+        assert np.shares_memory(face_rows(triangles), triangles)
         assert np.shares_memory(vertex_rows(vertices[::2]), vertices)
     columns = np.zeros((10, 5))[:, 1:4]
     assert vertex_rows(columns) is columns
@@ -65,7 +66,7 @@ def test_arrays_that_can_be_used_as_they_lie_are_not_copied(bumpy):
 
 def test_arrays_of_a_mesh_are_its_own_memory(bumpy):
     assert np.shares_memory(bumpy.vertices, bumpy.vertices)
-    assert np.shares_memory(bumpy.triangles, bumpy.triangles)
+    assert np.shares_memory(bumpy.faces, bumpy.faces)
     assert not bumpy.vertices.flags.writeable
     first = rholm.icosphere(3).vertices  # outlives the mesh
     assert np.allclose(np.linalg.norm(first, axis=1), 1)
@@ -73,8 +74,8 @@ def test_arrays_of_a_mesh_are_its_own_memory(bumpy):
 
 def test_float32_is_what_float32_holds(bumpy):
     single = bumpy.vertices.astype("f4")
-    a = rholm.expand((single, bumpy.triangles), 10)
-    b = rholm.expand((single.astype("f8"), bumpy.triangles), 10)
+    a = rholm.expand((single, bumpy.faces), 10)
+    b = rholm.expand((single.astype("f8"), bumpy.faces), 10)
     assert np.abs(a.coeffs - b.coeffs).max() <= 1e-15
 
 
@@ -136,20 +137,20 @@ def test_what_is_masked_is_not_known(bumpy, ring, tmp_path):
         for rows in (masked, unknown, list(masked), np.ma.masked_array(beneath.astype("f4"), mask=mask)):
             found = rholm.reconstruct(rows)
             assert found.report.dropped_points == bad.sum()
-            assert len(rholm.clean(rows).cloud) == len(points) - bad.sum()
+            assert len(rholm.clouds.clean(rows).cloud) == len(points) - bad.sum()
         assert rholm.reconstruct(masked).mesh == expected.mesh
     np.savetxt(tmp_path / "p.xyz", np.where(masks[0], np.nan, beneath))
     with pytest.warns(UserWarning, match="not finite"):
         report = rholm.reconstruct(tmp_path / "p.xyz").report
     assert (report.points, report.dropped_points) == (len(points), bad.sum())
     assert np.array_equal(
-        rholm.as_points(np.ma.masked_array(points, mask=False)).points, points
+        rholm.clouds.as_points(np.ma.masked_array(points, mask=False)).points, points
     )  # nothing is masked
     mask = np.zeros(bumpy.vertices.shape, bool)
     mask[5, 1] = True
     for shape in (
-        (np.ma.masked_array(bumpy.vertices, mask=mask), bumpy.triangles),
-        (bumpy.vertices, np.ma.masked_array(bumpy.triangles, mask=bumpy.triangles == 7)),
+        (np.ma.masked_array(bumpy.vertices, mask=mask), bumpy.faces),
+        (bumpy.vertices, np.ma.masked_array(bumpy.faces, mask=bumpy.faces == 7)),
     ):
         with pytest.raises(rholm.InvalidInputError, match=r"not a finite number|masked"):
             rholm.expand(shape, 4)
@@ -178,10 +179,10 @@ def test_points_without_a_place_are_dropped_and_counted(ring):
     known = (points[~bad], cloud.normals[~bad])
     calls = {
         "orient": lambda p, m, s, v: rholm.orient(p, m).cloud,
-        "align_scans": lambda p, m, s, v: rholm.align_scans((p, m), s).cloud,
+        "align_scans": lambda p, m, s, v: rholm.clouds.align_scans((p, m), s).cloud,
         "compress": lambda p, m, s, v: rholm.compress((p, m), tolerance=0.05).mesh(),
-        "patch_atlas": lambda p, m, s, v: rholm.patch_atlas((p, m), 4).atlas.mesh(),
-        "patch_picture": lambda p, m, s, v: rholm.patch_picture((p, m)),
+        "patch_atlas": lambda p, m, s, v: harmonics.patch_atlas((p, m), 4).atlas.mesh(),
+        "patch_picture": lambda p, m, s, v: rholm.figures.patch_picture((p, m)),
         "render": lambda p, m, s, v: rholm.render((p, m), size=(64, 64)),
         "Panel": lambda p, m, s, v: rholm.render(rholm.Panel((p, m), scalars=v), size=(64, 64)),
     }
@@ -211,7 +212,7 @@ def test_attributes_keep_their_types(tmp_path, bumpy):
         "uv": np.zeros((n, 2)),
         "stress": np.ones((n, 6)),
     }
-    mesh = rholm.Mesh(bumpy.vertices, bumpy.triangles, given)
+    mesh = rholm.Mesh(bumpy.vertices, bumpy.faces, given)
     mesh.save(tmp_path / "a.ply")
     for attributes in (mesh.attributes, rholm.read_shape(tmp_path / "a.ply").shape.attributes):
         assert attributes["quality"].dtype == np.float32
@@ -223,15 +224,15 @@ def test_attributes_keep_their_types(tmp_path, bumpy):
         assert "stress_5" in attributes
         assert "u" in attributes
     with pytest.raises(rholm.InvalidInputError):
-        rholm.Mesh(bumpy.vertices, bumpy.triangles, {"short": np.zeros(3)})
+        rholm.Mesh(bumpy.vertices, bumpy.faces, {"short": np.zeros(3)})
     with pytest.raises(TypeError):
-        rholm.Mesh(bumpy.vertices, bumpy.triangles, {"text": np.full(n, "a")})
+        rholm.Mesh(bumpy.vertices, bumpy.faces, {"text": np.full(n, "a")})
 
 
 def test_shapes_and_expansions_can_be_pickled(bumpy):
     mesh = pickle.loads(pickle.dumps(bumpy.with_attributes(q=np.arange(len(bumpy.vertices)))))
     assert np.array_equal(mesh.vertices, bumpy.vertices)
-    assert np.array_equal(mesh.triangles, bumpy.triangles)
+    assert np.array_equal(mesh.faces, bumpy.faces)
     assert mesh.attributes["q"][7] == 7
     cloud = rholm.sample_surface(bumpy, 100)
     copy = pickle.loads(pickle.dumps(cloud))
@@ -246,12 +247,12 @@ def test_shapes_and_expansions_can_be_pickled(bumpy):
 
 def test_a_mapped_file_is_the_mesh_of_the_file(tmp_path, bumpy):
     bumpy.save(tmp_path / "m.ply")
-    vertices, triangles = rholm.map_mesh(tmp_path / "m.ply")
+    vertices, triangles = rholm.files.map_mesh(tmp_path / "m.ply")
     assert np.array_equal(vertices, bumpy.vertices)
-    assert np.array_equal(triangles, bumpy.triangles)
+    assert np.array_equal(triangles, bumpy.faces)
     assert not vertices.flags.writeable
     bumpy.save(tmp_path / "m.off")
-    assert rholm.map_mesh(tmp_path / "m.off") is None
+    assert rholm.files.map_mesh(tmp_path / "m.off") is None
     assert np.array_equal(
         rholm.expand((vertices, triangles), 8).coeffs, rholm.expand(tmp_path / "m.ply", 8).coeffs
     )
@@ -259,7 +260,7 @@ def test_a_mapped_file_is_the_mesh_of_the_file(tmp_path, bumpy):
 
 def test_an_empty_mesh_is_a_mesh():
     empty = rholm.Mesh([], [])
-    assert empty.vertices.shape == empty.triangles.shape == (0, 3)
+    assert empty.vertices.shape == empty.faces.shape == (0, 3)
     assert empty.area == 0
     assert rholm.inspect(empty).triangles == 0
 
@@ -273,7 +274,7 @@ def test_directions_of_any_length_are_the_same(bumpy, random):
         # Numbers this small have fewer digits.
         limit = 1e-2 if length < 1e-310 else 1e-13
         assert np.allclose(s(length * unit), expected, rtol=limit), length
-    assert np.shares_memory(rholm._arrays.directions(unit)[0], unit)  # not copied
+    assert np.shares_memory(_arrays.directions(unit)[0], unit)  # not copied
     for wrong in ([0, 0, 0], [np.nan, 0, 1], [np.inf, 0, 0]):
         with pytest.raises(rholm.InvalidInputError):
             s([[0, 0, 1], wrong])

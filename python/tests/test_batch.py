@@ -20,6 +20,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 import rholm
+from rholm import harmonics
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -27,7 +28,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def describe(path: str) -> dict[str, Any]:
     """Computes the row of docs/batch.md; other processes import it by its name."""
     s = rholm.expand(path, degree=4, threads=1)
-    return {"volume": s.volume, "energy": rholm.power_spectrum(s)}
+    return {"volume": s.volume, "energy": harmonics.power_spectrum(s)}
 
 
 def square(x: int) -> int:
@@ -61,7 +62,7 @@ def shapes(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     ]
 
 
-def check_shapes(table: rholm.BatchTable, shapes: list[str]) -> None:
+def check_shapes(table: rholm.files.BatchTable, shapes: list[str]) -> None:
     assert list(table["id"]) == shapes
     assert list(table["error"][4:7]) == ["NotStarShapedError", "InvalidInputError", "IoError"]
     assert int(table.failed.sum()) == 3

@@ -34,45 +34,47 @@ def test_formats_are_those_of_the_program():
     told = subprocess.run([program, "convert", "--help", "all"], capture_output=True, text=True, check=True).stdout
     choices = re.search(r"--format ([\w|]+)", told)
     assert choices, told
-    written = [one.name for one in (*rholm.shape_formats(), *rholm.coefficients_formats()) if one.written]
+    written = [
+        one.name for one in (*rholm.files.shape_formats(), *rholm.files.coefficients_formats()) if one.written
+    ]
     assert choices[1].split("|") == written
 
 
 def test_shapes_are_saved_in_every_format(tmp_path):
     sphere = rholm.icosphere(1)
     cloud = rholm.PointCloud(np.random.default_rng(1).normal(size=(30, 3)))
-    for known in rholm.shape_formats():
+    for known in rholm.files.shape_formats():
         assert known.read
         assert known.written
         for shape, word in ((sphere, "faces"), (cloud, "points")):
             path = tmp_path / f"{word}.{known.extensions[0]}"
             if word not in known.holds:
                 with pytest.raises(rholm.UnsupportedError, match=known.title):
-                    rholm.write_shape(shape, path)
+                    rholm.files.write_shape(shape, path)
                 continue
-            rholm.write_shape(shape, path)
+            rholm.files.write_shape(shape, path)
             assert rholm.read_shape(path).format == known.name
-            rholm.write_shape(shape, tmp_path / "named", format=known.name)
+            rholm.files.write_shape(shape, tmp_path / "named", format=known.name)
             assert (tmp_path / "named").read_bytes() == path.read_bytes()
 
 
 def test_coefficients_are_saved_in_every_format(tmp_path):
     sphere = rholm.expand(rholm.icosphere(2), degree=3)
-    for known in rholm.coefficients_formats():
+    for known in rholm.files.coefficients_formats():
         assert known.read
         assert known.written
         path = tmp_path / f"a.{known.extensions[0]}"
         sphere.save(path)
         assert rholm.load(path).degree == 3
-        assert rholm.coefficients_format_of(path) == (None if known.name == "h5" else known.name)
+        assert rholm.files.coefficients_format_of(path) == (None if known.name == "h5" else known.name)
         sphere.save(tmp_path / "b", format=known.name)
         if known.name != "h5":  # a model file has the time of its making
             assert (tmp_path / "b").read_bytes() == path.read_bytes()
 
 
 def test_a_shape_is_told_from_coefficients(tmp_path):
-    for known in rholm.shape_formats():
+    for known in rholm.files.shape_formats():
         path = tmp_path / f"a.{known.extensions[0]}"
         path.write_bytes(b"")
         with pytest.raises(rholm.InvalidInputError, match="a file of a shape"):
-            rholm.read_coefficients(path)
+            rholm.files.read_coefficients(path)

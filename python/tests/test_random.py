@@ -12,6 +12,7 @@ import rholm
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
+from rholm import harmonics
 
 CALLS = int(os.environ.get("RHOLM_RANDOM_CALLS", "60"))
 
@@ -56,7 +57,7 @@ def arrays(draw):
 def meshes(draw):
     """Vertices and triangles that usually form a mesh: a body, damaged or not."""
     body = draw(st.sampled_from([rholm.icosphere(1), rholm.box((1, 2, 3), 2), rholm.torus(2, 1, 8, 6)]))
-    vertices, triangles = np.array(body.vertices), np.array(body.triangles)
+    vertices, triangles = np.array(body.vertices), np.array(body.faces)
     damage = draw(
         st.sampled_from(["none", "none", "number", "index", "hole", "flat", "large", "double", "flip"])
     )
@@ -175,9 +176,9 @@ FUNCTIONS = [
         {"points": CLOUD},
         {"normals": rows(), "step": number(0.1, 1), "noise": number(0, 0.1)},
     ),
-    (rholm.foresee_tiles, {"points": count(0, 10**12)}, {"tile_points": count(0, 1 << 20)}),
+    (rholm.clouds.foresee_tiles, {"points": count(0, 10**12)}, {"tile_points": count(0, 1 << 20)}),
     (rholm.orient, {"points": CLOUD}, {"center": POINT, "neighbors": count(3, 20), "sensor": POINT}),
-    (rholm.clean, {"points": CLOUD}, {}),
+    (rholm.clouds.clean, {"points": CLOUD}, {}),
     (rholm.inspect, {"mesh": MESH}, {}),
     (rholm.repair, {"mesh": MESH}, {"weld": number(0, 0.1), "max_hole": count(0, 50)}),
     (
@@ -185,73 +186,81 @@ FUNCTIONS = [
         {"mesh": MESH},
         {"triangles": count(4, 50), "share": number(0.1, 1), "max_error": number(0, 1)},
     ),
-    (rholm.weld, {"mesh": MESH}, {"tolerance": number(0, 0.3)}),
-    (rholm.pair_edges, {"mesh": MESH}, {}),
-    (rholm.flip, {"mesh": MESH}, {}),
-    (rholm.largest_component, {"mesh": MESH}, {}),
-    (rholm.closing_tolerance, {"mesh": MESH}, {}),
-    (rholm.find_center, {"mesh": MESH}, {"rays": count(0, 100)}),
-    (rholm.check_star, {"mesh": MESH, "center": POINT}, {"rays": count(0, 100)}),
+    (rholm.meshes.weld, {"mesh": MESH}, {"tolerance": number(0, 0.3)}),
+    (rholm.meshes.pair_edges, {"mesh": MESH}, {}),
+    (rholm.meshes.flip, {"mesh": MESH}, {}),
+    (rholm.meshes.largest_component, {"mesh": MESH}, {}),
+    (rholm.meshes.closing_tolerance, {"mesh": MESH}, {}),
+    (harmonics.find_center, {"mesh": MESH}, {"rays": count(0, 100)}),
+    (harmonics.check_star, {"mesh": MESH, "center": POINT}, {"rays": count(0, 100)}),
     (
         rholm.sample_surface,
         {"mesh": MESH},
         {"points": count(1, 50), "noise": number(0, 1), "outliers": number(0, 1)},
     ),
     (rholm.compare, {"a": MESH, "b": MESH, "samples": count(1, 50)}, {}),
-    (rholm.distances_to_surface, {"points": rows(), "mesh": MESH}, {}),
+    (rholm.meshes.distances_to_surface, {"points": rows(), "mesh": MESH}, {}),
     (
         rholm.from_array,
         {"values": COEFFICIENTS},
         {"center": POINT, "function": among("radius", "gauge", "other")},
     ),
-    (rholm.power_spectrum, {"coefficients": COEFFICIENTS}, {}),
+    (harmonics.power_spectrum, {"coefficients": COEFFICIENTS}, {}),
     (
-        rholm.evaluate,
+        harmonics.evaluate,
         {"coefficients": COEFFICIENTS, "directions": rows()},
         {"precision": number(1e-13, 1e-2)},
     ),
     (
-        rholm.evaluate_with_gradient,
+        harmonics.evaluate_with_gradient,
         {"coefficients": BODY, "directions": rows()},
         {"engine": among("fast", "direct")},
     ),
     (
-        rholm.adjoint,
+        harmonics.adjoint,
         {"directions": rows(st.just(7)), "degree": DEGREE},
         {"weights": list_of(7), "gradients": rows(st.just(7)), "hessians": mostly(hnp.arrays("f8", (7, 6)))},
     ),
     (
-        rholm.synthesize_grid,
+        harmonics.synthesize_grid,
         {"coefficients": COEFFICIENTS},
         {"n_theta": count(1, 30), "n_phi": count(12, 30)},
     ),
     (
-        rholm.analyze_grid,
+        harmonics.analyze_grid,
         {"values": mostly(hnp.arrays("f8", (9, 17), elements=st.floats(-2, 2)))},
         {"degree": DEGREE},
     ),
     (
-        rholm.evaluate_rings,
+        harmonics.evaluate_rings,
         {"coefficients": COEFFICIENTS, "colatitudes": list_of(5), "n_phi": count(12, 30)},
         {},
     ),
-    (rholm.rotate, {"thing": BODY, "rotation": mostly(rows(st.just(1)).map(np.ravel))}, {"about": POINT}),
+    (
+        harmonics.rotate,
+        {"thing": BODY, "rotation": mostly(rows(st.just(1)).map(np.ravel))},
+        {"about": POINT},
+    ),
     (rholm.rotation_about, {"axis": POINT, "angle": number(-9, 9)}, {}),
-    (rholm.as_rotation, {"rotation": list_of(4)}, {}),
-    (rholm.mirror, {"thing": BODY, "axis": among("x", "y", "z")}, {"about": POINT}),
-    (rholm.filter, {"thing": BODY, "gains": list_of(5)}, {}),
+    (harmonics.as_rotation, {"rotation": list_of(4)}, {}),
+    (harmonics.mirror, {"thing": BODY, "axis": among("x", "y", "z")}, {"about": POINT}),
+    (harmonics.filter, {"thing": BODY, "gains": list_of(5)}, {}),
     (rholm.align, {"a": BODY, "b": BODY, "bandwidth": count(1, 6)}, {"mirror": st.booleans()}),
-    (rholm.principal_axes, {"coefficients": COEFFICIENTS}, {}),
-    (rholm.distance, {"a": COEFFICIENTS, "b": BODY}, {}),
-    (rholm.scaled, {"expansion": BODY, "factor": number(0.1, 10)}, {}),
-    (rholm.recentered, {"expansion": BODY, "center": POINT}, {}),
-    (rholm.synthesize, {"model": BODY}, {"degree": DEGREE, "subdivisions": count(0, 3), "like": MESH}),
+    (harmonics.principal_axes, {"coefficients": COEFFICIENTS}, {}),
+    (harmonics.distance, {"a": COEFFICIENTS, "b": BODY}, {}),
+    (harmonics.scaled, {"expansion": BODY, "factor": number(0.1, 10)}, {}),
+    (harmonics.recentered, {"expansion": BODY, "center": POINT}, {}),
+    (
+        harmonics.synthesize,
+        {"model": BODY},
+        {"degree": DEGREE, "subdivisions": count(0, 3), "like": MESH},
+    ),
     (
         rholm.smooth,
         {"mesh": FINE, "region": REGION, "wavelength": number(0.5, 2)},
         {"strength": number(-1, 2)},
     ),
-    (rholm.region_weights, {"mesh": FINE, "region": REGION}, {"transition": number(0, 1)}),
+    (rholm.meshes.region_weights, {"mesh": FINE, "region": REGION}, {"transition": number(0, 1)}),
     (
         rholm.transfer,
         {"source": FINE, "source_region": REGION, "target": FINE, "target_region": REGION},
@@ -267,22 +276,26 @@ FUNCTIONS = [
         {"shape": CLOUD, "size": st.just((20, 20))},
         {"point_radius": number(0, 1), "colors": rows()},
     ),
-    (rholm.inertia, {"expansion": BODY}, {}),
-    (rholm.encode_png, {"image": mostly(hnp.arrays("u1", (4, 5, 3)))}, {}),
-    (rholm.as_points, {"shape": CLOUD}, {"normals": rows()}),
-    (rholm.bounds, {"points": rows()}, {}),
+    (harmonics.inertia, {"expansion": BODY}, {}),
+    (rholm.figures.encode_png, {"image": mostly(hnp.arrays("u1", (4, 5, 3)))}, {}),
+    (rholm.clouds.as_points, {"shape": CLOUD}, {"normals": rows()}),
+    (rholm.meshes.bounds, {"points": rows()}, {}),
     (
-        rholm.parse_shape,
+        rholm.files.parse_shape,
         {"data": mostly(st.binary(max_size=200))},
         {"name": among("a.ply", "a.xyz", "a.stl")},
     ),
-    (rholm.parse_coefficients, {"data": mostly(st.binary(max_size=200))}, {"name": among("a.sh", "a.npy")}),
+    (
+        rholm.files.parse_coefficients,
+        {"data": mostly(st.binary(max_size=200))},
+        {"name": among("a.sh", "a.npy")},
+    ),
     (
         rholm.low_pass,
         {"cutoff": count(0, 9), "degree": count(0, 20)},
         {"window": among("heat", "ideal", "plateau"), "order": count(1, 64), "time": number(1e-4, 1)},
     ),
-    (rholm.overshoot, {"gains_or_window": list_of(9)}, {"degree": DEGREE}),
+    (harmonics.overshoot, {"gains_or_window": list_of(9)}, {"degree": DEGREE}),
     (
         rholm.Mesh,
         {"vertices": rows(), "triangles": mostly(hnp.arrays("i4", (5, 3)))},

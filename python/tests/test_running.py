@@ -13,6 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 import rholm
+from rholm import _run
 
 
 def slow(progress=False, threads=0):
@@ -195,10 +196,10 @@ def test_the_bar_is_full_when_the_work_is_done(monkeypatch, bumpy):
             self.closed_at = self.n / self.total
 
     monkeypatch.setattr(tqdm.auto, "tqdm", Bar)
-    with rholm._run.reporter(True) as tell:
+    with _run.reporter(True) as tell:
         tell("compare", 0.4)
         tell("compare", 0.99)
-    with pytest.raises(rholm.InvalidInputError), rholm._run.reporter(True) as tell:
+    with pytest.raises(rholm.InvalidInputError), _run.reporter(True) as tell:
         tell("compare", 0.5)
         raise rholm.InvalidInputError("stopped")
     assert [bar.closed_at for bar in bars] == [1.0, 0.5]

@@ -7,6 +7,7 @@ import pickle
 import numpy as np
 import pytest
 import rholm
+from rholm import harmonics
 
 
 def test_files_of_shapes_come_back(bumpy, tmp_path):
@@ -14,15 +15,15 @@ def test_files_of_shapes_come_back(bumpy, tmp_path):
         bumpy.save(tmp_path / name)
         read = rholm.read_shape(tmp_path / name)
         assert read.format == name[2:]
-        mesh = rholm.weld(read.shape).mesh
+        mesh = rholm.meshes.weld(read.shape).mesh
         assert np.isclose(mesh.volume, bumpy.volume, rtol=1e-5)
-        assert np.isclose(rholm.as_mesh(tmp_path / name).area, bumpy.area, rtol=1e-5)
-        again = rholm.parse_shape((tmp_path / name).read_bytes(), name)
+        assert np.isclose(rholm.meshes.as_mesh(tmp_path / name).area, bumpy.area, rtol=1e-5)
+        again = rholm.files.parse_shape((tmp_path / name).read_bytes(), name)
         assert np.array_equal(again.shape.vertices, read.shape.vertices)
     cloud = rholm.sample_surface(bumpy, 50)
     cloud.save(tmp_path / "p.xyz")
-    assert np.array_equal(rholm.as_points(tmp_path / "p.xyz").points, cloud.points)
-    assert rholm.attributes_left_out(bumpy.with_attributes(q=bumpy.vertices[:, 0]), "stl") == ["q"]
+    assert np.array_equal(rholm.clouds.as_points(tmp_path / "p.xyz").points, cloud.points)
+    assert rholm.files.attributes_left_out(bumpy.with_attributes(q=bumpy.vertices[:, 0]), "stl") == ["q"]
     with pytest.raises(rholm.InvalidInputError, match="points"):
         rholm.expand(tmp_path / "p.xyz", 4)
 
@@ -48,7 +49,7 @@ def test_malformed_files_are_refused(tmp_path, data, error):
     for name in ("f.ply", "f.off", "f.stl"):
         path = tmp_path / name
         path.write_bytes(data)
-        for read in (rholm.read_shape, rholm.load, lambda p: rholm.expand(p, 4), rholm.as_points):
+        for read in (rholm.read_shape, rholm.load, lambda p: rholm.expand(p, 4), rholm.clouds.as_points):
             with pytest.raises(rholm.Error) as refusal:
                 read(path)
             assert len(str(refusal.value)) > 5
@@ -81,31 +82,31 @@ def test_inspection_and_repair(bumpy):
     assert report.genus == 0
     assert report.vertices - report.edges + report.triangles == 2
     assert rholm.inspect(rholm.torus(2, 1, 12, 8)).genus == 1
-    assert rholm.pair_edges(bumpy).shape == (report.edges, 4)
-    hole = rholm.Mesh(bumpy.vertices, bumpy.triangles[5:])
+    assert rholm.meshes.pair_edges(bumpy).shape == (report.edges, 4)
+    hole = rholm.Mesh(bumpy.vertices, bumpy.faces[5:])
     assert not rholm.inspect(hole).closed
     mended = rholm.repair(hole)
     assert mended.report.closed_holes > 0
     assert rholm.inspect(mended.mesh).closed
-    assert rholm.closing_tolerance(bumpy) is None
+    assert rholm.meshes.closing_tolerance(bumpy) is None
     soup = rholm.Mesh(
-        bumpy.vertices[bumpy.triangles].reshape(-1, 3), np.arange(3 * len(bumpy.triangles)).reshape(-1, 3)
+        bumpy.vertices[bumpy.faces].reshape(-1, 3), np.arange(3 * len(bumpy.faces)).reshape(-1, 3)
     )
-    assert rholm.weld(soup).merged_vertices == len(soup.vertices) - len(bumpy.vertices)
-    assert np.isclose(rholm.flip(bumpy).volume, -bumpy.volume)
-    fewer = rholm.simplify(bumpy, triangles=200)
-    assert len(fewer.mesh.triangles) <= 200
+    assert rholm.meshes.weld(soup).merged_vertices == len(soup.vertices) - len(bumpy.vertices)
+    assert np.isclose(rholm.meshes.flip(bumpy).volume, -bumpy.volume)
+    fewer = rholm.simplify(bumpy, faces=200)
+    assert len(fewer.mesh.faces) <= 200
     assert rholm.inspect(fewer.mesh).genus == 0
     two = rholm.Mesh(
         np.concatenate([bumpy.vertices, rholm.icosphere(0).vertices * 0.1 + 9]),
-        np.concatenate([bumpy.triangles, rholm.icosphere(0).triangles + len(bumpy.vertices)]),
+        np.concatenate([bumpy.faces, rholm.icosphere(0).faces + len(bumpy.vertices)]),
     )
-    assert len(rholm.largest_component(two).triangles) == len(bumpy.triangles)
+    assert len(rholm.meshes.largest_component(two).faces) == len(bumpy.faces)
     assert np.allclose(np.linalg.norm(bumpy.normals, axis=1), 1)
-    assert np.allclose(rholm.area_normals(rholm.box((1, 1, 1))).sum(axis=0), 0)
-    assert rholm.bounds(bumpy.vertices).diagonal == bumpy.bounds.diagonal
-    assert rholm.surface_area(rholm.box((1, 2, 3))) == pytest.approx(22)
-    assert rholm.enclosed_volume(rholm.box((1, 2, 3))) == pytest.approx(6)
+    assert np.allclose(rholm.meshes.area_normals(rholm.box((1, 1, 1))).sum(axis=0), 0)
+    assert rholm.meshes.bounds(bumpy.vertices).diagonal == bumpy.bounds.diagonal
+    assert rholm.meshes.surface_area(rholm.box((1, 2, 3))) == pytest.approx(22)
+    assert rholm.meshes.enclosed_volume(rholm.box((1, 2, 3))) == pytest.approx(6)
     with pytest.raises(rholm.InvalidInputError):
         rholm.simplify(bumpy)
 
@@ -113,7 +114,7 @@ def test_inspection_and_repair(bumpy):
 def test_points_are_cleaned_and_oriented(ring, random):
     cloud = rholm.sample_surface(ring, 4000)
     points = np.concatenate([cloud.points, cloud.points[:5], [[np.nan, 0, 0]]])
-    cleaned = rholm.clean(points)
+    cleaned = rholm.clouds.clean(points)
     assert cleaned.report.not_finite == 1
     assert cleaned.report.duplicates == 5
     oriented = rholm.orient(cloud.points)
@@ -128,14 +129,14 @@ def test_points_are_cleaned_and_oriented(ring, random):
 
 def test_scans_are_brought_together(ring):
     scans = rholm.sample_surface(ring, 4000, scans=4, misalignment=0.01, sensor=True)
-    made = rholm.align_scans(scans)
+    made = rholm.clouds.align_scans(scans)
     assert made.report.scans == 4
     assert made.report.distance < made.report.distance_before / 3
     way = np.asarray(made.cloud.points) - scans.points
     assert made.report.moved == pytest.approx(np.sqrt((way**2).sum(1).mean()))
-    bare = rholm.align_scans(scans.points, scans.attributes["scan"])
+    bare = rholm.clouds.align_scans(scans.points, scans.attributes["scan"])
     assert bare.report.scans == 4
-    assert rholm.align_scans(scans.points).report.scans == 0
+    assert rholm.clouds.align_scans(scans.points).report.scans == 0
     surface = rholm.reconstruct(scans)
     assert surface.report.scans.scans == 4
     assert rholm.inspect(surface.mesh).genus == 1
@@ -160,7 +161,7 @@ def test_confidence_of_points_and_of_surfaces(ring):
     assert part.report.unsure_area >= part.report.unseen_area
     assert 0 <= part.mesh.attributes["confidence"].min() < 0.1
     assert whole.mesh.attributes["confidence"].min() > 0.9
-    assert np.isclose(whole.report.volume, rholm.enclosed_volume(whole.mesh))
+    assert np.isclose(whole.report.volume, rholm.meshes.enclosed_volume(whole.mesh))
 
 
 def test_given_normals_that_contradict_each_other_are_turned_or_told():
@@ -198,7 +199,7 @@ def test_surfaces_from_points_carry_attributes(ring):
     assert len(r.atlas) == r.report.caps
     assert r.atlas.rules.left_out == ["red", "green", "blue", "height"]
     assert r.atlas.rules.holes == "fill"
-    assert len(rholm.reconstruct(cloud, simplify="auto").mesh.triangles) < len(r.mesh.triangles)
+    assert len(rholm.reconstruct(cloud, simplify="auto").mesh.faces) < len(r.mesh.faces)
     with pytest.raises(rholm.InvalidInputError, match="16"):
         rholm.reconstruct(cloud.points[:5])
     with pytest.raises(rholm.OutOfMemoryError) as refusal:
@@ -221,9 +222,9 @@ def test_the_atlas_of_open_points_gives_their_surface_again(tmp_path, holes, sim
         for atlas in (r.atlas, rholm.load(tmp_path / "half.h5"), pickle.loads(pickle.dumps(r.atlas))):
             again = atlas.mesh()
             assert np.array_equal(again.vertices, r.mesh.vertices)
-            assert np.array_equal(again.triangles, r.mesh.triangles)
+            assert np.array_equal(again.faces, r.mesh.faces)
             assert atlas.rules == r.atlas.rules
-        assert len(r.atlas.mesh(simplify={"share": 1}).triangles) >= len(r.mesh.triangles)
+        assert len(r.atlas.mesh(simplify={"share": 1}).faces) >= len(r.mesh.faces)
     tiled = rholm.reconstruct(half, tile_points=1000)
     tiled.atlas.save(tmp_path / "b.h5")
     assert rholm.load(tmp_path / "b.h5").rules.tiles
@@ -238,17 +239,17 @@ def test_compression_keeps_its_tolerance(ring, tmp_path):
     assert rholm.inspect(mesh).genus == 1
     assert rholm.compare(ring, mesh).a_to_b.rms <= 1.1 * a.errors.rms
     a.save(tmp_path / "a.h5")
-    assert rholm.is_atlas_file(tmp_path / "a.h5")
+    assert rholm.files.is_atlas_file(tmp_path / "a.h5")
     back = rholm.load(tmp_path / "a.h5")
     assert isinstance(back, rholm.Atlas)
     # The file stores frames of caps in single precision.
-    assert rholm.compare(rholm.synthesize(back), mesh).hausdorff < 1e-6
-    assert rholm.read_atlas(tmp_path / "a.h5").size.numbers == rholm.size_of(a).numbers
+    assert rholm.compare(harmonics.synthesize(back), mesh).hausdorff < 1e-6
+    assert rholm.files.read_atlas(tmp_path / "a.h5").size.numbers == harmonics.size_of(a).numbers
     caps = a.dominant_caps(ring.vertices)
     assert caps.max() < len(a)
     cap = a.cap(0)
-    assert len(a.coefficients_of(0)) == rholm.n_coefficients(cap.basis, cap.degree)
-    assert rholm.highest_degree(a) == max(a.cap(i).degree for i in range(len(a)))
+    assert len(a.coefficients_of(0)) == harmonics.n_coefficients(cap.basis, cap.degree)
+    assert harmonics.highest_degree(a) == max(a.cap(i).degree for i in range(len(a)))
     # No cap has samples farther from its surface than four tolerances.
     step = 0.01 * cap.axes[2]
     distance, gradient, valid = a.evaluate(0, [cap.seed, cap.seed + step])
@@ -261,7 +262,7 @@ def test_compression_keeps_its_tolerance(ring, tmp_path):
     with pytest.raises(IndexError):
         a.cap(len(a))
     with pytest.raises(rholm.InvalidInputError):
-        rholm.set_cap_colors(ring, a, np.full(len(ring.vertices), 10**6))
+        rholm.figures.set_cap_colors(ring, a, np.full(len(ring.vertices), 10**6))
     with pytest.raises(TypeError):
         rholm.Atlas()
     assert "caps" in a._repr_html_()
@@ -269,25 +270,25 @@ def test_compression_keeps_its_tolerance(ring, tmp_path):
 
 
 def test_the_papers_atlas(ring):
-    made = rholm.patch_atlas(ring, 6)
+    made = harmonics.patch_atlas(ring, 6)
     assert len(made.atlas) > 1
     assert made.rms_along_rays > 0
-    assert len(made.mesh.triangles) > 0
-    picture = rholm.patch_picture(ring, "triangles")
+    assert len(made.mesh.faces) > 0
+    picture = rholm.figures.patch_picture(ring, "triangles")
     assert picture.colors is not None
 
 
 def test_smoothing_takes_noise_from_a_region_only(random):
     sphere = rholm.icosphere(5)
     noise = 1 + 0.004 * random.normal(size=(len(sphere.vertices), 1))
-    rough = rholm.Mesh(sphere.vertices * noise, sphere.triangles)
+    rough = rholm.Mesh(sphere.vertices * noise, sphere.faces)
     region = sphere.vertices[:, 2] > 0.7
     smooth = rholm.smooth(rough, region, wavelength=0.4, fitting="mean")
     inner = sphere.vertices[:, 2] > 0.75
     before = np.abs(np.linalg.norm(rough.vertices[inner], axis=1) - 1).mean()
     after = np.abs(np.linalg.norm(smooth.vertices[inner], axis=1) - 1).mean()
     assert after < 0.4 * before
-    weights = rholm.region_weights(rough, region, 0.4)
+    weights = rholm.meshes.region_weights(rough, region, 0.4)
     assert np.array_equal(smooth.vertices[weights == 0], rough.vertices[weights == 0])
     same = rholm.smooth(rough, ["ball:0,0,1,0.5"], 0.4, strength=0)
     assert np.array_equal(same.vertices, rough.vertices)
@@ -302,9 +303,7 @@ def test_smoothing_takes_noise_from_a_region_only(random):
 
 def test_the_whole_mesh_is_a_region(random):
     ball = rholm.icosphere(5)
-    rough = rholm.Mesh(
-        ball.vertices * (1 + 0.004 * random.normal(size=(len(ball.vertices), 1))), ball.triangles
-    )
+    rough = rholm.Mesh(ball.vertices * (1 + 0.004 * random.normal(size=(len(ball.vertices), 1))), ball.faces)
     smooth = rholm.smooth(rough, None, 0.4)
     # Waves longer than 0.4 are about (2 pi/0.4 + 1)^2 = 280 numbers for 10 242 vertices: about 1/6
     # of the noise remains, and half of that again where the caps' fits differ.
@@ -312,7 +311,7 @@ def test_the_whole_mesh_is_a_region(random):
     everywhere = rholm.smooth(rough, np.ones(len(ball.vertices)), 0.4)
     assert np.array_equal(everywhere.vertices, smooth.vertices)
     assert np.array_equal(rholm.smooth(rough, "box:-2,-2,-2,2,2,2", 0.4).vertices, smooth.vertices)
-    assert (rholm.region_weights(rough, None) == 1).all()
+    assert (rholm.meshes.region_weights(rough, None) == 1).all()
     with pytest.raises(rholm.InvalidInputError, match="nothing around"):
         rholm.smooth(rough, None, 0.4, fitting="around")
     with pytest.raises(rholm.InvalidInputError, match="no vertex"):
@@ -321,7 +320,7 @@ def test_the_whole_mesh_is_a_region(random):
 
 def test_an_editor_moves_its_mesh_in_place(bumpy):
     fine = rholm.expand(bumpy, 24).mesh(5)
-    editor = rholm.analyze_patch(fine, "ball:0,0,1,0.6", 0.5)
+    editor = rholm.meshes.analyze_patch(fine, "ball:0,0,1,0.6", 0.5)
     vertices = editor.mesh.vertices
     before = vertices.copy()
     editor.strength = 1
@@ -333,29 +332,29 @@ def test_an_editor_moves_its_mesh_in_place(bumpy):
     half = editor.positions(strength=0.5)
     assert np.allclose(half, (before[moved] + vertices[moved]) / 2, atol=1e-12)
     editor.wavelength = editor.longest_wavelength
-    assert rholm.longest_wavelength(editor) == editor.wavelength
+    assert rholm.meshes.longest_wavelength(editor) == editor.wavelength
     editor.strength = 0
     assert np.array_equal(vertices, before)
     assert np.array_equal(fine.vertices, before)
-    applied = rholm.apply(editor, rholm.update(editor, strength=1.0, wavelength=0.5), fine)
+    applied = rholm.meshes.apply(editor, rholm.meshes.update(editor, strength=1.0, wavelength=0.5), fine)
     assert not np.array_equal(applied.vertices, before)
     with pytest.raises(rholm.InvalidInputError):
         editor.strength = np.nan
     assert editor.strength == 0
     with pytest.raises(rholm.InvalidInputError):
-        rholm.apply(editor, np.zeros((3, 3)), fine)
+        rholm.meshes.apply(editor, np.zeros((3, 3)), fine)
 
 
 def test_detail_is_transferred(random):
     plain = rholm.icosphere(5)
     waves = 1 + 0.01 * np.sin(40 * plain.vertices[:, :1])
-    rough = rholm.Mesh(plain.vertices * waves, plain.triangles)
+    rough = rholm.Mesh(plain.vertices * waves, plain.faces)
     at = "ball:0,0,1,0.5"
     there = rholm.transfer(rough, at, plain, at, angle=0.0)
     inner = np.linalg.norm(plain.vertices - [0, 0, 1], axis=1) < 0.3
     radii = np.linalg.norm(there.vertices[inner], axis=1)
     assert np.corrcoef(radii - 1, waves[inner, 0] - 1)[0, 1] > 0.8
-    editor = rholm.analyze_transfer(rough, at, plain, plain.vertices[:, 2] > 0.87)
+    editor = rholm.meshes.analyze_transfer(rough, at, plain, plain.vertices[:, 2] > 0.87)
     start = editor.mesh.vertices.copy()
     assert np.array_equal(start, plain.vertices)
     editor.height = 2
@@ -369,9 +368,9 @@ def test_detail_is_transferred(random):
 
 def test_a_texture_is_taken_once_for_several_targets():
     plain = rholm.icosphere(5)
-    rough = rholm.Mesh(plain.vertices * (1 + 0.01 * np.sin(40 * plain.vertices[:, :1])), plain.triangles)
+    rough = rholm.Mesh(plain.vertices * (1 + 0.01 * np.sin(40 * plain.vertices[:, :1])), plain.faces)
     at, other = "ball:0,0,1,0.5", "ball:0,1,0,0.6"
-    texture = rholm.analyze_source(rough, at, from_degree=6)
+    texture = rholm.meshes.analyze_source(rough, at, from_degree=6)
     assert texture.from_degree == 6
     assert texture.wavelength == pytest.approx(4 * texture.radius / 6)
     assert texture.radius == pytest.approx(0.5, rel=0.02)
@@ -387,11 +386,11 @@ def test_a_texture_is_taken_once_for_several_targets():
 
 def test_distances(bumpy):
     assert rholm.compare(bumpy, bumpy).hausdorff < 1e-14
-    larger = rholm.Mesh(2 * rholm.icosphere(4).vertices, rholm.icosphere(4).triangles)
+    larger = rholm.Mesh(2 * rholm.icosphere(4).vertices, rholm.icosphere(4).faces)
     c = rholm.compare(rholm.icosphere(4), larger, samples=2000)
     assert c.a_to_b.rms == pytest.approx(1, rel=0.01)
     assert c.to_dict()["a_to_b"]["rms"] == c.a_to_b.rms
-    d = rholm.distances_to_surface([[0, 0, 3], [0, 0, 0]], rholm.box((2, 2, 2)))
+    d = rholm.meshes.distances_to_surface([[0, 0, 3], [0, 0, 0]], rholm.box((2, 2, 2)))
     assert np.allclose(d, [2, 1])
     with pytest.raises(rholm.InvalidInputError):
         rholm.compare(bumpy, bumpy, samples=0)
@@ -402,7 +401,7 @@ def test_pictures(bumpy, tmp_path):
     assert picture.shape == (80, 120, 3)
     assert picture.dtype == np.uint8
     assert picture.std() > 10  # the picture is not empty
-    assert (tmp_path / "a.png").read_bytes() == picture.png() == rholm.encode_png(picture)
+    assert (tmp_path / "a.png").read_bytes() == picture.png() == rholm.figures.encode_png(picture)
     picture.save(tmp_path / "b.png")
     assert picture._repr_png_()[:4] == b"\x89PNG"
     s = rholm.expand(bumpy, 6)
@@ -420,8 +419,8 @@ def test_pictures(bumpy, tmp_path):
     with pytest.raises(rholm.InvalidInputError):
         rholm.render(bumpy, (1, 1))
     with pytest.raises(rholm.InvalidInputError):
-        rholm.write_png(tmp_path / "c.png", np.zeros((3, 3)))
-    rholm.write_file(tmp_path / "d.txt", b"abc")
+        rholm.figures.write_png(tmp_path / "c.png", np.zeros((3, 3)))
+    rholm.files.write_file(tmp_path / "d.txt", b"abc")
     assert (tmp_path / "d.txt").read_bytes() == b"abc"
 
 
@@ -429,10 +428,10 @@ def test_a_copy_stays_where_it_is(bumpy):
     mesh = bumpy.with_attributes(q=np.arange(len(bumpy.vertices)))
     copy = mesh.copy()
     assert np.array_equal(copy.vertices, mesh.vertices)
-    assert np.array_equal(copy.triangles, mesh.triangles)
+    assert np.array_equal(copy.faces, mesh.faces)
     assert np.array_equal(copy.attributes["q"], mesh.attributes["q"])
     assert not np.shares_memory(copy.vertices, mesh.vertices)
-    editor = rholm.analyze_patch(mesh, "vertex:0,0.5", 0.6)
+    editor = rholm.meshes.analyze_patch(mesh, "vertex:0,0.5", 0.6)
     before = editor.mesh.copy()
     editor.strength = 1
     assert np.array_equal(before.vertices, mesh.vertices)
@@ -449,7 +448,7 @@ def test_points_are_drawn_as_balls(bumpy, tmp_path):
     assert np.array_equal(cloud.render(size=(96, 80)), picture)
     small = rholm.render(cloud, (96, 80), point_radius=1e-3)
     assert (small == 255).sum() > (picture == 255).sum()
-    red = rholm.as_points(cloud, attributes={"rgb": np.tile(np.uint8([255, 0, 0]), (3000, 1))})
+    red = rholm.clouds.as_points(cloud, attributes={"rgb": np.tile(np.uint8([255, 0, 0]), (3000, 1))})
     assert np.array_equal(red.colors, np.tile([1, 0, 0], (3000, 1)))
     assert cloud.colors is None
     drawn = rholm.render(red, (96, 80))
@@ -540,7 +539,7 @@ def test_columns_of_arrays_and_of_text_are_taken_for_the_same(tmp_path):
     assert file.columns == file.shape.columns == taken
     assert "by their values" in file.note
     assert not file.unsure
-    for read in (file.shape, rholm.PointCloud(table), rholm.as_points(table.tolist())):
+    for read in (file.shape, rholm.PointCloud(table), rholm.clouds.as_points(table.tolist())):
         np.testing.assert_array_equal(read.points, cloud.points)
         np.testing.assert_array_equal(read.normals, cloud.normals)
         np.testing.assert_array_equal(read.attributes["green"], colors[:, 1])
@@ -556,7 +555,7 @@ def test_columns_can_be_said(tmp_path):
     np.savetxt(tmp_path / "table.csv", table, delimiter=";")
     columns = "nx,ny,nz,x,y,z,weight"
     for shape in (table, tmp_path / "table.csv"):
-        read = rholm.as_points(shape, columns=columns.split(","))
+        read = rholm.clouds.as_points(shape, columns=columns.split(","))
         np.testing.assert_array_equal(read.points, cloud.points)
         np.testing.assert_array_equal(read.normals, cloud.normals)
         assert list(read.attributes) == ["weight"]
@@ -578,13 +577,13 @@ def test_points_without_a_place_are_dropped_and_counted(tmp_path):
     assert file.dropped == 7
     assert len(file.shape) == 53
     with pytest.warns(UserWarning, match="7 points"):
-        rholm.as_points(tmp_path / "gaps.xyz")
+        rholm.clouds.as_points(tmp_path / "gaps.xyz")
 
 
 def test_single_precision_that_spoils_a_shape_warns(tmp_path):
     ball = rholm.icosphere(3)
     ball.save(tmp_path / "near.stl")
-    far = rholm.Mesh(ball.vertices + np.array([0, 5155487, 0]), ball.triangles)
+    far = rholm.Mesh(ball.vertices + np.array([0, 5155487, 0]), ball.faces)
     far.save(tmp_path / "text.stl", ascii=True)
     with pytest.warns(UserWarning, match=r"steps of 0\.5.*of 1280 faces"):
         far.save(tmp_path / "far.stl")

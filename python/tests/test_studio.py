@@ -71,12 +71,12 @@ def test_shapes_go_in_and_come_back_exactly(bumpy, tmp_path):
     expansion = rholm.expand(bumpy, 5)
     atlas = rholm.compress(bumpy, 1e-1)
     file = tmp_path / "file of mine.off"
-    rholm.write_shape(bumpy, file)
+    rholm.files.write_shape(bumpy, file)
     with rholm.studio(bumpy, points, points.points, expansion, atlas, file, threads=1) as studio:
         assert len(studio) == 6
         assert studio.names[-1] == "file of mine.off"
         np.testing.assert_array_equal(studio[0].vertices, bumpy.vertices)
-        np.testing.assert_array_equal(studio[0].triangles, bumpy.triangles)
+        np.testing.assert_array_equal(studio[0].faces, bumpy.faces)
         np.testing.assert_array_equal(studio[1].points, points.points)
         np.testing.assert_array_equal(studio[2].points, points.points)
         np.testing.assert_array_equal(studio[3].coeffs, expansion.coeffs)
@@ -91,9 +91,9 @@ def test_shapes_go_in_and_come_back_exactly(bumpy, tmp_path):
 def test_names_are_given(bumpy):
     with rholm.studio(threads=1) as studio:
         studio.add(bumpy, "one")
-        studio.add((bumpy.vertices, bumpy.triangles), "two")
+        studio.add((bumpy.vertices, bumpy.faces), "two")
         assert studio.names == ["one", "two"]
-        assert repr(studio) == "<rholm.Studio: one, two>"
+        assert repr(studio) == "<rholm.figures.Studio: one, two>"
         with pytest.raises(KeyError, match="three"):
             studio["three"]
         with pytest.raises(IndexError):
@@ -148,7 +148,7 @@ def test_the_page_asks_and_is_told(page, bumpy):
 def test_bytes_of_a_file_come_beside_the_message(page, bumpy, tmp_path):
     studio, browser = page
     file = tmp_path / "bumpy.ply"
-    rholm.write_shape(bumpy, file)
+    rholm.files.write_shape(bumpy, file)
     assert browser.ask("POST", "api/file", file.read_bytes(), name="bumpy.ply")[0] == 200
     status, kind, body = browser.ask("GET", "api/save", item="1", format="ply")
     assert (status, kind, body) == (200, "application/octet-stream", file.read_bytes())
@@ -176,7 +176,7 @@ def test_a_session_is_a_file(bumpy, tmp_path):
 def test_it_ends_with_its_widget(bumpy, tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     studio = rholm.studio(bumpy)
-    assert len(studio[0].triangles) == 1280
+    assert len(studio[0].faces) == 1280
     assert len(list(tmp_path.glob("rholm-studio-*"))) == 1
     job = {"op": "compress", "item": 1, "tolerance": 1e-6}
     studio._ask("POST", "step", json.dumps(job).encode())
@@ -185,7 +185,7 @@ def test_it_ends_with_its_widget(bumpy, tmp_path, monkeypatch):
     assert not studio._teller.is_alive()
     with pytest.raises(rholm.InvalidInputError, match="closed"):
         studio.add(bumpy)
-    assert repr(studio) == "<rholm.Studio: closed>"
+    assert repr(studio) == "<rholm.figures.Studio: closed>"
     studio.close()
     assert not list(tmp_path.glob("rholm-studio-*"))
 
@@ -204,4 +204,4 @@ def test_the_example_of_the_document_runs(capsys):
     names = {}
     exec(block, names)
     assert "import rholm" in capsys.readouterr().out  # the recipe
-    assert repr(names["studio"]) == "<rholm.Studio: closed>"
+    assert repr(names["studio"]) == "<rholm.figures.Studio: closed>"

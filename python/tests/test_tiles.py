@@ -126,14 +126,14 @@ def test_pipes_are_read_once(cloud, tmp_path, tile):
 
 
 def test_what_is_said_is_what_is_there(cloud, tmp_path):
-    seen: list[rholm.TileForecast] = []
+    seen: list[rholm.clouds.TileForecast] = []
     options = {"attributes": {"height": cloud.points[:, 2]}, "tile_points": TILE, "confidence": True}
     made = rholm.reconstruct(
         cloud, **options, output=tmp_path / "s.ply", model=tmp_path / "caps.h5", foreseen=seen.append
     )
     report, mesh = made.report, made.mesh
     assert made[:2] == (None, None)
-    assert (report.vertices, report.triangles) == (len(mesh.vertices), len(mesh.triangles))
+    assert (report.vertices, report.triangles) == (len(mesh.vertices), len(mesh.faces))
     assert np.isclose(report.volume, mesh.volume, rtol=1e-5)  # coordinates are single precision
     assert mesh.inspect().closed
     assert np.abs(mesh.attributes["height"] - mesh.vertices[:, 2]).max() < 4 * report.spacing
@@ -144,7 +144,7 @@ def test_what_is_said_is_what_is_there(cloud, tmp_path):
     assert report.caps == len(made.atlas)
     (forecast,) = seen
     assert (forecast.points, forecast.tiles) == (len(cloud), report.tiles)
-    assert forecast.memory == rholm.foresee_tiles(len(cloud), TILE).memory == report.memory
+    assert forecast.memory == rholm.clouds.foresee_tiles(len(cloud), TILE).memory == report.memory
     # Run in memory, with the same results: the mesh with the points' attributes, the caps, the
     # report.
     kept = rholm.reconstruct(cloud, **options)
@@ -157,7 +157,7 @@ def test_what_is_said_is_what_is_there(cloud, tmp_path):
     assert kept.atlas.mesh().inspect().genus == 1
     assert kept.atlas.rules.left_out == ["height", "confidence"]
     bare = rholm.reconstruct(cloud, output=tmp_path / "s.ply")
-    assert len(bare.mesh.triangles) == bare.report.triangles
+    assert len(bare.mesh.faces) == bare.report.triangles
     with pytest.raises(rholm.InvalidInputError, match="model="):
         bare.atlas  # noqa: B018
 
@@ -206,7 +206,7 @@ def test_scans_are_brought_together_as_by_the_program(program, larger, tmp_path)
 
 
 def test_what_the_forecast_raises_ends_the_run(cloud, tmp_path):
-    def refuse(forecast: rholm.TileForecast) -> None:
+    def refuse(forecast: rholm.clouds.TileForecast) -> None:
         raise KeyError(forecast.tiles)
 
     with pytest.raises(KeyError):
@@ -253,15 +253,17 @@ def test_what_cannot_be_done_is_refused(cloud, tmp_path):
     refused(rholm.InvalidInputError, "other files", work_dir=tmp_path, resume=True)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["p.ply", "s.ply.tiles"]
     with pytest.raises(rholm.InvalidInputError, match="1000"):
-        rholm.foresee_tiles(10**9, 0)
-    assert rholm.foresee_tiles(10**9).tiles == -(-(10**9) // 2**20)
+        rholm.clouds.foresee_tiles(10**9, 0)
+    assert rholm.clouds.foresee_tiles(10**9).tiles == -(-(10**9) // 2**20)
 
 
 def test_names_of_the_version_before_say_what_they_are_now(cloud, known, tmp_path):
     assert "reconstruct_bricks" not in rholm.__all__
-    with pytest.warns(DeprecationWarning, match=r"rholm\.foresee_bricks is rholm\.foresee_tiles\(\) now"):
+    with pytest.warns(
+        DeprecationWarning, match=r"rholm\.foresee_bricks is rholm\.clouds\.foresee_tiles\(\) now"
+    ):
         forecast = rholm.foresee_bricks(10**9)
-    assert forecast.bricks == rholm.foresee_tiles(10**9).tiles
+    assert forecast.bricks == rholm.clouds.foresee_tiles(10**9).tiles
     with pytest.warns(DeprecationWarning, match="output="):
         made = rholm.reconstruct_bricks(
             cloud, tmp_path / "s.ply", points_per_brick=TILE, work_dir=tmp_path / "work"

@@ -37,10 +37,10 @@ def read(data):
 def test_data_are_the_expansion_and_its_shape():
     mesh = rholm.ellipsoid([3, 2, 1], 2)
     expansion = rholm.expand(mesh, 6, length_unit="km")
-    arrays, meta = read(rholm.view_data(expansion, title="an ellipsoid"))
+    arrays, meta = read(rholm.figures.view_data(expansion, title="an ellipsoid"))
     np.testing.assert_array_equal(arrays["coefficients"], expansion.to_array("orthonormal", 1))
     np.testing.assert_array_equal(arrays["positions"], mesh.vertices.astype("f4"))
-    np.testing.assert_array_equal(arrays["triangles"], mesh.triangles)
+    np.testing.assert_array_equal(arrays["triangles"], mesh.faces)
     assert meta["title"] == "an ellipsoid"
     assert meta["unit"] == "km"
     assert meta["expansion"] == {"degree": 6, "function": "radius", "center": list(expansion.center)}
@@ -48,7 +48,7 @@ def test_data_are_the_expansion_and_its_shape():
 
 
 def test_a_mesh_is_expanded_first():
-    arrays, _ = read(rholm.view_data(rholm.ellipsoid([3, 2, 1], 2)))
+    arrays, _ = read(rholm.figures.view_data(rholm.ellipsoid([3, 2, 1], 2)))
     assert arrays["coefficients"].shape == (2, 65, 65)
 
 
@@ -56,7 +56,7 @@ def test_a_widget_shows_the_data(script):
     pytest.importorskip("anywidget")
     expansion = rholm.expand(rholm.ellipsoid([3, 2, 1], 2), 4)
     widget = rholm.view(expansion)
-    assert widget.data == rholm.view_data(expansion)
+    assert widget.data == rholm.figures.view_data(expansion)
     assert widget._esm == script
 
 
@@ -65,7 +65,7 @@ def test_several_are_shown_side_by_side(script):
     first, second = (rholm.expand(rholm.ellipsoid([3, 2, k], 2), 4) for k in (1, 2))
     shown = rholm.view(first, second, rholm.icosphere(1))
     assert [type(one).__name__ for one in shown.children] == ["View"] * 3
-    assert shown.children[1].data == rholm.view_data(second)
+    assert shown.children[1].data == rholm.figures.view_data(second)
     with pytest.raises(rholm.InvalidInputError):
         rholm.view(first, second, title="both")
 

@@ -335,7 +335,7 @@ void orient_lines(Reading& r) {
   Arguments words;
   words.fields(options_in<OrientOptions>(r.step));
   r.say(r.made(), "rholm orient " + shell_word(from.file) + words.shell,
-        fmt::format("rholm.orient({}{}).points", from.variable, words.python));
+        fmt::format("rholm.orient({}{}).cloud", from.variable, words.python));
 }
 
 void reconstruct_lines(Reading& r) {

@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "rholm/primitives.h"
 #include "rholm/star.h"
+#include "rholm/transform.h"
 #include "support/sizes.h"
 #include "support/test_shapes.h"
 #include "transform/error/error_points.h"
