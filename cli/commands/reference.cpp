@@ -227,7 +227,8 @@ std::string compress_section() {
 std::string patch_atlas_section() {
   return field_section<PatchAtlasOptions>(
       "Options of patch_atlas",
-      "`PatchAtlasOptions` in C++ and arguments of `rholm.harmonics.patch_atlas` in Python; they are "
+      "`PatchAtlasOptions` in C++ and arguments of `rholm.harmonics.patch_atlas` in Python; they "
+      "are "
       "options of `rholm compress --fit integral` and `rholm partition`.");
 }
 
@@ -267,7 +268,8 @@ std::string transfer_update_section() {
 std::string monte_carlo_section() {
   return field_section<MonteCarloOptions>(
       "Options of monte_carlo",
-      "`MonteCarloOptions` in C++ and arguments of `rholm.harmonics.monte_carlo` in Python; they are "
+      "`MonteCarloOptions` in C++ and arguments of `rholm.harmonics.monte_carlo` in Python; they "
+      "are "
       "options of `rholm expand`, where `--method monte-carlo-edge` and `monte-carlo-triangle` "
       "choose the places.");
 }
@@ -328,10 +330,10 @@ std::string expand_section() {
 }
 
 std::string center_section() {
-  return field_section<CenterOptions>(
-             "Options of the centre",
-             "`CenterOptions` in C++; `center` and `rays` of `rholm.harmonics.find_center` in Python, "
-             "`--center` and `--rays` of `rholm center`.") +
+  return field_section<CenterOptions>("Options of the centre",
+                                      "`CenterOptions` in C++; `center` and `rays` of "
+                                      "`rholm.harmonics.find_center` in Python, "
+                                      "`--center` and `--rays` of `rholm center`.") +
          "\n" +
          field_section<ChartOptions>(
              "Options of a chart",
