@@ -1,4 +1,4 @@
-"""The C++ library; use rholm itself."""
+"""Bindings of the C++ library; use the package rholm instead."""
 
 from collections.abc import Mapping, Sequence
 import os
@@ -19,7 +19,7 @@ NO_CAP: int = 4294967295
 ERRORS: tuple = ...
 
 class Caller:
-    """Threads and progress of one call."""
+    """Threads and progress callback of one call."""
 
     def __init__(self, threads: int, progress: object | None) -> None: ...
 
@@ -29,7 +29,7 @@ def after_fork_in_child() -> None:
     """
 
 class Mesh:
-    """Triangles that share vertices."""
+    """A mesh of triangles that share vertices."""
 
     def __init__(self, arg0: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.uint32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], arg2: Sequence[tuple[str, str, Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]]], /) -> None: ...
 
@@ -89,7 +89,7 @@ def write_shape(arg0: Mesh | PointCloud, arg1: str, arg2: str | None, arg3: bool
 def attributes_left_out(arg0: Sequence[str], arg1: str, /) -> list[str]: ...
 
 class MappedMesh:
-    """A mesh where it lies in a file."""
+    """A mesh in a mapped file."""
 
     @property
     def vertex_bytes(self) -> Annotated[NDArray[numpy.uint8], dict(writable=False)]: ...
@@ -106,7 +106,7 @@ class MappedMesh:
 def map_mesh(arg0: str, arg1: Caller, /) -> MappedMesh | None: ...
 
 class Bounds:
-    """A box along the axes."""
+    """A box with sides along the axes."""
 
     def __repr__(self) -> str: ...
 
@@ -119,23 +119,23 @@ class Bounds:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def min(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """The corner with the smallest coordinates."""
+        """Corner with the smallest coordinates."""
 
     @property
     def max(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """The corner with the largest coordinates."""
+        """Corner with the largest coordinates."""
 
     @property
     def diagonal(self) -> float:
-        """Its length."""
+        """Length of the diagonal."""
 
 class Inspection:
     """
-    What a mesh is. Counts are those of the mesh given: weld first to close seams.
+    Properties of a mesh. Counts are of the given mesh: weld it first to close seams.
     """
 
     def __repr__(self) -> str: ...
@@ -149,7 +149,7 @@ class Inspection:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def vertices(self) -> int:
@@ -157,79 +157,83 @@ class Inspection:
 
     @property
     def triangles(self) -> int:
-        """Number of triangles, with an area or not."""
+        """Number of faces, with an area or not."""
 
     @property
     def edges(self) -> int:
-        """Pairs of vertices that a triangle joins."""
+        """Number of pairs of vertices that a face joins."""
 
     @property
     def boundary_edges(self) -> int:
-        """Edges in one triangle only."""
+        """Number of edges of only one face."""
 
     @property
     def non_manifold_edges(self) -> int:
-        """Edges in three triangles or more."""
+        """Number of edges of three or more faces."""
 
     @property
     def misoriented_edges(self) -> int:
-        """Edges in two triangles that run through them in the same sense."""
+        """Number of edges that two faces use in the same direction."""
 
     @property
     def non_manifold_vertices(self) -> int:
-        """Vertices whose triangles do not form one fan."""
+        """Number of vertices whose faces do not form one fan."""
 
     @property
     def isolated_vertices(self) -> int:
-        """Vertices in no triangle."""
+        """Number of vertices that no face uses."""
 
     @property
     def degenerate_triangles(self) -> int:
-        """Triangles thinner than the rounding of their coordinates."""
+        """Number of faces thinner than the rounding of their coordinates."""
 
     @property
     def duplicate_triangles(self) -> int:
-        """Triangles with the three vertices of an earlier one."""
+        """Number of faces with the same three vertices as an earlier face."""
 
     @property
     def components(self) -> int:
-        """Parts connected through edges."""
+        """Number of parts connected through edges."""
 
     @property
     def euler_characteristic(self) -> int:
-        """Used vertices - edges + triangles."""
+        """Number of used vertices minus edges plus faces."""
 
     @property
     def genus(self) -> int:
-        """Handles, of all parts together; of closed manifold meshes."""
+        """Number of handles of all parts together, for closed manifold meshes."""
 
     @property
     def closed(self) -> bool:
-        """No boundary edge, at least one triangle."""
+        """True if the mesh has at least one face and no boundary edge."""
 
     @property
     def manifold(self) -> bool:
-        """No non-manifold edge or vertex."""
+        """True if the mesh has no non-manifold edge or vertex."""
 
     @property
     def oriented(self) -> bool:
-        """No misoriented edge."""
+        """True if the mesh has no misoriented edge."""
 
     @property
     def inside_out(self) -> bool:
-        """Closed and oriented, but the enclosed volume is negative."""
+        """
+        True if the mesh is closed and oriented, but encloses a negative volume.
+        """
 
     @property
     def bounds(self) -> Bounds:
-        """Box around all vertices."""
+        """Bounding box of all vertices."""
 
     @property
     def area(self) -> float:
-        """Of all triangles, in the squared unit of the vertices."""
+        """Area of all faces, in the squared unit of the vertices."""
 
     @property
     def volume(self) -> float:
-        """Signed, of closed oriented meshes, in the cubed unit."""
+        """
+        Signed volume of a closed oriented mesh, in the cubed unit of the vertices.
+        """
 
     @property
     def vertex_centroid(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
@@ -237,10 +241,12 @@ class Inspection:
 
     @property
     def volume_centroid(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Of the solid, if it is closed and its volume is not zero."""
+        """
+        Centroid of the solid, if the mesh is closed and its volume is not zero.
+        """
 
 class RepairReport:
-    """Report of a repair: changes, and defects that remain."""
+    """Report of `repair`: changes, and defects that remain."""
 
     def __repr__(self) -> str: ...
 
@@ -253,85 +259,91 @@ class RepairReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def before(self) -> Inspection:
-        """State of the mesh welded exactly."""
+        """State of the mesh before the repair, welded exactly."""
 
     @property
     def merged_vertices(self) -> int:
-        """Vertices merged by welding."""
+        """Number of vertices merged by welding."""
 
     @property
     def collapsed_triangles(self) -> int:
-        """Triangles of which welding made two corners one."""
+        """Number of faces dropped because welding merged two of their corners."""
 
     @property
     def isolated_vertices(self) -> int:
-        """Vertices dropped: in no triangle."""
+        """Number of vertices dropped because no face uses them."""
 
     @property
     def duplicate_triangles(self) -> int:
-        """Triangles dropped: same vertices as an earlier one."""
+        """Number of faces dropped because an earlier face has the same vertices."""
 
     @property
     def degenerate_triangles(self) -> int:
-        """Triangles thinner than rounding, dropped or swapped."""
+        """
+        Number of faces dropped or swapped because they are thinner than rounding.
+        """
 
     @property
     def junctions(self) -> int:
-        """Vertices on edges of others' triangles (T-junctions), joined."""
+        """
+        Number of vertices on edges of other faces (T-junctions) that were joined.
+        """
 
     @property
     def flipped_triangles(self) -> int:
-        """Triangles that were turned."""
+        """Number of faces that were turned."""
 
     @property
     def inside_out_parts(self) -> int:
-        """Closed parts that were turned as a whole."""
+        """Number of closed parts that were turned as a whole."""
 
     @property
     def cavities(self) -> int:
-        """Closed parts within another: they face inwards."""
+        """
+        Number of closed parts inside another part, which are oriented inwards.
+        """
 
     @property
     def split_vertices(self) -> int:
-        """New vertices where sheets met in one."""
+        """Number of new vertices where sheets met in one vertex."""
 
     @property
     def closed_holes(self) -> int:
-        """Holes closed by new triangles."""
+        """Number of holes closed by new faces."""
 
     @property
     def hole_triangles(self) -> int:
-        """Triangles put into them."""
+        """Number of new faces that close holes."""
 
     @property
     def large_holes(self) -> int:
-        """Holes left: more edges than allowed."""
+        """Number of holes left open because they have more edges than allowed."""
 
     @property
     def largest_hole(self) -> int:
-        """Edges of the largest of these."""
+        """Number of edges of the largest hole with more edges than allowed."""
 
     @property
     def sheets(self) -> int:
-        """Holes left: borders of open sheets."""
+        """Number of holes left open because they are borders of open sheets."""
 
     @property
     def one_sided_parts(self) -> int:
-        """Parts left without an orientation (Moebius strips)."""
+        """Number of parts left without an orientation (Moebius strips)."""
 
     @property
     def closes_at(self) -> float | None:
         """
-        Tolerance of welding that would join the borders left; none if none would.
+        Tolerance of welding that would join the remaining borders; None if there is none.
         """
 
     @property
     def after(self) -> Inspection:
-        """State of the result, welded exactly."""
+        """State of the mesh after the repair, welded exactly."""
 
 def weld(arg0: Mesh, arg1: float, /) -> tuple: ...
 
@@ -358,7 +370,7 @@ def surface_area(arg: Mesh, /) -> float: ...
 def enclosed_volume(arg: Mesh, /) -> float: ...
 
 class RepairOptions:
-    """Steps of the repair of a mesh."""
+    """Options of `repair`."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -381,7 +393,7 @@ class RepairOptions:
 def repair(arg0: Mesh, arg1: RepairOptions, arg2: Caller, /) -> tuple: ...
 
 class SimplifyOptions:
-    """Where simplify() stops."""
+    """Options of `simplify`: when it stops."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -422,7 +434,9 @@ def torus(arg0: float, arg1: float, arg2: int, arg3: int, /) -> Mesh: ...
 def bumpy_sphere(arg0: int, arg1: float, arg2: int, /) -> Mesh: ...
 
 class SampleOptions:
-    """Errors, outliers and places of the samples of a surface."""
+    """
+    Options of `sample_surface`: errors, outliers and places of the samples.
+    """
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -529,7 +543,7 @@ class SampleOptions:
 def sample_surface(arg0: Mesh, arg1: SampleOptions, arg2: Caller, /) -> PointCloud: ...
 
 class CleanReport:
-    """Report of clean()."""
+    """Report of `clean`."""
 
     def __repr__(self) -> str: ...
 
@@ -542,32 +556,36 @@ class CleanReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def points(self) -> int:
-        """Number of points before."""
+        """Number of points before cleaning."""
 
     @property
     def not_finite(self) -> int:
-        """Points dropped: a coordinate was NaN or infinite."""
+        """Number of points dropped because a coordinate is NaN or infinite."""
 
     @property
     def duplicates(self) -> int:
-        """Points dropped: at the place of an earlier one."""
+        """
+        Number of points dropped because an earlier point has the same position.
+        """
 
     @property
     def opposite_normals(self) -> int:
-        """Of these, with a normal against the earlier one's."""
+        """
+        Number of dropped duplicates whose normal opposes the normal of the earlier point.
+        """
 
     @property
     def zero_normals(self) -> int:
-        """Of the points that stay, those with a zero normal."""
+        """Number of remaining points with a zero normal."""
 
 def clean(arg0: PointCloud, arg1: Caller, /) -> tuple: ...
 
 class ScanAlignment:
-    """Report of align_scans(); lengths are in the unit of the points."""
+    """Report of `align_scans`; lengths are in the unit of the points."""
 
     def __repr__(self) -> str: ...
 
@@ -580,34 +598,38 @@ class ScanAlignment:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def scans(self) -> int:
-        """Different values of the attribute; 0 without one."""
+        """
+        Number of scans: different values of the attribute `scan`; 0 without the attribute.
+        """
 
     @property
     def pairs(self) -> int:
-        """Points of one scan that were compared with those of another."""
+        """Number of compared pairs of points from different scans."""
 
     @property
     def distance_before(self) -> float:
         """
-        Of these pairs along the normal, as a standard deviation, before anything moved.
+        Standard deviation of the distance between paired points along the normal, before the alignment.
         """
 
     @property
     def distance(self) -> float:
-        """The same after."""
+        """
+        Standard deviation of the distance between paired points along the normal, after the alignment.
+        """
 
     @property
     def moved(self) -> float:
-        """Root mean square way of all points."""
+        """Root mean square displacement of all points."""
 
 def align_scans(arg0: PointCloud, arg1: Caller, /) -> tuple: ...
 
 class OrientOptions:
-    """How normals are found and which side is outside."""
+    """Options of `orient`."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -652,7 +674,7 @@ class OrientOptions:
     FIELDS: tuple = ...
 
 class OrientReport:
-    """Report of orient(), with its certainty."""
+    """Report of `orient`."""
 
     def __repr__(self) -> str: ...
 
@@ -665,44 +687,52 @@ class OrientReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def points(self) -> int:
-        """Points given."""
+        """Number of given points."""
 
     @property
     def duplicates(self) -> int:
-        """Points at the place of an earlier one, whose normal they share."""
+        """
+        Number of points at the position of an earlier point, whose normal they share.
+        """
 
     @property
     def neighbors(self) -> int:
-        """Points of a fit."""
+        """Number of neighbours that a normal is fitted to."""
 
     @property
     def components(self) -> int:
-        """Parts of the graph of neighbours; 0 with a centre or a sensor."""
+        """
+        Number of connected parts of the neighbour graph; 0 with a centre or a sensor.
+        """
 
     @property
     def computed(self) -> int:
-        """Normals whose direction is new."""
+        """Number of normals with a newly computed direction."""
 
     @property
     def flipped(self) -> int:
-        """Normals that were turned round."""
+        """Number of normals whose sign was changed."""
 
     @property
     def outliers(self) -> int:
-        """Points far from all others, which took the normal of the nearest."""
+        """
+        Number of isolated points, which got the normal of the nearest point that is not isolated.
+        """
 
     @property
     def undetermined(self) -> int:
-        """Points whose neighbours lie on a line: their normals are zero."""
+        """
+        Number of points with a zero normal, because their neighbours lie on a line.
+        """
 
     @property
     def mean_confidence(self) -> float:
         """
-        Mean over the points: a sign is right with the probability (1 + confidence) / 2.
+        Mean confidence of all points; a sign is right with at least the probability (1 + confidence) / 2.
         """
 
     @property
@@ -740,7 +770,7 @@ def power_spectrum(arg: Coefficients, /) -> NDArray[numpy.float64]: ...
 
 class TruncationErrors:
     """
-    How far a surface is from the shape it was made of, in the unit of lengths; None where it is not known.
+    Errors of an expansion relative to its shape, in the unit of lengths; None where unknown.
     """
 
     def __repr__(self) -> str: ...
@@ -754,56 +784,64 @@ class TruncationErrors:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def rms(self) -> float | None:
-        """Radial, root mean square over solid angle."""
+        """Root mean square radial error over solid angle."""
 
     @property
     def rms_is_exact(self) -> bool:
-        """Whether rms is by Parseval's identity, not measured."""
+        """True if rms is exact by Parseval's identity, false if it is measured."""
 
     @property
     def predicted_max(self) -> float | None:
-        """Largest radial error at the vertices, in closed form."""
+        """Largest radial error at the vertices, predicted in closed form."""
 
     @property
     def predicted_max_distance(self) -> float | None:
-        """The same as a distance."""
+        """
+        Largest distance between the surfaces at the vertices, predicted in closed form.
+        """
 
     @property
     def measured_max(self) -> float | None:
-        """Largest radial error at `points` points of the shape."""
+        """Largest radial error measured at `points` points of the shape."""
 
     @property
     def max_bound(self) -> float | None:
         """
-        No radial error is larger, by branch and bound; None for a gauge, or beyond the diagonal.
+        Upper bound of the radial error, by branch and bound; None for a gauge, or if larger than the diagonal.
         """
 
     @property
     def measured_max_distance(self) -> float | None:
-        """The same as a distance."""
+        """
+        Largest distance between the surfaces, measured at `points` points of the shape.
+        """
 
     @property
     def distance_rms(self) -> float | None:
-        """Root mean square of distances over area, the larger of both ways."""
+        """
+        Root mean square distance between the surfaces over area, the larger of both directions.
+        """
 
     @property
     def distances_are_closest(self) -> bool:
-        """Whether distances are by closest points."""
+        """
+        True if distances are to closest points, false if they are first-order estimates.
+        """
 
     @property
     def points(self) -> int:
-        """At which was measured."""
+        """Number of points of the shape at which errors are measured."""
 
     @property
     def diagonal(self) -> float:
-        """Of the shape's bounding box; 0 if not known."""
+        """Diagonal of the shape's bounding box; 0 if unknown."""
 
 class GravityField:
-    """References of the coefficients of a gravity field."""
+    """Reference values of the coefficients of a gravity field."""
 
     def __repr__(self) -> str: ...
 
@@ -816,18 +854,18 @@ class GravityField:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def gravity_constant(self) -> float:
-        """G M in m^3/s^2."""
+        """Gravity constant G M, in m^3/s^2."""
 
     @property
     def reference_radius(self) -> float:
-        """Of the sphere about the centre, in m."""
+        """Radius of the reference sphere about the centre, in m."""
 
 class Expansion:
-    """A surface as coefficients."""
+    """A surface as spherical harmonic coefficients."""
 
     def __init__(self, coefficients: Coefficients, function: str = 'radius', center: Sequence[float] | numpy.typing.NDArray[numpy.float64] = (0.0, 0.0, 0.0), unit: str = '', method: str = '', norm_squared: float | None = None, tail_strength: float | None = None, errors: TruncationErrors | None = None, signed_sum: bool = False) -> None: ...
 
@@ -903,7 +941,7 @@ def filter(arg0: Coefficients, arg1: Annotated[NDArray[numpy.float64], dict(shap
 def filter(arg0: Expansion, arg1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], arg2: str, /) -> Expansion: ...
 
 class Overshoot:
-    """How far a filtered step leaves 0 ... 1, in parts of its height."""
+    """Overshoot of a filtered step beyond 0 ... 1, relative to its height."""
 
     def __repr__(self) -> str: ...
 
@@ -916,15 +954,15 @@ class Overshoot:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def above(self) -> float:
-        """Largest value - 1."""
+        """Largest value of the filtered step, minus 1."""
 
     @property
     def below(self) -> float:
-        """Minus the smallest value."""
+        """Smallest value of the filtered step, times -1."""
 
 @overload
 def overshoot(arg: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], /) -> Overshoot: ...
@@ -975,7 +1013,7 @@ def analyze_grid(arg0: Annotated[NDArray[numpy.float64], dict(shape=(None,), ord
 def evaluate_rings(arg0: Coefficients, arg1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], arg2: int, arg3: Caller, /) -> NDArray[numpy.float64]: ...
 
 class Rotation:
-    """A unit quaternion; the same rotation as its negative."""
+    """A rotation as a unit quaternion; its negative is the same rotation."""
 
     def __init__(self, w: float = 1.0, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> None: ...
 
@@ -990,23 +1028,23 @@ class Rotation:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def w(self) -> float:
-        """cos(a/2), a the angle."""
+        """Cosine of half the angle of rotation."""
 
     @property
     def x(self) -> float:
-        """sin(a/2) times the axis."""
+        """Component x of the axis, times the sine of half the angle."""
 
     @property
     def y(self) -> float:
-        """sin(a/2) times the axis."""
+        """Component y of the axis, times the sine of half the angle."""
 
     @property
     def z(self) -> float:
-        """sin(a/2) times the axis."""
+        """Component z of the axis, times the sine of half the angle."""
 
 def rotation_about(arg0: Sequence[float] | numpy.typing.NDArray[numpy.float64], arg1: float, /) -> Rotation: ...
 
@@ -1042,7 +1080,7 @@ def mirror(arg0: Coefficients, arg1: str, /) -> Coefficients: ...
 def mirror(arg0: Expansion, arg1: str, arg2: Sequence[float] | numpy.typing.NDArray[numpy.float64], /) -> Expansion: ...
 
 class PrincipalAxes:
-    """The axes of the quadratic form of degree 2."""
+    """Principal axes of the quadratic form of degree 2."""
 
     def __repr__(self) -> str: ...
 
@@ -1055,28 +1093,32 @@ class PrincipalAxes:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def axes(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Rows: right-handed, orthonormal, longest first, (3, 3)."""
+        """
+        Principal axes in rows, right-handed, orthonormal, longest first, (3, 3).
+        """
 
     @property
     def values(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Of the form, descending, (3,); their sum is 0."""
+        """Values of the form along the axes, descending, (3,); their sum is 0."""
 
     @property
     def to_axes(self) -> Rotation:
-        """Turns the axes to x, y and z."""
+        """Rotation that turns the axes to x, y and z."""
 
     @property
     def free_axes(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """About these the form turns freely: none, one or three, (n, 3)."""
+        """
+        Axes about which the form can turn without changing: none, one or three, (n, 3).
+        """
 
 def principal_axes(arg0: Coefficients, arg1: str, /) -> PrincipalAxes: ...
 
 class AlignOptions:
-    """How a rotation is sought."""
+    """Options of `align`."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1127,7 +1169,7 @@ class AlignOptions:
     FIELDS: tuple = ...
 
 class AlignedRotation:
-    """A rotation of a, and how well it lays a on b."""
+    """A rotation of a, and how closely it brings a to b."""
 
     def __repr__(self) -> str: ...
 
@@ -1140,26 +1182,32 @@ class AlignedRotation:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def rotation(self) -> Rotation:
-        """Of the mirror image, if mirrored."""
+        """Rotation that turns a, or the mirror image of a if mirrored, onto b."""
 
     @property
     def mirrored(self) -> bool:
-        """Whether the reflection x -> -x comes first; y and z stay."""
+        """
+        True if the reflection x -> -x is applied before the rotation; y and z stay.
+        """
 
     @property
     def correlation(self) -> float:
-        """Of degrees from 1 on, normalised: 1 is equal up to a factor."""
+        """
+        Normalised correlation over the degrees from 1 on; 1 means equal up to a factor.
+        """
 
     @property
     def distance(self) -> float:
-        """Root mean square of R a - b over the sphere, all degrees."""
+        """
+        Root mean square difference between the rotated a and b over the sphere, all degrees.
+        """
 
 class Alignment:
-    """The best rotation, and those that are nearly as good."""
+    """The best rotation, and rotations that are nearly as good."""
 
     def __repr__(self) -> str: ...
 
@@ -1172,29 +1220,35 @@ class Alignment:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def best(self) -> AlignedRotation:
-        """Of several that are equal the smallest turn."""
+        """
+        Rotation with the largest correlation; among equal ones the one with the smallest angle.
+        """
 
     @property
     def ambiguities(self) -> list[AlignedRotation]:
         """
-        Others that are nearly as good, best first, at most 32: symmetries of the shape.
+        Other rotations that are nearly as good, best first, at most 32: symmetries of the shape.
         """
 
     @property
     def free_axes(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Axes in the frame of b about which turning changes nothing, (n, 3)."""
+        """
+        Axes in the frame of b about which a turn hardly changes the correlation, (n, 3).
+        """
 
     @property
     def unaligned_distance(self) -> float:
-        """Before any rotation."""
+        """
+        Root mean square difference between a and b over the sphere, before any rotation.
+        """
 
 class Placement:
     """
-    The point p becomes R (p - from_point) + to_point, of the mirror image if mirrored.
+    Rigid motion of a point p to R (p - from_point) + to_point, of the mirror image if mirrored.
     """
 
     def __repr__(self) -> str: ...
@@ -1208,30 +1262,30 @@ class Placement:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def alignment(self) -> Alignment:
-        """R and whether it is mirrored."""
+        """Rotation R, and whether the mirror image is taken."""
 
     @property
     def from_point(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """The point of a that is laid on b's, (3,)."""
+        """Point of a that is moved to to_point, (3,)."""
 
     @property
     def to_point(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """The point of b, (3,)."""
+        """Point of b that from_point is moved to, (3,)."""
 
     @property
     def centers(self) -> str:
         """
-        Which points these are: "volume", the centroids, or "own", the centres of the expansions.
+        Choice of from_point and to_point: "volume", the centroids, or "own", the centres of the expansions.
         """
 
     @property
     def why_own(self) -> str:
         """
-        Why the centroids could not be taken; empty if they were, or not asked for.
+        Reason why the centroids could not be used; empty if they were used or not wanted.
         """
 
 @overload
@@ -1253,7 +1307,7 @@ def seen_center(arg0: Expansion, arg1: Sequence[float] | numpy.typing.NDArray[nu
 def recentered(arg0: Expansion, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64], arg2: Caller, /) -> Expansion: ...
 
 class TransformOptions:
-    """Function to expand, and method."""
+    """Options of the transform from a chart to coefficients."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1286,7 +1340,7 @@ class TransformOptions:
     FIELDS: tuple = ...
 
 class Tolerance:
-    """The largest error that is allowed."""
+    """Largest allowed error of a model."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1325,7 +1379,7 @@ class Tolerance:
     FIELDS: tuple = ...
 
 class CenterOptions:
-    """Where the centre is sought."""
+    """Options of the centre."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1354,7 +1408,7 @@ class CenterOptions:
 def parse_center(arg: str, /) -> CenterOptions: ...
 
 class ChartOptions:
-    """Rules for the centre, and for surfaces that are not star-shaped."""
+    """Options of a chart: the centre, and surfaces that are not star-shaped."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1375,7 +1429,7 @@ class ChartOptions:
     FIELDS: tuple = ...
 
 class ExpandOptions:
-    """Degree, precision and error figures of an expansion."""
+    """Options of `expand`: degree, precision and errors."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1432,7 +1486,7 @@ class ExpandOptions:
     FIELDS: tuple = ...
 
 class StarReport:
-    """How a mesh is seen from a centre."""
+    """Visibility of a mesh from a centre."""
 
     def __repr__(self) -> str: ...
 
@@ -1445,54 +1499,62 @@ class StarReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def center(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """In the coordinates of the mesh, (3,)."""
+        """Centre in the coordinates of the mesh, (3,)."""
 
     @property
     def min_d(self) -> float:
-        """Distance of the nearest face plane; negative if a face turns its back."""
+        """
+        Smallest distance of the centre from the plane of a face; negative if a face points away from the centre.
+        """
 
     @property
     def min_cos_gamma(self) -> float:
-        """Over all corners of all triangles."""
+        """
+        Smallest cosine of the angle between normal and ray from the centre, over all corners of all faces.
+        """
 
     @property
     def bad_triangles(self) -> int:
-        """Triangles that turn their backs."""
+        """Number of faces that point away from the centre."""
 
     @property
     def star_shaped(self) -> bool:
-        """No such triangle, and every direction covered once."""
+        """
+        True if no face points away from the centre and every direction meets the surface once.
+        """
 
     @property
     def rays(self) -> int:
-        """Directions tried."""
+        """Number of tested directions."""
 
     @property
     def once_share(self) -> float:
-        """Part of them that meet the surface once."""
+        """Share of the tested directions that meet the surface exactly once."""
 
     @property
     def multiple_share(self) -> float:
-        """Part that meet it more than once."""
+        """Share of the tested directions that meet the surface more than once."""
 
     @property
     def missed_share(self) -> float:
-        """Part that never meet it."""
+        """Share of the tested directions that never meet the surface."""
 
     @property
     def center_fell_back(self) -> bool:
-        """Whether no point sees all faces, and the centre is the best guess."""
+        """
+        True if no point sees the whole surface, so that the centre is only the best guess.
+        """
 
 def find_center(arg0: Mesh, arg1: CenterOptions, arg2: Caller, /) -> StarReport: ...
 
 def check_star(arg0: Mesh, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64], arg2: int, arg3: Caller, /) -> StarReport: ...
 
 class StarChart:
-    """A mesh seen from a centre."""
+    """A mesh relative to its centre."""
 
     def __getstate__(self) -> tuple: ...
 
@@ -1507,7 +1569,7 @@ class StarChart:
 def make_star_chart(arg0: Mesh, arg1: ChartOptions, arg2: Caller, /) -> StarChart: ...
 
 class FastReport:
-    """How the fast engine did it."""
+    """Report of the fast engine."""
 
     def __repr__(self) -> str: ...
 
@@ -1520,62 +1582,66 @@ class FastReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def single(self) -> bool:
-        """Whether sources were spread in single precision."""
+        """True if sources were spread in single precision."""
 
     @property
     def width(self) -> int:
-        """Grid points of the window."""
+        """Number of grid points of the spreading window."""
 
     @property
     def oversampling(self) -> float:
-        """Of the grid."""
+        """Oversampling factor of the grid."""
 
     @property
     def lumped_triangles(self) -> int:
-        """Triangles whose sources are those of their vertices."""
+        """Number of faces represented by sources at their vertices."""
 
     @property
     def nodes(self) -> int:
-        """Sources of their own."""
+        """Number of sources that are not at vertices."""
 
     @property
     def vertices(self) -> int:
-        """Sources at vertices."""
+        """Number of sources at vertices."""
 
     @property
     def error(self) -> float:
         """
-        Of the coefficients, l2 over degrees from 1 on, relative to the norm without mean.
+        L2 error of the coefficients from degree 1 on, relative to the norm of the function without its mean.
         """
 
     @property
     def band_error(self) -> float:
-        """Of the degrees above 3L/4 relative to their own norm."""
+        """
+        L2 error of the degrees above 3L/4, relative to the norm of these degrees.
+        """
 
     @property
     def measured_share(self) -> float:
         """
-        Part of the triangles that errors were measured on: 1 by a second, finer reading, less on a sample; 0 where they are estimates.
+        Share of the faces on which errors were measured; 1: a second, finer pass; less: a sample; 0: errors are estimated.
         """
 
     @property
-    def error_doubt(self) -> float:
-        """By how much more a measured error may be off."""
+    def error_uncertainty(self) -> float:
+        """Possible excess of the true error over a measured error."""
 
     @property
     def passes(self) -> int:
-        """Over the triangles until the coefficients were found."""
+        """Number of passes over the faces."""
 
     @property
     def reached(self) -> bool:
-        """Whether the error is within the precision."""
+        """
+        True if the error is within the precision, or within the least error that rounding allows.
+        """
 
 class Transform:
-    """How coefficients were found."""
+    """Report of a transform to coefficients."""
 
     def __repr__(self) -> str: ...
 
@@ -1588,49 +1654,49 @@ class Transform:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def edge_nodes(self) -> int:
-        """Quadrature nodes on edges."""
+        """Number of quadrature nodes on edges."""
 
     @property
     def face_nodes(self) -> int:
-        """Quadrature nodes on faces."""
+        """Number of quadrature nodes on faces."""
 
     @property
     def closure_residual(self) -> float | None:
         """
-        Zero for a closed, consistently oriented mesh; None with the fast engine.
+        Closure error of the mesh, zero if it is closed and consistently oriented; None with the fast engine.
         """
 
     @property
     def fast(self) -> FastReport | None:
-        """Of the fast engine, or None."""
+        """Report of the fast engine, or None if it was not used."""
 
     @property
     def precision(self) -> float:
-        """That the coefficients were wanted with."""
+        """Precision that the coefficients were computed for."""
 
     @property
     def times(self) -> dict:
-        """Stages: (wall, cpu) in seconds."""
+        """Wall and CPU time of each stage, in seconds: (wall, cpu)."""
 
     @property
     def truncation_rms(self) -> float | None:
         """
-        Truncation error over solid angle, in the unit of the function, or None.
+        Root mean square truncation error over solid angle, in the unit of the function; None if too uncertain.
         """
 
     @property
-    def truncation_rms_doubt(self) -> float | None:
-        """How far it is at most from that of exact coefficients."""
+    def truncation_rms_uncertainty(self) -> float | None:
+        """Uncertainty of truncation_rms, from the precision of the coefficients."""
 
     @property
     def expansion(self) -> Expansion: ...
 
 class ToleranceReport:
-    """How a tolerance was kept."""
+    """Report on a wanted tolerance."""
 
     def __repr__(self) -> str: ...
 
@@ -1643,26 +1709,28 @@ class ToleranceReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def allowed(self) -> float:
-        """Error, in the mesh's unit."""
+        """Largest allowed error, in the unit of the mesh."""
 
     @property
     def reached(self) -> float:
-        """Error, in the mesh's unit."""
+        """Error of the model, in the unit of the mesh."""
 
     @property
     def met(self) -> bool:
-        """Whether reached is at most allowed."""
+        """True if the error of the model is at most the allowed error."""
 
     @property
     def degrees(self) -> list[int]:
-        """That were tried; the model's is the last one, or cut off from it."""
+        """
+        Degrees that were tried; the model has the last degree or is truncated from it.
+        """
 
 class Expanded:
-    """What was found out on the way from a mesh to an expansion."""
+    """Report of `expand`."""
 
     def __repr__(self) -> str: ...
 
@@ -1675,51 +1743,51 @@ class Expanded:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def transform(self) -> Transform:
-        """How the coefficients were found."""
+        """Report of the transform that computed the coefficients."""
 
     @property
     def tolerance(self) -> ToleranceReport | None:
-        """How the tolerance was kept, or None."""
+        """Report on the wanted tolerance, or None without a tolerance."""
 
     @property
     def star(self) -> StarReport:
-        """The centre, and how well it sees the surface."""
+        """Centre, and visibility of the surface from the centre."""
 
     @property
     def diagonal(self) -> float:
-        """Of the bounding box."""
+        """Diagonal of the bounding box of the mesh."""
 
     @property
     def vertices(self) -> int:
-        """After welding, where that was needed."""
+        """Number of vertices, after welding if the mesh was welded."""
 
     @property
     def faces(self) -> int:
-        """Likewise."""
+        """Number of faces, after welding if the mesh was welded."""
 
     @property
     def edges(self) -> int:
-        """Likewise."""
+        """Number of edges, after welding if the mesh was welded."""
 
     @property
     def merged_vertices(self) -> int:
-        """By welding."""
+        """Number of vertices removed by welding."""
 
     @property
     def collapsed_triangles(self) -> int:
-        """By welding."""
+        """Number of faces removed because welding merged two of their corners."""
 
     @property
     def flipped(self) -> bool:
-        """Whether the mesh was inside out."""
+        """True if the mesh was inside out and was turned."""
 
     @property
     def times(self) -> dict:
-        """Stages: (wall, cpu) in seconds."""
+        """Wall and CPU time of each stage, in seconds: (wall, cpu)."""
 
 def expand_mesh(arg0: Annotated[NDArray, dict(shape=(None, 3), device='cpu', writable=False)], arg1: Annotated[NDArray[numpy.uint32], dict(shape=(None, 3), device='cpu', writable=False)], arg2: ExpandOptions, arg3: Caller, /) -> Expanded: ...
 
@@ -1738,7 +1806,7 @@ def tail_strength(arg0: StarChart, arg1: str, /) -> float: ...
 def vertex_error_strength(arg0: StarChart, arg1: str, /) -> float: ...
 
 class ErrorStrengths:
-    """The largest truncation errors at vertices, times 2 pi (L + 1)."""
+    """Largest truncation errors at vertices, times 2 pi (L + 1)."""
 
     def __repr__(self) -> str: ...
 
@@ -1751,19 +1819,25 @@ class ErrorStrengths:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def radius(self) -> float:
-        """Of the radius, in the mesh's unit."""
+        """
+        Largest error of the radius at a vertex, times 2 pi (L + 1), in the unit of the mesh.
+        """
 
     @property
     def gauge(self) -> float:
-        """Of 1/r, in 1/unit."""
+        """
+        Largest error of 1/r at a vertex, times 2 pi (L + 1), in 1/unit of the mesh.
+        """
 
     @property
     def distance(self) -> float:
-        """Of the distance between the surfaces."""
+        """
+        Largest distance between the surfaces at a vertex, times 2 pi (L + 1), in the unit of the mesh.
+        """
 
 def vertex_error_strengths(arg0: Mesh, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64], /) -> ErrorStrengths: ...
 
@@ -1772,7 +1846,7 @@ def rms_beyond(arg: Expansion, /) -> NDArray[numpy.float64]: ...
 def truncation_errors(arg0: Mesh, arg1: Expansion, arg2: float | None, arg3: bool, arg4: Caller, /) -> TruncationErrors: ...
 
 class MonteCarloOptions:
-    """How much is wanted, and when to stop."""
+    """Options of `monte_carlo`."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1817,7 +1891,7 @@ class MonteCarloOptions:
     FIELDS: tuple = ...
 
 class MonteCarlo:
-    """Coefficients by random points, and how far they may be off."""
+    """Coefficients from random points, and their standard errors."""
 
     def __repr__(self) -> str: ...
 
@@ -1830,45 +1904,51 @@ class MonteCarlo:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def places(self) -> int:
-        """Edges or triangles that were sampled."""
+        """Number of edges or faces that were sampled."""
 
     @property
     def samples(self) -> int:
-        """Points on each of them."""
+        """Number of points on each sampled edge or face."""
 
     @property
     def rounds(self) -> int:
-        """Rounds in which they were added."""
+        """Number of rounds in which points were added."""
 
     @property
     def relative_deviation(self) -> float | None:
         """
-        Standard error relative to the coefficients without the mean; none if too few points tell.
+        Standard error relative to the coefficients without the mean; None with too few points to estimate it.
         """
 
     @property
     def reached(self) -> bool:
-        """Whether the wanted deviation is reached."""
+        """
+        True if the wanted deviation is reached, or if the number of samples was given.
+        """
 
     @property
     def degree_deviation(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """For each degree the standard error of its coefficients together."""
+        """
+        Standard error of all coefficients of a degree together, for each degree.
+        """
 
     @property
     def truncation_rms(self) -> float | None:
-        """Root mean square of what degrees above L would add."""
+        """
+        Root mean square truncation error over solid angle, in the unit of the function; None if too uncertain.
+        """
 
     @property
-    def truncation_rms_doubt(self) -> float | None:
-        """How far that may be off, by 3 deviations."""
+    def truncation_rms_uncertainty(self) -> float | None:
+        """Uncertainty of truncation_rms: three standard deviations."""
 
     @property
     def times(self) -> dict:
-        """Seconds of each stage."""
+        """Wall and CPU time of each stage, in seconds: (wall, cpu)."""
 
     @property
     def expansion(self) -> Expansion: ...
@@ -1883,7 +1963,7 @@ def synthesize(arg0: Expansion, arg1: Mesh, arg2: Sequence[int], arg3: Caller, /
 def directions_of(arg0: Mesh, arg1: Sequence[float] | numpy.typing.NDArray[numpy.float64], /) -> Mesh: ...
 
 class SurfaceMeasures:
-    """Of the solid bounded by a surface."""
+    """Measures of the solid bounded by a surface."""
 
     def __repr__(self) -> str: ...
 
@@ -1896,29 +1976,29 @@ class SurfaceMeasures:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def volume(self) -> float | None:
         """
-        The volume of the solid that the surface bounds; exact for a radius, in the unit of length to the power 3. None for a signed sum.
+        Volume of the solid bounded by the surface (exact for a radius), in the unit of length to the power 3. None for a signed sum.
         """
 
     @property
     def area(self) -> float | None:
         """
-        The area of the surface, to about 1e-12, in the unit of length to the power 2. None for a signed sum.
+        Area of the surface (accurate to about 1e-12), in the unit of length to the power 2. None for a signed sum.
         """
 
     @property
     def sphericity(self) -> float | None:
         """
-        The area of the ball of the same volume over the area of the surface, at most 1 (Wadell 1935). None for a signed sum.
+        Area of the ball of equal volume divided by the area of the surface, at most 1 (Wadell 1935). None for a signed sum.
         """
 
     @property
     def centroid(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)] | None:
-        """Of the solid, (3,)."""
+        """Centroid of the solid, (3,)."""
 
 def descriptors() -> list: ...
 
@@ -1927,7 +2007,7 @@ def measure(arg0: Expansion, arg1: Caller, /) -> SurfaceMeasures: ...
 def inertia(arg0: Expansion, arg1: Caller, /) -> NDArray[numpy.float64]: ...
 
 class CompareOptions:
-    """Where distances are measured."""
+    """Options of `compare`."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -1954,7 +2034,7 @@ class CompareOptions:
     FIELDS: tuple = ...
 
 class Distances:
-    """Of all samples, in the shape's unit."""
+    """Distances of all samples, in the unit of the shape."""
 
     def __repr__(self) -> str: ...
 
@@ -1967,22 +2047,22 @@ class Distances:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def rms(self) -> float:
-        """Root mean square."""
+        """Root mean square distance."""
 
     @property
     def mean(self) -> float:
-        """Mean."""
+        """Mean distance."""
 
     @property
     def max(self) -> float:
-        """Largest."""
+        """Largest distance."""
 
 class Comparison:
-    """How far two surfaces lie apart, in the shape's unit."""
+    """Distance between two surfaces A and B, in the unit of the shape."""
 
     def __repr__(self) -> str: ...
 
@@ -1995,45 +2075,47 @@ class Comparison:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def samples(self) -> int:
-        """Points on each surface."""
+        """Number of sample points on each surface."""
 
     @property
     def seed(self) -> int:
-        """That they were drawn with."""
+        """Seed of the random sample points."""
 
     @property
     def diagonal(self) -> float:
-        """Of A's bounding box."""
+        """Diagonal of A's bounding box."""
 
     @property
     def a_to_b(self) -> Distances:
-        """From samples of A to their closest points on B."""
+        """Distances from samples of A to their closest points on B."""
 
     @property
     def b_to_a(self) -> Distances:
-        """From samples of B to their closest points on A."""
+        """Distances from samples of B to their closest points on A."""
 
     @property
     def hausdorff(self) -> float:
         """
-        Larger of the two largest distances: a lower bound of the Hausdorff distance.
+        Larger of the two largest distances, a lower bound of the Hausdorff distance.
         """
 
     @property
     def threshold(self) -> float:
-        """Of the F-score."""
+        """
+        Distance within which a sample counts for precision, recall and F-score.
+        """
 
     @property
     def precision(self) -> float:
-        """Share of B's samples within the threshold of A."""
+        """Share of the samples of B within the threshold of A."""
 
     @property
     def recall(self) -> float:
-        """Share of A's samples within the threshold of B."""
+        """Share of the samples of A within the threshold of B."""
 
     @property
     def f_score(self) -> float:
@@ -2042,12 +2124,14 @@ class Comparison:
     @property
     def normal_median_degrees(self) -> float:
         """
-        Median of the angle between the normal at a sample and that at its closest point, 0 ... 180.
+        Median angle between the normal at a sample and the normal at its closest point, 0 ... 180 degrees.
         """
 
     @property
     def normal_mean_degrees(self) -> float:
-        """Mean of that angle."""
+        """
+        Mean angle between the normal at a sample and the normal at its closest point, 0 ... 180 degrees.
+        """
 
 def compare(arg0: Mesh, arg1: Mesh, arg2: CompareOptions, arg3: Caller, /) -> Comparison: ...
 
@@ -2067,63 +2151,69 @@ class Cap:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def center(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Of its sphere, in the coordinates of the shape, (3,)."""
+        """Centre of the cap's sphere, in the coordinates of the shape, (3,)."""
 
     @property
     def axes(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Of its frame, rows x, y, z; z points outwards, (3, 3)."""
+        """Axes of the cap's frame, rows x, y, z; z points outwards, (3, 3)."""
 
     @property
     def radius(self) -> float:
-        """Of its sphere."""
+        """Radius of the cap's sphere."""
 
     @property
     def dilation(self) -> float:
-        """a: tan(theta'/2) = a tan(theta/2) opens the sphere."""
+        """Dilation a of the cap: tan(theta'/2) = a tan(theta/2)."""
 
     @property
     def support(self) -> float:
-        """Radius of the points around the seed that it was made of."""
+        """Radius of the points around the seed that the cap was fitted to."""
 
     @property
     def seed(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """The point of the sphere in the middle of the cap, (3,)."""
+        """Point of the cap's sphere in the middle of the cap, (3,)."""
 
     @property
     def ellipse(self) -> tuple:
-        """Of its support: middle (px, py) and form (xx, xy, yy)."""
+        """
+        Ellipse of the cap's support: centre (px, py) and quadratic form (xx, xy, yy).
+        """
 
     @property
     def basis(self) -> str:
-        """Which harmonics it uses."""
+        """Set of harmonics of the cap: full or even."""
 
     @property
     def degree(self) -> int:
-        """Its highest degree."""
+        """Highest degree of the cap."""
 
     @property
     def first(self) -> int:
-        """Where its coefficients start."""
+        """Index of the cap's first coefficient in the coefficients of the atlas."""
 
     @property
     def error(self) -> float:
-        """Root mean square distance of the fitted points to it."""
+        """Root mean square distance of the fitted points from the cap."""
 
     @property
     def area(self) -> float:
-        """Of the surface that it was made for."""
+        """
+        Area of the surface assigned to the cap; the areas of all caps add up to the whole.
+        """
 
     @property
     def weight(self) -> float:
-        """A factor of its blend weight."""
+        """Factor of the blend weight of the cap."""
 
     @property
     def deviation(self) -> float:
-        """Largest distance of its surface from the tangent plane of the seed."""
+        """
+        Largest distance of the cap's surface from the tangent plane at its seed.
+        """
 
 class Atlas:
     """A surface of any genus as overlapping caps."""
@@ -2162,7 +2252,7 @@ def evaluate_cap(arg0: Atlas, arg1: int, arg2: Annotated[NDArray[numpy.float64],
 
 class SurfaceRules:
     """
-    How `reconstruct` made the surface of its caps; an atlas with them makes the same again.
+    Rules with which `reconstruct` made a surface from caps; an atlas with them makes the same surface again.
     """
 
     def __getstate__(self) -> tuple: ...
@@ -2176,34 +2266,36 @@ class SurfaceRules:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def holes(self) -> str:
-        """'fill': places without points are closed; 'keep': cut open."""
+        """
+        Places without points; 'fill': they are closed; 'keep': they are cut open.
+        """
 
     @property
     def min_component(self) -> float:
-        """Parts with less than this share of the largest one's area are dropped."""
+        """Share of the largest part's area below which a part is dropped."""
 
     @property
     def simplified(self) -> bool:
-        """Whether the surface has fewer triangles than its grid gave."""
+        """True if the surface was simplified."""
 
     @property
     def tiles(self) -> bool:
         """
-        Whether it was made in several tiles: `Atlas.mesh` has another order of vertices and faces, and what closes holes may differ by some steps of the grid.
+        True if the surface was made in several tiles. `Atlas.mesh` then has another order of vertices and faces, and closed holes may differ by some steps of the grid.
         """
 
     @property
     def left_out(self) -> list[str]:
         """
-        Attributes of the surface from the points, which the atlas does not hold.
+        Names of attributes that the surface has from the points, and the atlas does not hold.
         """
 
 class AtlasErrors:
-    """What a model is measured by, in the shape's unit."""
+    """Measured errors of an atlas, in the unit of the shape."""
 
     def __repr__(self) -> str: ...
 
@@ -2216,7 +2308,7 @@ class AtlasErrors:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def rms_from(self) -> float:
@@ -2224,32 +2316,34 @@ class AtlasErrors:
 
     @property
     def max_from(self) -> float:
-        """Largest of these distances."""
+        """Largest distance from the shape to the model's surface."""
 
     @property
     def rms_to(self) -> float:
         """
-        Root mean square distance from the model's surface to the shape; 0 if that is points.
+        Root mean square distance from the model's surface to the shape; 0 if the shape is points.
         """
 
     @property
     def max_to(self) -> float:
-        """Largest of these distances; 0 if the shape is points."""
+        """
+        Largest distance from the model's surface to the shape; 0 if the shape is points.
+        """
 
     @property
     def rms(self) -> float:
-        """The larger of both ways."""
+        """Root mean square distance, the larger of both directions."""
 
     @property
     def max(self) -> float:
-        """The larger of both ways."""
+        """Largest distance, the larger of both directions."""
 
     @property
     def two_sided(self) -> bool:
-        """Whether both ways were measured."""
+        """True if both directions were measured."""
 
 class AtlasSize:
-    """How large a model is."""
+    """Size of an atlas."""
 
     def __repr__(self) -> str: ...
 
@@ -2262,7 +2356,7 @@ class AtlasSize:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def caps(self) -> int:
@@ -2270,18 +2364,18 @@ class AtlasSize:
 
     @property
     def coefficients(self) -> int:
-        """Coefficients that are not zero."""
+        """Number of coefficients that are not zero."""
 
     @property
     def frame_numbers(self) -> int:
-        """Numbers of the caps' frames."""
+        """Number of values that describe the frames of all caps."""
 
     @property
     def numbers(self) -> int:
-        """Of the whole model."""
+        """Number of values of the whole model: coefficients and frame numbers."""
 
 class AtlasModel:
-    """An atlas and what its file says of it."""
+    """An atlas and the metadata of its file."""
 
     def __getstate__(self) -> tuple: ...
 
@@ -2322,7 +2416,7 @@ def read_atlas(arg0: str, arg1: Caller, /) -> AtlasModel: ...
 def is_atlas_file(arg: str, /) -> bool: ...
 
 class CompressOptions:
-    """Limits of the size and the error of an atlas."""
+    """Options of `compress`: limits of the size and the error of an atlas."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2361,7 +2455,7 @@ class CompressOptions:
     FIELDS: tuple = ...
 
 class CompressReport:
-    """How a model came about, and what it keeps."""
+    """Report of `compress`."""
 
     def __repr__(self) -> str: ...
 
@@ -2374,56 +2468,64 @@ class CompressReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def samples(self) -> int:
-        """Points that caps were fitted to."""
+        """Number of points that caps were fitted to."""
 
     @property
     def turned_normals(self) -> bool:
-        """Whether all normals of points pointed into the solid, and were turned."""
+        """
+        True if all normals of the points pointed into the solid and were turned.
+        """
 
     @property
     def hidden(self) -> float:
-        """Share of a mesh that lies inside of its solid, and was left out."""
+        """Share of a mesh that lies inside its own solid and was left out."""
 
     @property
     def gap(self) -> float:
-        """Distance between sheets that face each other."""
+        """
+        Distance between sheets that face each other; it is smaller on a twentieth of the area.
+        """
 
     @property
     def aimed(self) -> float:
-        """Tolerance that was aimed at."""
+        """
+        Tolerance that was used; for thin shapes it is smaller than the wanted one.
+        """
 
     @property
     def uncovered(self) -> float:
-        """Share of the samples that no cap met by 4 tolerances."""
+        """Share of the samples farther than 4 tolerances from every cap."""
 
     @property
     def components(self) -> int:
-        """Parts of the extracted surface."""
+        """Number of connected parts of the extracted surface."""
 
     @property
     def genus(self) -> int:
-        """Handles of the extracted surface."""
+        """Number of handles of the extracted surface."""
 
     @property
     def met(self) -> bool:
-        """Whether the tolerance is kept."""
+        """True if the tolerance is met."""
 
     @property
     def topology_kept(self) -> bool:
-        """Whether the surface has as many parts and handles as the shape."""
+        """
+        True if the surface has as many parts and handles as the shape, or if they are not compared.
+        """
 
     @property
     def times(self) -> dict:
-        """Seconds of each stage."""
+        """Wall and CPU time of each stage, in seconds: (wall, cpu)."""
 
 def compress(arg0: Mesh | PointCloud, arg1: CompressOptions, arg2: Caller, /) -> tuple: ...
 
 class AtlasSynthesisOptions:
-    """How a surface is extracted."""
+    """Options for extracting the surface of an atlas."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2464,7 +2566,7 @@ def set_cap_colors(arg0: Atlas, arg1: Sequence[int], /) -> list: ...
 def set_degree_colors(arg0: Atlas, arg1: Sequence[int], /) -> list: ...
 
 class PatchAtlasOptions:
-    """The paper's parameters."""
+    """Options of `patch_atlas`: the paper's parameters."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2501,7 +2603,9 @@ def patch_atlas(arg0: Mesh | PointCloud, arg1: PatchAtlasOptions, arg2: Caller, 
 def patch_picture(arg0: Mesh | PointCloud, arg1: str, arg2: PatchAtlasOptions, arg3: Caller, /) -> tuple: ...
 
 class ReconstructOptions:
-    """Resolution, cleaning and holes of the surface."""
+    """
+    Options of `reconstruct`: resolution, cleaning and holes of the surface.
+    """
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2612,9 +2716,7 @@ class ReconstructOptions:
     FIELDS: tuple = ...
 
 class ReconstructReport:
-    """
-    What was found in the points, and what became of them; lengths are in their unit.
-    """
+    """Report of `reconstruct`; lengths are in the unit of the points."""
 
     def __repr__(self) -> str: ...
 
@@ -2627,208 +2729,220 @@ class ReconstructReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def points(self) -> int:
-        """Number of points given."""
+        """Number of given points."""
 
     @property
     def dropped_points(self) -> int:
-        """Not finite, at the place of another, without a normal."""
+        """
+        Number of points dropped: not finite, at the position of another point, or without a normal.
+        """
 
     @property
     def outliers(self) -> int:
-        """Points removed."""
+        """Number of removed outliers."""
 
     @property
     def computed_normals(self) -> bool:
-        """Whether the points had none, or given ones were replaced."""
+        """
+        True if all normals were computed, because there were none or they were replaced.
+        """
 
     @property
     def scans(self) -> ScanAlignment:
-        """What became of scans, if there are any."""
+        """Report on the alignment of the scans, if there are any."""
 
     @property
     def unsure(self) -> float:
-        """Share of the points the sign of whose computed normal is unsure."""
+        """Share of the points whose computed normal has an unsure sign."""
 
     @property
     def turned_normals(self) -> bool:
-        """Whether all pointed into the solid, and were turned."""
+        """True if all given normals pointed into the solid and were turned."""
 
     @property
     def mended_normals(self) -> int:
-        """Given normals that contradicted those around them, and were turned."""
+        """
+        Number of given normals that contradicted the points around them and were turned.
+        """
 
     @property
     def crooked_normals(self) -> float:
         """
-        Share of given normals more than 45 degrees off the surface; above 0.25 all are computed instead.
+        Share of given normals more than 45 degrees off the surface; above 0.25 all normals are computed instead.
         """
 
     @property
     def contradicting_normals(self) -> int:
         """
-        Points whose normals contradict those around them, where turning does not help: above half the square root of the number of points the surface should not be trusted.
+        Number of points whose normals contradict their neighbours even if turned; above half the square root of the number of points the surface is unreliable.
         """
 
     @property
     def contradictions(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """The first three of these points, n x 3."""
+        """Up to three points whose normals contradict their neighbours, n x 3."""
 
     @property
     def crossing_length(self) -> float:
         """
-        Length of the lines along which sheets of the points cross, in diagonals of the points: above 0.12 the surface should not be trusted.
+        Length of the lines where sheets of the points cross, in diagonals of the points; above 0.12 the surface is unreliable.
         """
 
     @property
     def crossings(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """The first three points near these lines, n x 3."""
+        """
+        Up to three points near the lines where sheets of the points cross, n x 3.
+        """
 
     @property
     def points_off_surface(self) -> float:
         """
-        Share of the points that fill what lies between the walls of the surface, or around it: above 0.5 the surface should not be trusted.
+        Share of the points that lie off the surface, between its walls or around it; above 0.5 the surface is unreliable.
         """
 
     @property
     def places_off_surface(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Up to three of these points, n x 3."""
+        """Up to three points that lie off the surface, n x 3."""
 
     @property
     def inward_normals(self) -> float:
         """
-        Share of the points at which the winding number contradicts the given normal: above 0.1 the surface should not be trusted.
+        Share of the points whose given normal contradicts the winding number; above 0.1 the surface is unreliable.
         """
 
     @property
     def spacing(self) -> float:
-        """Median distance between neighbours, as if on a square grid."""
+        """Median distance of neighbouring points, as on a square grid."""
 
     @property
     def noise(self) -> float:
-        """Standard deviation along the normal."""
+        """
+        Standard deviation of the points along the normal; 0 if it is within the shape's own variation.
+        """
 
     @property
     def normal_noise_degrees(self) -> float:
-        """Of the normals against the surface."""
+        """Noise of the normals relative to the surface, in degrees."""
 
     @property
     def neighbours(self) -> int:
-        """Points of a typical cap."""
+        """Number of points of a typical cap."""
 
     @property
     def caps(self) -> int:
-        """Of the atlas."""
+        """Number of caps of the atlas."""
 
     @property
     def step(self) -> float:
-        """Edge of the grid's cubes."""
+        """Edge length of the grid's cubes."""
 
     @property
     def holes(self) -> int:
-        """Places without points that were closed, or cut out."""
+        """Number of places without points that were closed or cut out."""
 
     @property
     def smooth_holes(self) -> int:
-        """Of those closed, by a surface that continues the rim."""
+        """Number of holes closed by a surface that continues the rim."""
 
     @property
     def cut_handles(self) -> int:
         """
-        Bridges and tunnels of the surface that were smaller than points can tell.
+        Number of removed bridges and tunnels that are too small for the points to show.
         """
 
     @property
     def dropped_components(self) -> int:
-        """Parts of the surface that were too small."""
+        """Number of parts of the surface dropped because they are too small."""
 
     @property
     def faces(self) -> int:
-        """Of the surface before it was simplified."""
+        """Number of faces of the surface before simplification."""
 
     @property
     def simplify_error(self) -> float:
-        """By simplify()."""
+        """Error of the simplification, measured as max_error of simplify."""
 
     @property
     def area(self) -> float:
-        """Of the surface."""
+        """Area of the surface."""
 
     @property
     def closed_area(self) -> float:
-        """Of it, what closes holes."""
+        """Area of the parts of the surface that close holes."""
 
     @property
     def points_area(self) -> float:
-        """That the points stand for, by the circles of their neighbours."""
+        """Area that the points represent, from the circles of their neighbours."""
 
     @property
     def volume(self) -> float:
-        """Signed, of the surface: negative if its normals point inwards."""
+        """
+        Signed volume inside the surface; negative if its normals point inwards.
+        """
 
     @property
     def unseen_area(self) -> float:
         """
-        Of the surface, if confidence is asked for: share of the area without data nearer than three spacings.
+        Share of the surface's area without points within three spacings, if confidence is wanted.
         """
 
     @property
     def thin_area(self) -> float:
         """
-        Of the surface, if confidence is asked for: share of the area thinner than one and a half spacings.
+        Share of the surface's area thinner than one and a half spacings, if confidence is wanted.
         """
 
     @property
     def unsure_area(self) -> float:
         """
-        Of the surface, if confidence is asked for: share of the area with a confidence below 1/2.
+        Share of the surface's area with a confidence below 1/2, if confidence is wanted.
         """
 
     @property
     def memory(self) -> int:
-        """Foreseen, bytes."""
+        """Estimated memory, in bytes."""
 
     @property
     def times(self) -> dict:
-        """Stages: (wall, cpu) in seconds."""
+        """Wall and CPU time of each stage, in seconds: (wall, cpu)."""
 
     @property
     def bounds(self) -> Bounds:
-        """
-        The box of the points that are finite; of several tiles without far strays.
-        """
+        """Bounding box of the finite points, without points isolated far away."""
 
     @property
     def tiles(self) -> int:
-        """Number that space was cut into."""
+        """Number of tiles that space was cut into."""
 
     @property
     def stored(self) -> int:
-        """Bytes between the steps of several tiles, at most at a time."""
+        """
+        Largest number of bytes stored at a time between the steps of several tiles.
+        """
 
     @property
     def vertices(self) -> int:
-        """Number of them, of the surface."""
+        """Number of vertices of the surface."""
 
     @property
     def triangles(self) -> int:
-        """Number of them, of the surface."""
+        """Number of faces of the surface."""
 
     @property
     def coefficients(self) -> int:
-        """Number of those of all caps."""
+        """Number of coefficients of all caps."""
 
     @property
     def warnings(self) -> list[str]:
-        """Of the file that the points were read from, list of str."""
+        """Warnings from reading the file of points, list of str."""
 
 def reconstruct(points: PointCloud | str | os.PathLike, dropped: int, columns: str, options: ReconstructOptions, foreseen: object | None, caller: Caller) -> tuple: ...
 
 class TileForecast:
-    """What a reconstruction in tiles will take, about."""
+    """Estimated resources of a reconstruction in tiles."""
 
     def __repr__(self) -> str: ...
 
@@ -2841,36 +2955,36 @@ class TileForecast:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def points(self) -> int:
-        """That are finite, and no far strays."""
+        """Number of finite points, without points isolated far away."""
 
     @property
     def tiles(self) -> int:
-        """That space is cut into."""
+        """Number of tiles that space is cut into."""
 
     @property
     def memory(self) -> int:
-        """Bytes, beside what is stored."""
+        """Memory in bytes, without the stored bytes."""
 
     @property
     def stored(self) -> int:
         """
-        Bytes between the steps, in a folder, or in memory if there is room for them.
+        Number of bytes stored between the steps, in a folder, or in memory if there is room.
         """
 
     @property
     def written(self) -> int:
-        """Bytes of the surface as a file."""
+        """Size of the surface's file, in bytes."""
 
 def foresee_tiles(arg0: int, arg1: int, /) -> TileForecast: ...
 
 def region_weights(arg0: Mesh, arg1: Sequence[str], arg2: float, /) -> NDArray[numpy.float64]: ...
 
 class PatchOptions:
-    """Detail to remove from a region."""
+    """Options of `smooth`: the detail to remove from a region."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2903,7 +3017,7 @@ class PatchOptions:
     FIELDS: tuple = ...
 
 class Patch:
-    """The vertices that may move, and where fits want them."""
+    """Vertices of a region that may move, and their positions on the fits."""
 
     def __getstate__(self) -> tuple: ...
 
@@ -2943,7 +3057,7 @@ def apply_in_place(arg0: Patch, arg1: float, arg2: float, arg3: Mesh, /) -> None
 def copy_mesh(arg: Mesh, /) -> Mesh: ...
 
 class TransferOptions:
-    """Detail to take, and its size on the target."""
+    """Options of `transfer`: the detail to take, and its size on the target."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -2982,7 +3096,7 @@ class TransferOptions:
     FIELDS: tuple = ...
 
 class TransferUpdate:
-    """Values that sliders change."""
+    """Options of `transfer` that can be updated quickly."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -3021,7 +3135,7 @@ class TransferUpdate:
     FIELDS: tuple = ...
 
 class TransferReport:
-    """Findings of the analysis; lengths are in the units of the two meshes."""
+    """Report of `transfer`; lengths are in the units of the two meshes."""
 
     def __repr__(self) -> str: ...
 
@@ -3034,7 +3148,7 @@ class TransferReport:
     def __hash__(self) -> int: ...
 
     def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
+        """Returns all fields by name; records in fields become dicts, too."""
 
     @property
     def source_radius(self) -> float:
@@ -3046,42 +3160,44 @@ class TransferReport:
 
     @property
     def scale(self) -> float:
-        """Lengths on the target per length on the source."""
+        """Length on the target, divided by the length on the source."""
 
     @property
     def source_wavelength(self) -> float:
-        """Of the source's base."""
+        """Wavelength of the source's base."""
 
     @property
     def target_wavelength(self) -> float:
-        """Of the target's base."""
+        """Wavelength of the target's base."""
 
     @property
     def source_edge(self) -> float:
-        """Median length of an edge of the source."""
+        """Median edge length of the source."""
 
     @property
     def target_edge(self) -> float:
-        """Median length of an edge of the target, after refinement."""
+        """Median edge length of the target, after refinement."""
 
     @property
     def source_rms(self) -> float:
-        """Height of the texture in its region."""
+        """Root mean square height of the detail in the source region."""
 
     @property
     def angle(self) -> float:
-        """Turn of best correlation, radians."""
+        """Angle of best correlation, in radians; 0 if it was not searched for."""
 
     @property
     def correlation(self) -> float:
-        """With the target's own detail there, -1 ... 1."""
+        """
+        Correlation with the target's own detail at the angle of best correlation, -1 ... 1.
+        """
 
     @property
     def new_vertices(self) -> int:
-        """Vertices made by refinement."""
+        """Number of vertices added by refinement."""
 
 class TransferSource:
-    """A texture taken from its source."""
+    """A texture extracted from its source."""
 
     @property
     def from_degree(self) -> int: ...
@@ -3119,7 +3235,7 @@ def update_transfer(arg0: TransferAnalysis, arg1: TransferUpdate, arg2: Caller, 
 def apply_transfer_in_place(arg0: TransferAnalysis, arg1: TransferUpdate, arg2: Mesh, arg3: Caller, /) -> None: ...
 
 class Panel:
-    """One thing in a picture; the mesh, or the points, must be kept."""
+    """A mesh or points in a picture; the caller keeps them alive."""
 
     @overload
     def __init__(self, arg0: Mesh, arg1: str, arg2: bool, arg3: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, arg4: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, /) -> None: ...
@@ -3128,7 +3244,7 @@ class Panel:
     def __init__(self, arg0: PointCloud, arg1: str, arg2: float, arg3: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, arg4: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, /) -> None: ...
 
 class RenderOptions:
-    """Size, point of view, light and colours."""
+    """Options of `render`: size, point of view, light and colours."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -3231,7 +3347,7 @@ def write_png(arg0: str, arg1: Annotated[NDArray[numpy.uint8], dict(shape=(None,
 def write_file(arg0: str, arg1: bytes, /) -> None: ...
 
 class ReportOptions:
-    """Texts of a page beside its figures."""
+    """Options of `report_html`: texts of the page, and size of its pictures."""
 
     def __init__(self, **fields: Any) -> None: ...
 
@@ -3294,7 +3410,7 @@ def report_html(arg0: Expansion | AtlasModel, arg1: Mesh | None, arg2: ReportOpt
 def view_data(arg0: Expansion, arg1: Mesh | None, arg2: str, arg3: Caller, /) -> bytes: ...
 
 class StudioListener:
-    """Who listens to a session."""
+    """A receiver of the events of a session."""
 
     def wait(self, seconds: float) -> list: ...
 
@@ -3302,7 +3418,7 @@ class StudioListener:
     def ended(self) -> bool: ...
 
 class Studio:
-    """Requests in, responses out."""
+    """The studio without a transport: takes requests and returns responses."""
 
     def __init__(self, folder: str, threads: int) -> None: ...
 
@@ -3315,7 +3431,7 @@ class Studio:
     def close(self) -> None: ...
 
 class BatchTable:
-    """Rows as columns."""
+    """Table of batch results, column by column."""
 
     def __getstate__(self) -> tuple: ...
 
@@ -3333,7 +3449,7 @@ class BatchTable:
     def write(self, arg0: str, arg1: bool, arg2: bool, /) -> None: ...
 
 class BatchJournal:
-    """Rows that are done, in a file."""
+    """File of the finished rows of a batch."""
 
     def __init__(self, arg0: str, arg1: Sequence[str], arg2: int, /) -> None: ...
 

@@ -10,14 +10,14 @@ import numpy.typing as npt
 
 
 class RepairKeywords(TypedDict, total=False):
-    """Steps of the repair of a mesh."""
+    """Options of `repair`."""
 
     weld: float
     max_hole: int
 
 
 class SimplifyKeywords(TypedDict, total=False):
-    """Where simplify() stops."""
+    """Options of `simplify`: when it stops."""
 
     triangles: int
     share: float
@@ -25,7 +25,7 @@ class SimplifyKeywords(TypedDict, total=False):
 
 
 class SampleKeywords(TypedDict, total=False):
-    """Errors, outliers and places of the samples of a surface."""
+    """Options of `sample_surface`: errors, outliers and places of the samples."""
 
     noise: float
     normal_noise: float
@@ -45,7 +45,7 @@ class SampleKeywords(TypedDict, total=False):
 
 
 class OrientKeywords(TypedDict, total=False):
-    """How normals are found and which side is outside."""
+    """Options of `orient`."""
 
     neighbors: int
     keep_directions: bool
@@ -56,7 +56,7 @@ class OrientKeywords(TypedDict, total=False):
 
 
 class AlignKeywords(TypedDict, total=False):
-    """How a rotation is sought."""
+    """Options of `align`."""
 
     start: Literal["correlation", "principal-axes"]
     bandwidth: int
@@ -68,7 +68,7 @@ class AlignKeywords(TypedDict, total=False):
 
 
 class TransformKeywords(TypedDict, total=False):
-    """Function to expand, and method."""
+    """Options of the transform from a chart to coefficients."""
 
     method: Literal["edge", "gauge", "curl", "area"]
     engine: Literal["fast", "direct"]
@@ -76,7 +76,7 @@ class TransformKeywords(TypedDict, total=False):
 
 
 class ToleranceKeywords(TypedDict, total=False):
-    """The largest error that is allowed."""
+    """Largest allowed error of a model."""
 
     unit: Literal["absolute", "diagonal", "radius"]
     norm: Literal["rms", "max"]
@@ -84,19 +84,19 @@ class ToleranceKeywords(TypedDict, total=False):
 
 
 class CenterKeywords(TypedDict, total=False):
-    """Where the centre is sought."""
+    """Options of the centre."""
 
     rays: int
 
 
 class ChartKeywords(TypedDict, total=False):
-    """Rules for the centre, and for surfaces that are not star-shaped."""
+    """Options of a chart: the centre, and surfaces that are not star-shaped."""
 
     signed: bool
 
 
 class ExpandKeywords(TypedDict, total=False):
-    """Degree, precision and error figures of an expansion."""
+    """Options of `expand`: degree, precision and errors."""
 
     method: Literal["edge", "gauge", "curl", "area"]
     engine: Literal["fast", "direct"]
@@ -106,7 +106,7 @@ class ExpandKeywords(TypedDict, total=False):
 
 
 class MonteCarloKeywords(TypedDict, total=False):
-    """How much is wanted, and when to stop."""
+    """Options of `monte_carlo`."""
 
     places: Literal["edge", "triangle"]
     seed: int
@@ -116,7 +116,7 @@ class MonteCarloKeywords(TypedDict, total=False):
 
 
 class CompareKeywords(TypedDict, total=False):
-    """Where distances are measured."""
+    """Options of `compare`."""
 
     samples: int
     seed: int
@@ -124,7 +124,7 @@ class CompareKeywords(TypedDict, total=False):
 
 
 class CompressKeywords(TypedDict, total=False):
-    """Limits of the size and the error of an atlas."""
+    """Options of `compress`: limits of the size and the error of an atlas."""
 
     samples: int
     max_degree: int
@@ -133,7 +133,7 @@ class CompressKeywords(TypedDict, total=False):
 
 
 class AtlasSynthesisKeywords(TypedDict, total=False):
-    """How a surface is extracted."""
+    """Options for extracting the surface of an atlas."""
 
     step: float
     degree: int | None
@@ -142,7 +142,7 @@ class AtlasSynthesisKeywords(TypedDict, total=False):
 
 
 class PatchAtlasKeywords(TypedDict, total=False):
-    """The paper's parameters."""
+    """Options of `patch_atlas`: the paper's parameters."""
 
     extension: Literal["zero", "sphere"]
     min_cosine: float
@@ -150,7 +150,7 @@ class PatchAtlasKeywords(TypedDict, total=False):
 
 
 class ReconstructKeywords(TypedDict, total=False):
-    """Resolution, cleaning and holes of the surface."""
+    """Options of `reconstruct`: resolution, cleaning and holes of the surface."""
 
     step: float
     tolerance: float
@@ -172,7 +172,7 @@ class ReconstructKeywords(TypedDict, total=False):
 
 
 class PatchKeywords(TypedDict, total=False):
-    """Detail to remove from a region."""
+    """Options of `smooth`: the detail to remove from a region."""
 
     transition: float | None
     fitting: Literal["mean", "robust", "around"]
@@ -180,7 +180,7 @@ class PatchKeywords(TypedDict, total=False):
 
 
 class TransferKeywords(TypedDict, total=False):
-    """Detail to take, and its size on the target."""
+    """Options of `transfer`: the detail to take, and its size on the target."""
 
     from_degree: int
     scale: float
@@ -189,7 +189,7 @@ class TransferKeywords(TypedDict, total=False):
 
 
 class TransferUpdateKeywords(TypedDict, total=False):
-    """Values that sliders change."""
+    """Options of `transfer` that can be updated quickly."""
 
     height: float
     angle: float | None
@@ -199,7 +199,7 @@ class TransferUpdateKeywords(TypedDict, total=False):
 
 
 class RenderKeywords(TypedDict, total=False):
-    """Size, point of view, light and colours."""
+    """Options of `render`: size, point of view, light and colours."""
 
     perspective: bool
     fit_each: bool
@@ -213,7 +213,7 @@ class RenderKeywords(TypedDict, total=False):
 
 
 class ReportKeywords(TypedDict, total=False):
-    """Texts of a page beside its figures."""
+    """Options of `report_html`: texts of the page, and size of its pictures."""
 
     title: str
     shape_name: str

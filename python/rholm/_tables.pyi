@@ -15,13 +15,13 @@ Window = Literal[
 class Described:
     @property
     def volume(self) -> float | Any:
-        """The volume of the solid that the surface bounds; exact for a radius, in the unit of
-        length to the power 3. None for a signed sum."""
+        """Volume of the solid bounded by the surface (exact for a radius), in the unit of length to
+        the power 3. None for a signed sum."""
     @property
     def area(self) -> float | Any:
-        """The area of the surface, to about 1e-12, in the unit of length to the power 2. None for a
-        signed sum."""
+        """Area of the surface (accurate to about 1e-12), in the unit of length to the power 2. None
+        for a signed sum."""
     @property
     def sphericity(self) -> float | Any:
-        """The area of the ball of the same volume over the area of the surface, at most 1 (Wadell
+        """Area of the ball of equal volume divided by the area of the surface, at most 1 (Wadell
         1935). None for a signed sum."""

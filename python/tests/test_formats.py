@@ -31,7 +31,9 @@ def test_formats_are_those_of_the_program():
     program = os.environ.get("RHOLM_PROGRAM")
     if not program:
         pytest.skip("RHOLM_PROGRAM does not name the program")
-    told = subprocess.run([program, "convert", "--help", "all"], capture_output=True, text=True, check=True).stdout
+    told = subprocess.run(
+        [program, "convert", "--help", "all"], capture_output=True, text=True, check=True
+    ).stdout
     choices = re.search(r"--format ([\w|]+)", told)
     assert choices, told
     written = [

@@ -212,7 +212,9 @@ def test_bounds_of_options_are_in_the_documents():
 
 @public
 def test_options_are_in_the_program_and_on_the_reference_page(program):
-    said = subprocess.run([program, "reconstruct", "--help", "all"], check=True, capture_output=True, text=True)
+    said = subprocess.run(
+        [program, "reconstruct", "--help", "all"], check=True, capture_output=True, text=True
+    )
     words = " ".join(said.stdout.split())
     page = (ROOT / "docs" / "reference.md").read_text()
     # --resolution, --max-memory in GiB, -o; --work-dir and --model have their own help
