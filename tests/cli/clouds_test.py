@@ -143,7 +143,7 @@ class Clouds(CliTest):
             points = with_noise(np.random.default_rng(11), clouds.NO_SURFACE[name][0], n, noise)
             done, _ = self.reconstruct(points)
             self.assertEqual(done.code, 4, done)
-            self.assertRegex(done.err, r"sheets of the points cross each other, near( \(.*\);){2} \(.*\):")
+            self.assertRegex(done.err, r"sheets of the points cross each other, first near( \(.*\);){2} \(.*\),")
         tiles, _ = self.reconstruct(points, None, "--tile-points", "1000")
         self.assertEqual((tiles.code, tiles.err.splitlines()[-1]), (4, done.err.splitlines()[-1]))
 

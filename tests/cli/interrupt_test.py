@@ -135,6 +135,7 @@ LONG = (
     ("center {}.ply", None),
     ("expand {}.ply --degree 16 -o out.h5", "out.h5"),
     ("expand {}.off --degree 16 --method area -o out.sh", "out.sh"),
+    ("compress {}.ply --tolerance 5e-3 -o out.h5", "out.h5"),
     ("synthesize {}.h5 --subdivisions 6 -o out.ply", "out.ply"),
     ("spectrum {}.sh", None),
     ("compare {}.ply {}.off --samples {n}", None),

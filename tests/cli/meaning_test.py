@@ -67,7 +67,7 @@ class Conventions(Meaning):
         for name, words in commands_that_read("bare.sh").items():
             with self.subTest(name):
                 result = self.rholm(*words)
-                said = re.findall(r"bare.sh does not say it, assumed: (.*)", result.err)
+                said = re.findall(r"bare.sh does not state its convention; assumed: (.*)", result.err)
                 self.assertEqual(said, ["normalization 4pi, csphase 1, function radius, "
                                         "center 0 0 0"], str(result))
 
@@ -229,7 +229,7 @@ class Units(Meaning):
         self.model("km.h5", "kilometres")
         for words in (["compare", "m.h5", "km.h5"], ["compare", "km.h5", "m.h5"]):
             result = self.rholm(*words, "--samples", "1000", "--json")
-            self.assertRegex(result.err, r"m.h5 is in \w+ and k?m.h5 in \w+")
+            self.assertRegex(result.err, r"m.h5 is in \w+ and k?m.h5 is in \w+")
             report = result.json()
             # The vertices are the same except for the rounding of text and of floats.
             self.assertLess(report["relative"]["hausdorff"], 1e-5)

@@ -46,7 +46,7 @@ class Memory(CliTest):
                                 "--max-memory", "0.005",
                                 "--work-dir", ".", "-o", "x.sh", code=1, stdin=content)
             self.assertIn("GiB", result.err)
-        self.assertRegex(result.err, r"0\.\d+ would do; only a binary PLY")
+        self.assertRegex(result.err, r"0\.\d+ would do\. Only a binary PLY")
         self.assertEqual(self.files(), ["box.ply"])
 
     def test_a_truncated_or_empty_stream_is_bad_input(self):

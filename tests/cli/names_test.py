@@ -98,7 +98,7 @@ class Names(CliTest):
             path = "./-" if name == "-" else name
             self.write(name, off(*OCTAHEDRON))
             message = self.said("spectrum", "--", path, code=3).stderr.decode()
-            command = re.search(r"make them with '(rholm expand .*) --degree L", message, re.S)[1]
+            command = re.search(r"compute them with '(rholm expand .*) --degree L", message, re.S)[1]
             # The shell splits the line as intended.
             words = subprocess.run(["bash", "-c", f'rholm() {{ printf "%s\\0" "$@"; }}; {command}'],
                                    capture_output=True, check=True).stdout.decode().split("\0")

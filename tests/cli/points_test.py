@@ -180,7 +180,7 @@ class Orient(CliTest):
         self.write("plane.xyz", "".join(f"{i / 30} {j / 30} 0\n" for i in range(30)
                                         for j in range(30)))
         failed = self.rholm("orient", "plane.xyz", "--confidence", "--ascii", "-o", "o.ply", code=4)
-        self.assertIn("unsure", failed.err)
+        self.assertIn("uncertain", failed.err)
         self.assertIn("property float confidence", (self.folder / "o.ply").read_text())
         report = self.rholm("orient", "p.ply", "--confidence", "--json", "-o", "o.ply").json()
         self.assertLess(report["unsure"], 0.01)

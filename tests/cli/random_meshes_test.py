@@ -170,7 +170,7 @@ class RandomMeshes(CliTest):
         source = Path(commands.__file__).read_text()
         # The studio takes shapes from its page (studio_test.py).
         for name in {line.split()[0] for line in listed.splitlines()} - {"completion", "studio"}:
-            self.assertTrue(re.search(rf'trial.do\(\s*"{name}\b', source), f"{name} is not tried")
+            self.assertTrue(re.search(rf'trial.do\(\s*f?"{name}\b', source), f"{name} is not tried")
 
     def test_every_mesh_is_closed(self):
         for number in range(2 * len(KINDS)):

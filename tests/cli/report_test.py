@@ -100,7 +100,7 @@ class Report(CliTest):
         text = self.page("flat.ply", "--degree", "6", code=4).text()
         said = self.run_rholm("report", "flat.ply", "--degree", "6", "--size", "16", "-o", "f.html").err
         for words in (text, said):
-            self.assertIn("above the wanted 1e-08", words)
+            self.assertIn("the wanted error is 1e-08", words)
             self.assertIn("--engine direct", words)
 
     def test_coefficients_of_every_format_have_a_page(self):

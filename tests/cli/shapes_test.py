@@ -96,7 +96,7 @@ class Repair(CliTest):
     def test_what_is_left_is_said(self):
         self.write("open.off", off(V, F[:-1]))
         result = self.rholm("repair", "open.off", "--max-hole", 2, "-o", "same.off")
-        self.assertIn("--max-hole 2", result.err)
+        self.assertIn("larger than the 2 edges of --max-hole", result.err)
         self.assertIn("open, 3 boundary edges", result.out)
         # A strip with half a twist: a closed chain of five triangles.
         ring = [(math.cos(a), math.sin(a), 0.1 * k)
@@ -330,7 +330,7 @@ class Size(CliTest):
                            "diagonal", "-o", "a.h5"],
                           ["partition", "shape.off", "--tolerance", 0.1 * size, "-o", "p.ply"]):
                 error = self.rholm(*words, code=3).err
-                self.assertIn("use another unit", error)
+                self.assertIn("take another unit", error)
                 self.assertNotIn("area 0", error)
 
 

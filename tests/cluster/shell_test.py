@@ -10,7 +10,7 @@ import unittest
 sys.path.insert(0, os.path.dirname(__file__))
 from harness_mpi import MpiTest, RHOLM_MPI, main
 
-CASES = (("rholm-mpi ana", "expand"), ("rholm-mpi expand --deg", "--degree"), ("rholm-mpi compare --pa", "--patience"))
+CASES = (("rholm-mpi exp", "expand"), ("rholm-mpi expand --deg", "--degree"), ("rholm-mpi compare --pa", "--patience"))
 
 
 def needs(program):
