@@ -164,7 +164,7 @@ class Reconstruct(CliTest):
                       self.rholm("reconstruct", "plane.xyz", "-o", "s.ply", code=3).err)
         self.assertNotIn("s.ply", self.files())
         failed = self.rholm("reconstruct", "plane.xyz", "--holes", "keep", "-o", "s.ply", code=4)
-        self.assertIn("unsure", failed.err)
+        self.assertIn("uncertain", failed.err)
         self.assertFalse(self.shape_of("s.ply")["closed"])
 
     def test_a_stray_point_far_away_is_left_out(self):

@@ -86,7 +86,7 @@ class Reconstruct(ProgramTest):
         both = rows + [[x + 0.3 * (most - least), y, z] for x, y, z in rows]
         (self.folder / "both.xyz").write_text("".join(f"{x:.9g} {y:.9g} {z:.9g}\n" for x, y, z in both))
         one = self.rholm(*self.words("one.ply", points="both.xyz"), code=4)
-        self.assertIn("sheets of the points cross each other, near (", one.stderr)
+        self.assertIn("sheets of the points cross each other, first near (", one.stderr)
         run = self.finished(RHOLM_MPI, *self.words("all.ply", "--threads", 2, points="both.xyz"), ranks=3)
         self.assertEqual(run.code, 4, run)
         said = "sheets of" + one.stderr.split("error: sheets of")[1].rstrip("\n")

@@ -20,7 +20,7 @@ void star() {
   expect(!rholm::find_center(rholm::torus(2, 0.5, 48, 24), {}).star_shaped, "a torus is not");
 }
 
-void expand() {
+void transform() {
   const rholm::StarChart cube = rholm::make_star_chart(rholm::box({2, 2, 2}));
   // int r^2 dOmega over a face at distance 1 is int dA / sqrt(1 + x^2 + y^2), the potential of a
   // square.

@@ -202,11 +202,11 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
     plan.block.edge_reach2 = hermite->edge_reach2;
     plan.block.face_reach2 = hermite->face_reach2;
   }
-  plan.face_rounding = allowed_face_rounding(plan, sample, mesh.n_triangles);
   plan.aligned = sample.aligned;
   plan.round_modulus = roundness(sample) * sample.modulus;
   plan.node_modulus = std::min(1.0, plan.node_share + plan.between) * sample.modulus;
   plan.nodes = plan.between + plan.node_share * own_nodes();
+  plan.face_rounding = allowed_face_rounding(plan, sample, mesh.n_triangles);
   return plan;
 }
 
