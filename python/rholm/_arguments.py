@@ -166,7 +166,7 @@ def form(annotation: Any, wanted: str) -> None:
     annotation : union of types
         Annotation of arguments.
     wanted : str
-        What an argument must be.
+        The condition on an argument.
     """
 
     def check(value: Any, name: str) -> Any:

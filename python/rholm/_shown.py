@@ -11,8 +11,8 @@ if TYPE_CHECKING:
 
 
 def _pictures() -> Any:
-    """Returns the module that draws. It knows all classes of objects, so that it stands above the
-    modules of these classes: they do not import it, and it is loaded when it draws for the first time.
+    """Returns the module that draws. It knows all classes of objects, and so stands above their
+    modules. They do not import it: it is loaded when it draws for the first time.
     """
     return importlib.import_module(f"{__package__}._pictures")
 
