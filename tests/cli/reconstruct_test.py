@@ -116,7 +116,7 @@ class Reconstruct(CliTest):
                                        if float(row[0]) > -0.9))
         report = self.reconstruct("half.xyz", "--confidence", "--ascii")
         self.assertGreater(report["unseen_area"], 0.02)
-        self.assertGreaterEqual(report["uncertain_area"], report["unseen_area"])
+        self.assertGreaterEqual(report["unsure_area"], report["unseen_area"])
         text = (self.folder / "s.ply").read_text()
         names = re.findall(r"property \w+ (\w+)", text.split("element face")[0])
         at = names.index("confidence")

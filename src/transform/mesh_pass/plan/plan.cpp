@@ -72,9 +72,9 @@ double allowed_of_element(const MeshPlan& plan, const MeshSample& sample, std::s
 
 // Returns the largest rounding error that the weights of a face may have. Long faces that meet near
 // the centre are alike: the rounding of sums over them adds up linearly in the waves around them.
-// So the faces together may have a tenth of the wanted error (chosen). On a ball 2 |T| / d_T adds up
-// to 8 pi r. Only faces with thirty times their part of that are refused (chosen), because bounded
-// terms for every face would cost more than they save.
+// So the faces together may have a tenth of the wanted error (chosen). On a ball 2 |T| / d_T adds
+// up to 8 pi r. Only faces with thirty times their part of that are refused (chosen), because
+// bounded terms for every face would cost more than they save.
 double allowed_face_rounding(const MeshPlan& plan, const MeshSample& sample,
                              std::size_t n_triangles) {
   const double wanted = 0.1 * plan.allowed.rules * plan.allowed.caution / kRuleShare;
