@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -46,8 +48,7 @@ constexpr Hint kOptionHints[] = {{"--atlas", "'rholm compress' makes an atlas of
                                  {"--lmax", "--degree is the highest degree"},
                                  {"--triangles", "the parts of a mesh are called faces"}};
 
-template <std::size_t n>
-std::string hint_of(const Hint (&hints)[n], std::string_view word) {
+std::string hint_of(std::span<const Hint> hints, std::string_view word) {
   for (const Hint& hint : hints) {
     if (hint.word == word) return fmt::format("; {}", hint.advice);
   }

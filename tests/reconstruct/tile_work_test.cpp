@@ -207,6 +207,7 @@ TEST_F(TileReconstructWork, of_one_tile_depends_on_the_set_of_points_only) {
     PointCloud cloud = with_outliers(torus_points(6000), 100);
     if (!directed) cloud.normals.clear();
     std::vector<double> heights;
+    heights.reserve(cloud.points.size());
     for (const Vec3& p : cloud.points) heights.push_back(p.z);
     cloud.attributes.push_back({"height", ScalarType::kFloat64, heights});
     const ReconstructReport report =
