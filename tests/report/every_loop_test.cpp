@@ -326,7 +326,15 @@ TEST(every_loop, gives_the_same_bits_for_many_points_and_discs) {
     Bits bits;
     bits.add(tree.order()).add(caps.coefficients).add(std::span(blocks));
     const std::vector<std::uint8_t> outliers = find_outliers(tree, points, normals, 0, context);
-    return bits.add(std::span(outliers));
+    std::vector<std::uint32_t> linked;
+    for_links_of_groups(
+        tree, normals,
+        [&](std::uint32_t i, std::uint32_t j) {
+          linked.insert(linked.end(), {i, j});
+        },
+        context);
+    bits.add(std::span(outliers)).add(std::span<const std::uint32_t>(linked));
+    return bits;
   });
 }
 
