@@ -49,7 +49,7 @@ export function AlignPanel() {
       />
       <FlagControl of={tool.mirror} />
       <MoreOptions op="align" />
-      {!both && <Hint>Both shapes need degrees: analyse them first, under Degrees.</Hint>}
+      {!both && <Hint>Both shapes need degrees: expand them first, under Degrees.</Hint>}
       <Button
         main
         disabled={!both}

@@ -160,7 +160,7 @@ export async function degreeForTolerance(one: Item): Promise<void> {
   showLook(performance.now());
   await keepLook();
   if (answer.met) return;
-  const text = `Degree ${answer.degree} is not enough for that: analyse again, to a higher one.`;
+  const text = `Degree ${answer.degree} is not enough for that: expand again, to a higher one.`;
   notice.value = { text, bad: false };
 }
 
