@@ -215,7 +215,7 @@ void visit_fields(FieldsOf<ScanAlignment>, const Visitor& field) {
   field(&S::scans,
         {.name = "scans",
          .help =
-             "number of scans: different values of the attribute `scan`; 0 without the attribute"});
+             "number of scans: different values of the attribute 'scan'; 0 without the attribute"});
   field(&S::pairs,
         {.name = "pairs", .help = "number of compared pairs of points from different scans"});
   field(&S::distance_before, {.name = "distance_before",

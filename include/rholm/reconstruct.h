@@ -162,7 +162,7 @@ void visit_fields(FieldsOf<ReconstructOptions>, const Visitor& field) {
       &O::keep_scans,
       {.name = "keep_scans",
        .help =
-           "leave points with the attribute `scan` in place; by default scans are aligned first"});
+           "leave points with the attribute 'scan' in place; by default scans are aligned first"});
   field(&O::confidence,
         {.name = "confidence",
          .help = "add the vertex attribute `confidence`, 0 ... 1; it is low where normals are "

@@ -603,7 +603,7 @@ class ScanAlignment:
     @property
     def scans(self) -> int:
         """
-        Number of scans: different values of the attribute `scan`; 0 without the attribute.
+        Number of scans: different values of the attribute 'scan'; 0 without the attribute.
         """
 
     @property
