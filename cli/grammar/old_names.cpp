@@ -78,10 +78,7 @@ std::vector<std::string> replace_in_batch(std::vector<std::string>& words) {
   constexpr std::string_view kOption = "--command";
   for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
     if (words[i] == kOption && i + 1 < words.size()) {
-      std::string name = words[i + 1];
-      auto notes = replace_analyze(name, words, i + 2);
-      words[i + 1] = name;
-      return notes;
+      return replace_analyze(words[i + 1], words, i + 2);
     }
     if (words[i].starts_with("--command=")) {
       std::string name = words[i].substr(kOption.size() + 1);
@@ -90,17 +87,19 @@ std::vector<std::string> replace_in_batch(std::vector<std::string>& words) {
       return notes;
     }
   }
-  return {};
+  // Without --command the previous version took "analyze"; now it is "expand".
+  std::string name(kAnalyze);
+  const auto options = std::find(words.begin(), words.end(), "--");
+  auto notes = replace_analyze(name, words, static_cast<std::size_t>(options - words.begin()));
+  if (name == "expand") return {};
+  words.insert(words.begin(), fmt::format("{}={}", kOption, name));
+  return notes;
 }
 
 }  // namespace
 
 std::vector<std::string> replace_old_command(std::vector<std::string>& words) {
-  if (words.empty()) return {};
-  std::string name = words.front();
-  auto notes = replace_analyze(name, words, 1);
-  words.front() = name;
-  return notes;
+  return words.empty() ? std::vector<std::string>() : replace_analyze(words.front(), words, 1);
 }
 
 std::string command_hint(std::string_view word) { return hint_of(kCommandHints, word); }
