@@ -43,7 +43,6 @@ inline constexpr GroupInfo kGroups[] = {{Group::kData, "Data", true},
                                         {Group::kOutput, "Output", true},
                                         {Group::kAdvanced, "Advanced", false},
                                         {Group::kPaper, "Method of the paper", false}};
-inline const GroupInfo& info_of(Group group) { return kGroups[static_cast<std::size_t>(group)]; }
 
 struct Option {
   std::string name;        // "degree" means --degree; an operand is in capitals: "SHAPE"

@@ -119,9 +119,10 @@ const Option* option_of(const std::vector<Option>& options, std::string_view nam
   return found == options.end() ? nullptr : &*found;
 }
 
-// Refuses unknown options. CLI11 would take the value of an unknown option for an operand, and
-// report that.
+// Refuses unknown options, options without their value, and values given twice. CLI11 would take
+// the value of an unknown option for an operand, and report that.
 void check_names(const std::vector<Option>& options, std::span<const std::string> words) {
+  std::vector<const Option*> seen;  // with a value
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     if (word == "--") return;  // operands follow
@@ -137,8 +138,18 @@ void check_names(const std::vector<Option>& options, std::span<const std::string
       throw UsageError(fmt::format("there is no option '{}'{}", typed,
                                    hint.empty() ? did_you_mean(typed, names_of(options)) : hint));
     }
-    if (!option->is_switch() && word.size() == name.size())
-      ++i;  // its value, even if it looks like an option
+    if (option->is_switch()) continue;
+    const bool is_list = std::holds_alternative<std::vector<std::string>*>(option->target);
+    if (!is_list && std::find(seen.begin(), seen.end(), option) != seen.end()) {
+      throw UsageError(fmt::format("{} is given twice", name));
+    }
+    seen.push_back(option);
+    if (word.size() != name.size()) continue;
+    ++i;  // its value, even if it looks like an option
+    if (i == words.size()) {
+      throw UsageError(fmt::format("{} needs a value{}", name,
+                                   option->value.empty() ? "" : ", " + option->value));
+    }
   }
 }
 
@@ -173,6 +184,8 @@ void parse(const Command& command, std::span<const std::string> words, CommonOpt
   for (const Option& option : options) add(app, known.emplace_back(Word{&option}));
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 needs them reversed
+  } catch (const CLI::ExtrasError&) {
+    throw UsageError(fmt::format("'{}' is one operand too many", app.remaining().front()));
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what());
   }

@@ -39,6 +39,7 @@ void print_message(const char* kind, const char* colour, const std::string& text
   const std::string label =
       colours() ? fmt::format("\x1b[{}m{}:\x1b[0m", colour, kind) : fmt::format("{}:", kind);
   std::string shown = escaped_text(text);
+  if (shown.ends_with('\n')) shown.pop_back();
   for (std::size_t at = 0; (at = shown.find('\n', at)) != std::string::npos; at += 3) {
     shown.insert(at + 1, 2, ' ');
   }

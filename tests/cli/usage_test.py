@@ -153,6 +153,13 @@ class WrongUsage(CliTest):
                               (["expand", "a.off", "--lmax=8", "-o", "a.h5"], "--degree")):
             with self.subTest(words):
                 self.refused(*words, saying=f"; {advice}")
+        for words, said in ((["expand", "a.off", "--degree"], "--degree needs a value, L"),
+                            (["expand", "a.off", "--unit"], "--unit needs a value"),
+                            (["expand", "a.off", "--degree", "3", "--degree=4"], "--degree is given twice"),
+                            (["info", "a.off", "-o"], "there is no option '-o'"),
+                            (["center", "a.off", "b.off"], "'b.off' is one operand too many")):
+            with self.subTest(words):
+                self.refused(*words, saying=said)
         for words in (["xylophone", "a.off"], ["info", "a.off", "--colour-of-sky"],
                       ["expand", "a.off", "-o", "a.h5", "--degree", "4", "--method", "magic"]):
             with self.subTest(words):
@@ -323,6 +330,9 @@ class Talk(CliTest):
         for command in (["--command", "analyze"], ["--command=analyze"]):
             said = self.rholm("batch", "list.csv", *command, "--restart", "-o", "o.csv", "--", "--degree", "2").err
             self.assertIn("analyze is expand now", said)
+        for command in ([], ["--command", "analyze"], ["--command=analyze"]):
+            said = self.rholm("batch", "list.csv", *command, "--restart", "-o", "o.csv", "--", "--atlas", "--tolerance", "1").err
+            self.assertIn("analyze --atlas is compress now", said)
         self.assertIn("spectrum", self.rholm("spectrum", "old.h5", "--help").out)
 
     def test_quiet_says_nothing(self):
