@@ -133,6 +133,8 @@ double visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllow
 
 NodeWriter::NodeWriter(const NodeOptions& options, const ScaledVertices& vertices, NodeSink& sink)
     : options_(options),
+      undivided_{
+          .degree = options.divided.degree, .allowed = options.divided.allowed, .divided = false},
       vertices_(vertices),
       grazing_(grazing_slope(options.divided.degree)),
       sink_(sink),
@@ -166,7 +168,7 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
   }
   if (!face) return;
   if (grazing) {
-    error2_ += visit_radius(p, d2 / 2, options_.undivided, crowd, 0, 0,
+    error2_ += visit_radius(p, d2 / 2, undivided_, crowd, 0, 0,
                             [&](const Vec3& x, double weight) { sink_.add_undivided(x, weight); });
   } else {
     write_face(p, -dot(n, n) / d2, crowd, distance, 1, 0);

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 
 #include "rholm/vec3.h"
 #include "transform/mesh_pass/node_sink.h"
@@ -13,9 +12,8 @@
 namespace rholm {
 
 struct NodeOptions {
-  NodeAllowance divided;
-  NodeAllowance undivided;
-  double rounding = std::numeric_limits<double>::infinity();  // of the weights of a face
+  NodeAllowance divided;  // also for nodes that are not divided by l(l+1)
+  double rounding = 0;    // largest rounding error of the weights of a face
 };
 
 // Sums half-edges that have met their twins: an edge of two faces gets its nodes once.
@@ -49,6 +47,7 @@ class NodeWriter {
                   double share, int depth);
 
   NodeOptions options_;
+  NodeAllowance undivided_;
   ScaledVertices vertices_;
   double grazing_;  // limit of d_T / r
   NodeSink& sink_;

@@ -41,8 +41,7 @@ class PartWorker<T>::Triangles {
         vertices_{.mesh = mesh_,
                   .center = parameters_.scale * parameters_.center,
                   .scale = parameters_.scale},
-        writer_({worker.plan_.divided, worker.plan_.undivided, worker.plan_.face_rounding},
-                vertices_, sink_),
+        writer_({worker.plan_.divided, worker.plan_.face_rounding}, vertices_, sink_),
         between_(vertices_, sink_),
         lumping2_(std::pow(lumping_error(worker.plan_.divided.degree), 2)) {}
 

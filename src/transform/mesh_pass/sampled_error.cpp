@@ -256,8 +256,6 @@ class Sampler {
                      kFinerRounding * plan.allowed.rounding * plan.block.scale);
     finer_.divided = {
         .degree = options.degree, .allowed = left_ / std::sqrt(elements), .divided = true};
-    finer_.undivided = finer_.divided;
-    finer_.undivided.divided = false;
     finer_.rounding = plan_.face_rounding;
   }
 
@@ -305,7 +303,7 @@ class Sampler {
   void add_rules(const SampledRun& run, double chance, Sources& to) const {
     to.scale = 1 / std::sqrt(chance);
     std::map<std::uint32_t, Lump> lumps;
-    NodeWriter nodes({plan_.divided, plan_.undivided, plan_.face_rounding}, vertices_, to);
+    NodeWriter nodes({plan_.divided, plan_.face_rounding}, vertices_, to);
     for (const SampledTriangle& t : run.triangles) {
       const auto belongs = [&](std::size_t element) {
         return element == 3 ? t.face : t.edges[element];
@@ -330,7 +328,7 @@ class Sampler {
     to.scale = 1 / std::sqrt(run.chance);
     std::map<std::uint32_t, Lump> lumps;
     Divided divided(to);
-    NodeWriter nodes({plan_.divided, plan_.undivided, plan_.face_rounding}, vertices_, divided);
+    NodeWriter nodes({plan_.divided, plan_.face_rounding}, vertices_, divided);
     for (const SampledTriangle& t : run.triangles) {
       add_sources(
           t, nodes, to,

@@ -179,7 +179,6 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   const auto own_nodes = [&] {
     const double element = allowed_of_element(plan, sample, mesh.n_triangles);
     plan.divided = {.degree = degree, .allowed = element, .divided = true};
-    plan.undivided = {.degree = degree, .allowed = element, .divided = false};
     return plan.node_share > 0 ? own_nodes_of(sample, plan.divided) : 0;
   };
   const std::optional<HermiteLumps> hermite =

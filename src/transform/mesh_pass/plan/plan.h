@@ -72,7 +72,7 @@ Quantum choose_quantum(const AllowedErrors& allowed, std::size_t n_vertices, boo
 
 struct MeshPlan {
   BlockParameters block;
-  NodeAllowance divided, undivided;
+  NodeAllowance divided;
   double face_rounding = 0;  // largest rounding error of the weights of a face
   AllowedErrors allowed;
   double neighbours = 1;     // see LumpChoice

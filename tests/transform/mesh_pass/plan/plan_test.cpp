@@ -144,7 +144,6 @@ TEST(plan_mesh, gives_a_coarse_mesh_hessians_or_nodes) {
   EXPECT_TRUE(plan.block.hessians || plan.node_share > 0);
   EXPECT_GT(plan.divided.allowed, 0);
   EXPECT_TRUE(plan.divided.divided);
-  EXPECT_FALSE(plan.undivided.divided);
 }
 
 TEST(plan_mesh, minds_what_a_first_try_has_taught) {
