@@ -167,6 +167,14 @@ void check_only(std::uint64_t points, std::uint64_t max_memory) {
                           static_cast<double>(max_memory) / kGibibyte));
 }
 
+// Returns the bytes of ReconstructOptions::max_memory that are enough for the work on tiles, beside
+// data stored in memory. They include what runs have taken beyond their forecast.
+std::uint64_t enough_for_tiles(std::uint64_t points, std::uint64_t tile_points) {
+  const std::uint64_t of_tile = kMemoryOfPoint * std::min(points, tile_points);
+  return static_cast<std::uint64_t>(kForecastError * (points > tile_points ? kSeveralTiles : 1) *
+                                    static_cast<double>(of_tile));
+}
+
 // Checks the memory that is known before the points themselves decide.
 void check_memory(std::uint64_t points, const ReconstructOptions& options) {
   const auto allowed = static_cast<double>(options.max_memory) / kGibibyte;
@@ -272,12 +280,6 @@ TileForecast foresee_tiles(std::uint64_t points, std::uint64_t tile_points) {
           .memory = std::max(kMemoryOfPoint * std::min(points, tile_points), kMemoryOfAny * points),
           .stored = kStoredOfPoint * points,
           .written = kWrittenOfPoint * points};
-}
-
-std::uint64_t enough_for_tiles(std::uint64_t points, std::uint64_t tile_points) {
-  const std::uint64_t of_tile = kMemoryOfPoint * std::min(points, tile_points);
-  return static_cast<std::uint64_t>(kForecastError * (points > tile_points ? kSeveralTiles : 1) *
-                                    static_cast<double>(of_tile));
 }
 
 Reconstruction reconstruct_tiles(const std::filesystem::path& points, const std::string& columns,

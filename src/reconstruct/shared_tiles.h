@@ -43,8 +43,4 @@ Reconstruction reconstruct_tiles(PointCloud&& points, std::uint64_t dropped,
 void help_reconstruct(const std::filesystem::path& folder, const ReconstructOptions& options,
                       Executor& executor, const Context& context);
 
-// Returns the bytes of ReconstructOptions::max_memory that are enough for the work on tiles, beside
-// data stored in memory. They include what runs have taken beyond their forecast.
-std::uint64_t enough_for_tiles(std::uint64_t points, std::uint64_t tile_points);
-
 }  // namespace rholm

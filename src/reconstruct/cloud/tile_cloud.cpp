@@ -175,9 +175,9 @@ void TileCloud::remove_strays() {
                                         asked ? &neighbors_[tile] : nullptr));
     });
     const std::uint64_t n_strays = strays.count();
-    if (n_strays == 0) return;
-    forget_scenes();  // before copies of all points are made
+    if (n_strays > 0) forget_scenes();  // before copies of all points are made
     stages_.each("strays", n_, [&](std::size_t tile) { strays.remove(tile); });
+    if (n_strays == 0) return;
     report_.outliers += n_strays;
   }
 }

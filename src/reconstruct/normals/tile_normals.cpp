@@ -56,6 +56,17 @@ TileNormalsReport only(const std::vector<TileNormalsReport>& list) {
   return list.front();
 }
 
+// Returns the counts that write_normals() stored.
+TileNormalsReport read_counts(PieceStore& store, std::size_t tile) {
+  return only(store.open(normals_name(tile)).values<TileNormalsReport>(1));
+}
+
+void write_oriented(PieceStore& store, const TileNormalsReport& report) {
+  const std::span<const std::byte> sections[] = {
+      bytes_of(std::span<const TileNormalsReport>(&report, 1))};
+  store.write(kOriented, sections);
+}
+
 }  // namespace
 
 std::vector<TileNormal> read_normals(const PieceStore& store, std::size_t tile) {
@@ -254,8 +265,7 @@ TileNormalsReport TileNormals::report() const {
       .neighbors = static_cast<std::uint64_t>(field_ ? field_->n_neighbors() : n_neighbors_),
       .components = sides_.n_components};
   for (std::size_t tile = 0; tile < plan_.n_tiles(); ++tile) {
-    const TileNormalsReport own =
-        only(store_.open(normals_name(tile)).values<TileNormalsReport>(1));
+    const TileNormalsReport own = read_counts(store_, tile);
     report.points += own.points;
     report.undetermined += own.undetermined;
     report.unsure += own.unsure;
@@ -265,9 +275,7 @@ TileNormalsReport TileNormals::report() const {
 }
 
 void TileNormals::finish(const TileNormalsReport& report) {
-  const std::span<const std::byte> sections[] = {
-      bytes_of(std::span<const TileNormalsReport>(&report, 1))};
-  store_.write(kOriented, sections);
+  write_oriented(store_, report);
   for (std::size_t tile = 0; tile < plan_.n_tiles(); ++tile) {
     store_.remove(directions_name(tile));
     store_.remove(signs_name(tile));
@@ -289,19 +297,15 @@ void orient_only(PieceStore& store, const TileNormalsOptions& options, const Con
   const OrientReport found =
       orient(cloud, {.sensor = options.sensor, .keep_outliers = true, .confidence = true}, context);
   const std::vector<double>& sure = find_attribute(cloud.attributes, "confidence")->values;
-  TileNormalsReport report{.points = cloud.points.size(),
-                           .neighbors = static_cast<std::uint64_t>(found.neighbors),
-                           .components = found.components};
   std::vector<TileNormal> normals(cloud.points.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {
     normals[i] = make_normal(cloud.normals[i], sure[i]);
-    report.undetermined += normals[i].normal() == Vec3{} ? 1 : 0;
-    report.unsure += normals[i].confidence < kUnsure ? 1 : 0;
   }
   write_normals(store, 0, normals);
-  const std::span<const std::byte> sections[] = {
-      bytes_of(std::span<const TileNormalsReport>(&report, 1))};
-  store.write(kOriented, sections);
+  TileNormalsReport report = read_counts(store, 0);
+  report.neighbors = static_cast<std::uint64_t>(found.neighbors);
+  report.components = found.components;
+  write_oriented(store, report);
 }
 
 }  // namespace

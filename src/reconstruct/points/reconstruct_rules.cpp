@@ -40,10 +40,9 @@ std::size_t least_group(std::size_t n) {
 
 void check_spread(std::size_t n, double diagonal) {
   if (n < kFewestPoints) {
-    throw Error(
-        ErrorCode::kInvalidInput,
-        fmt::format("{} different {} too few for a surface: {} at least", n,
-                    n == 1 ? "point with a normal is" : "points with normals are", kFewestPoints));
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{} different {} too few for a surface: {} at least", n,
+                            n == 1 ? "point is" : "points are", kFewestPoints));
   }
   if (!(diagonal > kSmallest && diagonal < kLargest)) {
     throw Error(ErrorCode::kInvalidInput,
