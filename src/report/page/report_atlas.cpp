@@ -130,10 +130,9 @@ std::string map_section(const AtlasData& data, const Context& context) {
   if (data.shape == nullptr) return "";
   const Mesh& surface = data.levels.back().mesh;
   const ErrorMap map = draw_errors(surface, *data.shape, data.options.picture_size, context);
-  std::string caption =
-      fmt::format("Distance from the model to the closest point of {}{}.",
-                  html::escaped(data.options.shape_name),
-                  data.model.unit.empty() ? "" : ", in " + html::escaped(data.model.unit));
+  std::string caption = fmt::format(
+      "Distance from the model to the closest point of {}{}.", name_of_shape(data.options),
+      data.model.unit.empty() ? "" : ", in " + html::escaped(data.model.unit));
   if (map.largest > map.scale.max)
     caption += " One point in 500 is farther and has the last colour.";
   const std::string part = part_of(map.largest, data.model.atlas.diagonal);

@@ -197,7 +197,7 @@ std::string map_caption(const Expansion& expansion, const Data& data, const Repo
   const std::string part = of_diagonal(largest, data);
   std::string text =
       fmt::format("Distance from the model at degree {} to the closest point of {}{}.",
-                  pictures.errors.sides.front().degree, html::escaped(options.shape_name),
+                  pictures.errors.sides.front().degree, name_of_shape(options),
                   expansion.unit.empty() ? "" : ", in " + html::escaped(expansion.unit));
   if (largest > pictures.errors.scale.max) {
     text += " One point in 500 is farther and has the last colour.";

@@ -194,6 +194,10 @@ std::string error_map(const ErrorMap& map, const std::string& surface, const std
          "</figcaption>\n</figure>\n";
 }
 
+std::string name_of_shape(const ReportOptions& options) {
+  return options.shape_name.empty() ? "the shape" : html::escaped(options.shape_name);
+}
+
 std::string size_text(double bytes) {
   constexpr const char* kUnits[] = {"bytes", "kB", "MB", "GB"};
   std::size_t k = 0;

@@ -29,6 +29,9 @@ std::string figure_of(const Picture& picture, const std::string& alt, const std:
 std::string error_map(const ErrorMap& map, const std::string& surface, const std::string& caption,
                       const std::string& unit);
 
+// Returns the name of the shape for a sentence; "the shape" if it has none.
+std::string name_of_shape(const ReportOptions& options);
+
 // Returns a size in powers of 1000, for example "2.5 MB".
 std::string size_text(double bytes);
 // Returns the bytes of the mesh's arrays.
