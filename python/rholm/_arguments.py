@@ -299,13 +299,14 @@ def checked(function: Callable[..., Any], setter_of: str = "") -> Callable[..., 
     setter_of : str
         Name of the property that the function sets, if it is a setter.
     """
-    checks: list[Any] = []
+    checks: tuple[Any, ...] | None = None
     title = setter_of or f"{function.__qualname__.removesuffix('.__init__')}()"
 
     @functools.wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
-        if not checks:  # created at the first call, so that the package is imported fast
-            checks.extend(_checks_of(function))
+        nonlocal checks
+        if checks is None:  # at the first call, so that the package is imported fast
+            checks = _checks_of(function)  # two threads may do this: the results are equal
         positional, named = checks
         taken = list(args)
         for i, ((name, check), value) in enumerate(zip(positional, args, strict=False)):

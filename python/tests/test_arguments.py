@@ -5,6 +5,8 @@ from __future__ import annotations
 import contextlib
 import inspect
 import re
+import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -13,6 +15,24 @@ from conftest import public_names
 from rholm import _arguments, _coefficients, _core, _filters, _sums, harmonics
 
 BINDING = re.compile(r"incompatible function arguments|rholm\._core|std::|nanobind")
+
+
+def test_first_calls_at_once(monkeypatch):
+    at_once = threading.Barrier(4)
+    checks_of = _arguments._checks_of
+
+    def checks_of_all(function):
+        at_once.wait(timeout=60)
+        return checks_of(function)
+
+    def twice(number: int) -> int:
+        return 2 * number
+
+    monkeypatch.setattr(_arguments, "_checks_of", checks_of_all)
+    checked = _arguments.checked(twice)
+    with ThreadPoolExecutor(4) as pool:
+        assert list(pool.map(checked, range(4))) == [0, 2, 4, 6]
+    assert checked(4) == 8
 
 
 def public_functions():
