@@ -256,8 +256,6 @@ class Atlas(Reported):
         >>> a.colored(by="degree").colors.shape[1]
         3
         """
-        if by not in ("cap", "degree"):
-            raise InvalidInputError(f"by is 'cap' or 'degree', not {by!r}")
         surface = self.mesh(**options) if mesh is None else as_mesh(mesh)
         caps = self.dominant_caps(surface.vertices)
         paint = set_cap_colors if by == "cap" else set_degree_colors
@@ -533,8 +531,6 @@ def compress(
     (True, True)
     """
     whole = finite_points(as_shape(shape))[0]
-    if unit not in ("diagonal", "absolute"):
-        raise InvalidInputError(f"unit is 'absolute' or 'diagonal', not {unit!r}")
     factor = whole.bounds.diagonal if unit == "diagonal" else 1.0
     wanted = options_of(_core.CompressOptions, {**options}, "compress", tolerance=tolerance * factor)
     with caller(threads, progress) as how:

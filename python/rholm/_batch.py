@@ -17,7 +17,7 @@ import numpy.typing as npt
 from . import _core
 from ._arguments import public
 from ._arrays import read_only
-from ._errors import CancelledError
+from ._errors import CancelledError, InvalidInputError
 from ._expansion import Expansion
 from ._run import Progress, reporter
 
@@ -174,7 +174,7 @@ class BatchTable:
     ) -> None:
         name = os.fspath(path)
         if not name.endswith(extension):
-            raise ValueError(f"the file is called *{extension}, not {name!r}")
+            raise InvalidInputError(f"the file is called *{extension}, not {name!r}")
         self._core.write(name, coefficients, raw_cells)
 
 
@@ -257,7 +257,7 @@ def batch(
     (array([1., 2., 3.]), array([ 6., 10., 14.]))
     """
     if in_flight < 1:
-        raise ValueError(f"in_flight is at least 1, not {in_flight}")
+        raise InvalidInputError(f"in_flight is at least 1, not {in_flight}")
     kept = _Journal(journal, items, function, job)
     own = ThreadPoolExecutor(os.cpu_count() or 1) if executor is None else None
     rows: list[dict[str, Any]] = []

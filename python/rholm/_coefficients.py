@@ -158,10 +158,6 @@ def power_spectrum(
     >>> bool(np.isclose(energy.sum() / (4 * np.pi), (s.coeffs**2).sum()))
     True
     """
-    if kind not in ("power", "energy"):
-        raise InvalidInputError(f"kind is 'power' or 'energy', not {kind!r}")
-    if unit not in ("per_l", "per_lm", "per_dlogl"):
-        raise InvalidInputError(f"unit is 'per_l', 'per_lm' or 'per_dlogl', not {unit!r}")
     if not (base > 1 and np.isfinite(base)):
         raise InvalidInputError(f"base is {base}; it must be above 1")
     values = _core.power_spectrum(core_of(coefficients))

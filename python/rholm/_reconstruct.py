@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
@@ -101,29 +100,25 @@ def _warn_of_normals(report: _core.ReconstructReport) -> None:
     which the program ends with exit code 4.
     """
     if report.points_off_surface > 0.5:
-        warnings.warn(
+        warn(
             f"{100 * report.points_off_surface:.3g} % of the points lie off the surface, first at "
             f"{report.places_off_surface.tolist()}: they fill a volume, or their noise hides how thick the "
             "body is",
-            stacklevel=3,
         )
     elif report.crossing_length > 0.12:
-        warnings.warn(
+        warn(
             f"sheets of the points cross each other, near {report.crossings.tolist()}: the surface is wrong "
             "there",
-            stacklevel=3,
         )
     elif report.contradicting_normals > 0.5 * report.points**0.5:
-        warnings.warn(
+        warn(
             f"the normals of {report.contradicting_normals} points contradict those around them, first "
             f"at {report.contradictions.tolist()}: the surface may be wrong",
-            stacklevel=3,
         )
     elif report.inward_normals > 0.1:
-        warnings.warn(
+        warn(
             f"{100 * report.inward_normals:.3g} % of the given normals point into the solid: the surface "
             "may be wrong",
-            stacklevel=3,
         )
 
 

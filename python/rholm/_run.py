@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from . import _core
-from ._errors import UnsupportedError
+from ._errors import InvalidInputError, UnsupportedError
 
 #: A callable f(stage, fraction), True for a bar, False for none, None for a bar on terminals.
 Progress = Callable[[str, float], Any] | bool | None
@@ -101,7 +101,7 @@ def caller(threads: int = 0, progress: Progress = None) -> Iterator[_core.Caller
         a bar if standard error is a terminal, and in notebooks.
     """
     if not isinstance(threads, int) or threads < 0:
-        raise ValueError(f"threads is a whole number from 0 on, not {threads!r}")
+        raise InvalidInputError(f"threads is a whole number from 0 on, not {threads!r}")
     with reporter(progress) as report:
         yield _core.Caller(threads, report)
 
@@ -130,4 +130,4 @@ def renamed(old: str, new: str) -> None:
     old, new : str
         The name that was used, and the name that replaces it.
     """
-    warn(f"{old} is {new} now; the next version has no other name for it", DeprecationWarning)
+    warn(f"{old} is {new} now; the next version removes the old name", DeprecationWarning)
