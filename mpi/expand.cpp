@@ -69,7 +69,6 @@ cli::Command expand_command(Ranks* ranks) {
       "Other methods and --weld are options of rholm expand.";
   command.examples = {"mpirun -n 16 rholm-mpi expand huge.ply --degree 480 -o huge.h5",
                       "srun rholm-mpi expand huge.ply --tolerance 1e-3 --unit diagonal -o huge.h5"};
-  command.if_not_star = "Try --center auto, or make a model of any shape with 'rholm compress'";
   return command;
 }
 

@@ -186,7 +186,7 @@ std::vector<Option> option_list(Options& o) {
       {.name = "tolerance",
        .value = "E",
        .help = "largest rms distance between the two surfaces, measured both ways; exit code 4 if "
-               "it is not reached",
+               "it is not reached, 3 without a file if no atlas reaches it",
        .target = &o.tolerance,
        .above = 0},
       {.name = "unit",

@@ -157,7 +157,7 @@ void check_room_to_read(std::uintmax_t bytes, const std::string& path, const Opt
                   display_name(path), *refused));
 }
 
-// Encodes a stream. Input that does not fit in memory is kept in a file.
+// Expands a stream. Input that does not fit in memory is kept in a file.
 Expanded expand_stream(const Options& options, const ExpandOptions& wanted, Session& session) {
   const Stopwatch reading;
   StageTime read_in;
@@ -182,7 +182,7 @@ Expanded expand_stream(const Options& options, const ExpandOptions& wanted, Sess
   return with_time(expand(mesh, wanted, within_memory(faces, kept, options, session)));
 }
 
-// Encodes an input. A mesh that needs no change is mapped, not read.
+// Expands an input. A mesh that needs no change is mapped, not read.
 Expanded expand_input(const Options& options, const ExpandOptions& wanted, const ExpandBy& by,
                       Session& session) {
   if (options.input == "-") return expand_stream(options, wanted, session);
@@ -287,7 +287,7 @@ std::vector<std::string> method_names() {
   return names;
 }
 
-std::vector<Option> transform_options(Options& o) {
+std::vector<Option> method_options(Options& o) {
   return {
       {.name = "method",
        .value = "METHOD",
@@ -322,7 +322,7 @@ std::vector<Option> option_list(Options& o) {
                                .offer = Offer::kShapes},
                               degree_option(o)};
   append(list, tolerance_options(o.tolerance));
-  append(list, transform_options(o));
+  append(list, method_options(o));
   append(list,
          {field_option_of(o.monte_carlo, "samples", random),
           field_option_of(o.monte_carlo, "deviation", random),
@@ -378,7 +378,6 @@ Command expand_command_by(const ExpandBy& by) {
                        "bumpy.h5",
                        "rholm expand bumpy.ply --degree 8 --format shtools -o -"},
           .run = [options, by](Session& session) { return run(*options, by, session); },
-          .if_not_star = "Try --center auto, or make a model of any shape with 'rholm compress'",
           .per_shape = PerShape{.extension = "h5"}};
 }
 

@@ -17,11 +17,11 @@ using ExpandFile =
 
 struct ExpandBy {
   ExpandFile expand_file;
-  // Throws UsageError for an input that the encoder cannot read.
+  // Throws UsageError for an input that the function cannot read.
   std::function<void(const std::string& path)> check_input;
 };
-// Makes the command with this encoder for single expansions; atlases and Monte Carlo methods always
-// use the encoder of this process.
+// Makes the command with this function for expansions. Monte Carlo methods always run in this
+// process.
 Command expand_command_by(const ExpandBy& by);
 
 }  // namespace rholm::cli

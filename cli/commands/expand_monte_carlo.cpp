@@ -39,12 +39,7 @@ MonteCarloOptions monte_carlo_options(const ExpandCommandOptions& options, Sampl
 
 Json json_of_run(const ExpandCommandOptions& options, const MonteCarlo& found,
                  const StarReport& star) {
-  Json json;
-  json["file"] = options.input;
-  json["output"] = options.output;
-  json["degree"] = found.expansion.coefficients.degree();
-  json["method"] = found.expansion.method;
-  json["function"] = to_string(found.expansion.function);
+  Json json = report_head(options, found.expansion);
   json.update(json_of_fields(star));
   json["places"] = found.places;
   json["samples"] = found.samples;

@@ -51,15 +51,18 @@ Json tolerance_json(const ExpandCommandOptions& options, const ToleranceReport& 
 
 }  // namespace
 
+Json report_head(const ExpandCommandOptions& options, const Expansion& expansion) {
+  return {{"file", options.input},
+          {"output", options.output},
+          {"degree", expansion.coefficients.degree()},
+          {"method", expansion.method},
+          {"function", to_string(expansion.function)}};
+}
+
 Json expand_json(const ExpandCommandOptions& options, const ExpandRun& run) {
   const Expanded& expanded = run.expanded;
   const Transform& transform = expanded.transform;
-  Json json;
-  json["file"] = options.input;
-  json["output"] = options.output;
-  json["degree"] = transform.expansion.coefficients.degree();
-  json["method"] = transform.expansion.method;
-  json["function"] = to_string(transform.expansion.function);
+  Json json = report_head(options, transform.expansion);
   json["precision"] = options.expand.values.precision;
   json.update(json_of_fields(expanded.star));
   json["signed"] = options.chart.allow_signed;

@@ -16,6 +16,9 @@ struct ExpandRun {
   StageTimes times;
 };
 
+// Returns the first entries of a report: file, output, degree, method, function.
+Json report_head(const ExpandCommandOptions& options, const Expansion& expansion);
+
 Json expand_json(const ExpandCommandOptions& options, const ExpandRun& run);
 std::string expand_text(const ExpandCommandOptions& options, const ExpandRun& run);
 

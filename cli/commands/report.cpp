@@ -362,8 +362,8 @@ Command report_command() {
               in_groups(option_list(*options), {{Group::kAccuracy, {"degree", "tolerance", "unit"}},
                                                 {Group::kOutput, {"interactive", "size"}},
                                                 {Group::kAdvanced, {"length-unit"}}}),
-          .examples = {"rholm report bumpy.ply --degree 32 --size 160 -o report.html",
-                       "rholm report bumpy.h5 --shape bumpy.ply --size 160 -o report.html"},
+          .examples = {"rholm report bumpy.ply --degree 32 -o report.html",
+                       "rholm report bumpy.h5 --shape bumpy.ply -o report.html"},
           .run = [options](Session& session) { return run(*options, session); },
           .if_not_star = "Make a model with 'rholm compress' and report on it with --shape"};
 }

@@ -13,7 +13,7 @@ std::string describe(const StarReport& report, double diagonal) {
   std::string text = fmt::format(
       "from the centre ({:.9g}, {:.9g}, {:.9g}) the smallest distance to the plane of a "
       "face, min d, is {:.3g} ({:.2g} of the diagonal), "
-      "min cos gamma {:.3g}, and {} triangles turn their back",
+      "min cos gamma {:.3g}, and {} faces turn their backs",
       report.center.x, report.center.y, report.center.z, report.min_d, report.min_d / diagonal,
       report.min_cos_gamma, report.bad_triangles);
   if (report.rays > 0) {
@@ -47,8 +47,8 @@ void refuse(const Mesh& mesh, const StarReport& report, bool allow_signed) {
   }
   throw Error(ErrorCode::kNotStarShaped,
               why + ": " + describe(report, shape.bounds.diagonal()) +
-                  (report.center_fell_back ? "; make" : "; let the centre be found, or make") +
-                  " an atlas of caps, which takes any shape");
+                  (report.center_fell_back ? "" : "; let the centre be found") +
+                  "; 'rholm compress' makes an atlas of caps, which takes any shape");
 }
 
 }  // namespace

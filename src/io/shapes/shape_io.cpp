@@ -25,7 +25,7 @@ const char* foreign_format(std::span<const char> bytes) {
       {{"\x1f\x8b", "a gzip archive: unpack it first"},
        {"PK\x03\x04", "a zip archive (or 3MF): unpack it first"},
        {"glTF", "a binary glTF file"},
-       {"\x89HDF", "an HDF5 file"},
+       {"\x89HDF", "an HDF5 file: coefficients or caps, no shape"},
        {"\xff\xfe", "UTF-16 text: convert it to UTF-8 first"},
        {"\xfe\xff", "UTF-16 text: convert it to UTF-8 first"}}};
   const std::string_view text(bytes.data(), bytes.size());
@@ -114,7 +114,7 @@ void drop_points(const ShapeSource& source, PointCloud& cloud, ShapeFile& file) 
 ShapeFile parse(std::span<const char> bytes, const std::string& name,
                 const ShapeReadOptions& options, const Context& context, double progress_from) {
   const ShapeSource source(bytes, name, options, context, progress_from);
-  if (source.bytes.empty()) source.fail("is empty");
+  if (source.bytes.empty()) source.fail("the file is empty");
   check_columns(options.columns);
   const ShapeFormatLine& format = detect(source);
   if (format.read == nullptr) {

@@ -129,7 +129,7 @@ std::size_t most_numbers(const Subject& subject, const CompressOptions& options)
   }
   throw Error(ErrorCode::kUnsupported,
               fmt::format("no cap follows the surface within {:.3g}: it is too rough for an "
-                          "atlas at this tolerance, or no surface",
+                          "atlas at this tolerance, or no surface; take a larger tolerance",
                           tolerance));
 }
 

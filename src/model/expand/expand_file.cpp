@@ -133,7 +133,8 @@ Expanded expand_file(const std::filesystem::path& path, const ExpandOptions& opt
       warnings->insert(warnings->end(), file.warnings.begin(), file.warnings.end());
     }
     if (Mesh* mesh = std::get_if<Mesh>(&file.shape)) return std::move(*mesh);
-    throw Error(ErrorCode::kInvalidInput, path.string() + " holds points, not a mesh");
+    throw Error(ErrorCode::kInvalidInput,
+                path.string() + " holds points, not a mesh; reconstruct() makes one");
   };
   return expand_file(path, options, context, read);
 }

@@ -184,7 +184,7 @@ TEST(make_star_chart, refuses_what_is_not_a_star_with_the_figures_and_the_way_ou
   ChartOptions options = from_origin();
   options.center.rays = 1000;
   const std::string text = refusal(torus(2, 1, 30, 20), ErrorCode::kNotStarShaped, options);
-  expect_words(text, {"not star-shaped", "(0, 0, 0)", "min d", "cos gamma", "triangles",
+  expect_words(text, {"not star-shaped", "(0, 0, 0)", "min d", "cos gamma", "faces",
                       "of 1000 directions", "atlas of caps", "any shape"});
   EXPECT_EQ(text.find("sum of the radii"), std::string::npos);
 }
