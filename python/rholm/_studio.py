@@ -219,7 +219,7 @@ class Studio:
         """Returns the present state of a shape of the page, exactly: its expansion or atlas if it
         has one.
 
-        A mesh that is not analyzed is returned as a mesh, points as points. `mesh` returns the
+        A mesh without an expansion is returned as a mesh, points as points. `mesh` returns the
         surface of any shape.
 
         Parameters
@@ -321,7 +321,7 @@ def studio(
 ) -> Studio:
     """Shows the studio in a notebook: the page of ``rholm studio``, with these shapes on it.
 
-    In the page you can view, analyze, truncate, smooth, texture, align, blend and compress shapes,
+    In the page you can view, expand, truncate, smooth, texture, align, blend and compress shapes,
     and reconstruct points. ``studio["name"]`` returns the result. Python does the computing: while
     a cell runs the page waits.
 

@@ -93,7 +93,7 @@ it("degrees", async () => {
   await open(shape("asteroid-bennu.ply", "6"));
   await openTab(page, "Degrees");
   await setNumber(page, "Up to degree", 180);
-  await press(page, "Analyse");
+  await press(page, "Expand");
   await slide("Degree", [...Array.from({ length: moves }, (_, k) => (37 * k) % 181), 180]);
   const { degree, "degree (answer)": answer } = await times();
   report("degree slider, to the answer (49 000 faces, L 180)", answer, "");

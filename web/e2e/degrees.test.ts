@@ -37,7 +37,7 @@ beforeAll(async () => {
   await openFile(studio, now.page, "rock.ply");
   await openTab(now.page, "Degrees");
   await setNumber(now.page, "Up to degree", 40);
-  await press(now.page, "Analyse");
+  await press(now.page, "Expand");
 });
 afterAll(async () => {
   await stopStudio(studio);

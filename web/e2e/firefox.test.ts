@@ -93,7 +93,7 @@ describe.skipIf(!firefox)("in Firefox", () => {
     expect(complaints).toEqual([]);
   });
 
-  it("opens a file and analyses it", async () => {
+  it("opens a file and expands it", async () => {
     const input = await page.$("nav input[type=file]");
     await (input as unknown as { uploadFile(path: string): Promise<void> }).uploadFile(
       inFolder(program, "rock.ply"),
@@ -102,7 +102,7 @@ describe.skipIf(!firefox)("in Firefox", () => {
     await settled();
     await press("Degrees");
     await setNumber("Up to degree", 12);
-    await press("Analyse");
+    await press("Expand");
     expect(await page.evaluate(() => document.body.innerText)).toContain("At degree 12");
   });
 

@@ -127,7 +127,7 @@ describe.skipIf(!program)("in JupyterLab", () => {
     const degree = studio.getByLabel("Up to degree, exactly", { exact: true });
     await degree.fill("12");
     await degree.press("Enter");
-    await studio.getByRole("button", { name: "Analyse" }).click();
+    await studio.getByRole("button", { name: "Expand" }).click();
     await studio.locator(".uplot").first().waitFor();
     await run(1);
     await printed("degree 12");

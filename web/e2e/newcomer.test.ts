@@ -77,10 +77,10 @@ it("says where to drop files when nothing is open", async () => {
   expect(await names()).toEqual(["box.ply"]);
 });
 
-it("does not offer to analyse what no centre sees, and says what can be done", async () => {
+it("does not offer to expand what no centre sees, and says what can be done", async () => {
   const { page } = now;
   await openTab(page, "Degrees");
-  expect(await page.getByRole("button", { name: "Analyse" }).count()).toBe(0);
+  expect(await page.getByRole("button", { name: "Expand" }).count()).toBe(0);
   await page.getByText("No centre sees all of this surface").waitFor();
   await picture(page, "not-star-shaped");
   await press(page, "Go to Caps");
@@ -106,7 +106,7 @@ it("does not leave a value in a field that cannot be", async () => {
   expect(await field("Up to degree").inputValue()).toBe("1024");
   await page.getByText("The most is 1024.").waitFor();
   await setNumber(page, "Up to degree", 12);
-  await press(page, "Analyse");
+  await press(page, "Expand");
   for (const [typed, becomes] of [["99", "12"], ["99", "12"], ["-3", "0"], ["x", "0"], ["", "0"], ["7.4", "7"], ["2,6", "3"]] as const) {
     await field("Degree").fill(typed);
     await field("Degree").press("Enter");
@@ -126,7 +126,7 @@ it("figures are of the degree that is shown", async () => {
   await openFile(studio, page, `${long}-first-of-two.ply`);
   await openTab(page, "Degrees");
   await setNumber(page, "Up to degree", 12);
-  await press(page, "Analyse");
+  await press(page, "Expand");
   const value = async (label: string) => {
     await openTab(page, "Figures");
     const row = page.locator(".facts div").filter({ has: page.locator(`dt:text-is("${label}")`) });
@@ -228,7 +228,7 @@ it.each([
   await openFile(studio, page, "asteroid-of-the-belt.ply");
   await openTab(page, "Degrees");
   await setNumber(page, "Up to degree", 32);
-  await press(page, "Analyse");
+  await press(page, "Expand");
   await page.getByLabel("Degrees kept").selectOption("high");
   await page.getByLabel("Degrees kept").selectOption("bands");
   await settled(page);

@@ -52,7 +52,7 @@ beforeEach(async () => {
   };
 });
 
-it("shows a shape, analysed, and three sentences", async () => {
+it("shows a shape, expanded, and three sentences", async () => {
   const { page } = now;
   await page.getByText("· degree 32").waitFor();
   expect(await page.locator(".welcome p").count()).toBe(3);

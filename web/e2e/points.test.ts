@@ -142,10 +142,10 @@ it("of two shapes one is turned onto the other, and what lies between is shown",
   const { page } = now;
   await openFile(studio, page, "egg.ply");
   await openTab(page, "Degrees");
-  await press(page, "Analyse");
+  await press(page, "Expand");
   await openFile(studio, page, "rock.ply");
   await openTab(page, "Degrees");
-  await press(page, "Analyse");
+  await press(page, "Expand");
   await openTab(page, "Align");
   await page.getByLabel("Onto").selectOption({ label: "egg.ply" });
   await settled(page);

@@ -61,7 +61,7 @@ it.skipIf(!module)("of a series that is cut off", async () => {
   await openFile(studio, page, "rock.ply");
   await openTab(page, "Degrees");
   await setNumber(page, "Up to degree", 20);
-  await press(page, "Analyse");
+  await press(page, "Expand");
   await setNumber(page, "Degree", 7);
   expect((await python("cut.ply")).equals(await save("ply"))).toBe(true);
 });

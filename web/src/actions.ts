@@ -33,7 +33,7 @@ export async function start(): Promise<void> {
       // Steps that the page does by itself cannot be undone.
       await step({ op: "make", shape: "bumpy", amplitude: 0.45, seed: 5, first: true }, "Making a shape");
       const made = items.value.at(-1);
-      if (made) await step({ op: "expand", item: made.id, degree: 32, center: "auto", first: true }, "Analysing");
+      if (made) await step({ op: "expand", item: made.id, degree: 32, center: "auto", first: true }, "Expanding");
     }
   } catch (error) {
     fail(error);

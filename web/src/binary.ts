@@ -127,7 +127,7 @@ export function surfaceOf(binary: Binary): Surface {
   const positions = needArray(binary, "positions", Float32Array);
   const triangles = arrayOf(binary, "triangles", Uint32Array);
   const count = positions.length / 3;
-  if (triangles?.some((vertex) => vertex >= count)) throw new Error("a triangle has no such vertex");
+  if (triangles?.some((vertex) => vertex >= count)) throw new Error("a face has no such vertex");
   return {
     positions,
     triangles: triangles?.length ? triangles : null,

@@ -46,7 +46,7 @@ export function decodeViewData(bytes: Uint8Array): ViewData {
   const positions = arrayOf(binary, "positions", Float32Array);
   const triangles = arrayOf(binary, "triangles", Uint32Array);
   if (triangles?.some((vertex) => 3 * vertex >= (positions?.length ?? 0))) {
-    throw new Error("a triangle has no such vertex");
+    throw new Error("a face has no such vertex");
   }
   const mesh = positions && triangles?.length ? { positions, triangles } : null;
   return {

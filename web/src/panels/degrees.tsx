@@ -66,10 +66,10 @@ function NoDegrees({ one }: { one: Item }) {
   );
 }
 
-const canAnalyze = (one: Item) => one.closed && one.star?.star_shaped !== false;
+const canExpand = (one: Item) => one.closed && one.star?.star_shaped !== false;
 
-function Analyze({ one }: { one: Item }) {
-  if (!canAnalyze(one)) return <NoDegrees one={one} />;
+function Expand({ one }: { one: Item }) {
+  if (!canExpand(one)) return <NoDegrees one={one} />;
   return (
     <>
       <Hint>Split the shape into degrees: coarse form first, then detail.</Hint>
@@ -80,11 +80,11 @@ function Analyze({ one }: { one: Item }) {
         onClick={() =>
           step(
             { op: "expand", item: one.id, degree: wanted.value, center: "auto", ...othersChosen("expand") },
-            "Analysing",
+            "Expanding",
           )
         }
       >
-        Analyse
+        Expand
       </Button>
     </>
   );
@@ -240,7 +240,7 @@ function FindDegree({ one }: { one: Item }) {
 export function DegreesPanel() {
   const one = item.value;
   if (!one) return <Hint>Open a shape first.</Hint>;
-  if (!one.expansion) return <Analyze one={one} />;
+  if (!one.expansion) return <Expand one={one} />;
   return (
     <>
       <Filter />
@@ -255,8 +255,8 @@ export function DegreesPanel() {
       <FindDegree one={one} />
       {one.kind === "mesh" && (
         <details>
-          <summary>Analyse again</summary>
-          <Analyze one={one} />
+          <summary>Expand again</summary>
+          <Expand one={one} />
         </details>
       )}
     </>
