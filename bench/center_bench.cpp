@@ -20,7 +20,7 @@ const Context kOneThread{.threads = 1, .progress = {}};
 
 // A mesh that owns float vertices and faces of 13 bytes.
 struct PackedMesh {
-  std::vector<std::byte> vertices, triangles;
+  std::vector<std::byte> vertices, faces;
   MeshView view;
 };
 
@@ -28,24 +28,24 @@ PackedMesh packed(const Mesh& mesh) {
   constexpr std::size_t kVertex = 12, kFace = 13;
   PackedMesh result;
   result.vertices.resize(kVertex * mesh.vertices.size());
-  result.triangles.resize(kFace * mesh.triangles.size());
+  result.faces.resize(kFace * mesh.faces.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3& v = mesh.vertices[i];
     const float row[3] = {static_cast<float>(v.x), static_cast<float>(v.y),
                           static_cast<float>(v.z)};
     std::memcpy(&result.vertices[kVertex * i], row, kVertex);
   }
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    result.triangles[kFace * t] = std::byte{3};
-    std::memcpy(&result.triangles[kFace * t + 1], mesh.triangles[t].data(), 12);
+  for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
+    result.faces[kFace * t] = std::byte{3};
+    std::memcpy(&result.faces[kFace * t + 1], mesh.faces[t].data(), 12);
   }
   result.view = {.vertices = result.vertices.data(),
                  .n_vertices = mesh.vertices.size(),
                  .vertex_stride = kVertex,
                  .coordinate = ScalarType::kFloat32,
-                 .triangles = result.triangles.data() + 1,
-                 .n_triangles = mesh.triangles.size(),
-                 .triangle_stride = kFace};
+                 .faces = result.faces.data() + 1,
+                 .n_faces = mesh.faces.size(),
+                 .face_stride = kFace};
   return result;
 }
 
@@ -70,19 +70,19 @@ void report_per_triangle(benchmark::State& state, std::size_t triangles) {
 
 void copy(benchmark::State& state) {
   const PackedMesh& mesh = bumpy(state.range(0));
-  std::vector<std::byte> vertices = mesh.vertices, triangles = mesh.triangles;
+  std::vector<std::byte> vertices = mesh.vertices, triangles = mesh.faces;
   for (auto _ : state) {
     std::memcpy(vertices.data(), mesh.vertices.data(), vertices.size());
-    std::memcpy(triangles.data(), mesh.triangles.data(), triangles.size());
+    std::memcpy(triangles.data(), mesh.faces.data(), triangles.size());
     benchmark::DoNotOptimize(triangles[triangles.size() / 2]);
   }
-  report_per_triangle(state, mesh.view.n_triangles);
+  report_per_triangle(state, mesh.view.n_faces);
 }
 
 void frame(benchmark::State& state) {
   const MeshView& mesh = bumpy(state.range(0)).view;
   for (auto _ : state) benchmark::DoNotOptimize(local_view(mesh, kOneThread));
-  report_per_triangle(state, mesh.n_triangles);
+  report_per_triangle(state, mesh.n_faces);
 }
 
 // Measures a pass that finds nothing.
@@ -90,9 +90,9 @@ void pass(benchmark::State& state) {
   const LocalView view = local_view(bumpy(state.range(0)).view, kOneThread);
   for (auto _ : state) {
     ScanLimits limits{.distance = 0};
-    scan_below(view, 0, view.mesh.n_triangles, {}, limits, [](std::size_t) {});
+    scan_below(view, 0, view.mesh.n_faces, {}, limits, [](std::size_t) {});
   }
-  report_per_triangle(state, view.mesh.n_triangles);
+  report_per_triangle(state, view.mesh.n_faces);
 }
 
 // Measures the whole search, from bytes to the point.
@@ -103,7 +103,7 @@ void center(benchmark::State& state) {
     found = chebyshev_center(local_view(mesh, kOneThread), kOneThread);
     benchmark::DoNotOptimize(found);
   }
-  report_per_triangle(state, mesh.n_triangles);
+  report_per_triangle(state, mesh.n_faces);
   state.counters["scans"] = found.scans;
 }
 
@@ -115,7 +115,7 @@ void slope(benchmark::State& state) {
     const Vec3 centroid = volume_centroid(view.mesh, view.frame, kOneThread);
     benchmark::DoNotOptimize(least_slope(view, kernel, view.frame.to_local(centroid), kOneThread));
   }
-  report_per_triangle(state, view.mesh.n_triangles);
+  report_per_triangle(state, view.mesh.n_faces);
 }
 
 // Measures one pass for the derivative at one or four places.
@@ -124,10 +124,10 @@ void slope_pass(benchmark::State& state) {
   const LocalView view = local_view(bumpy(state.range(0)).view, kOneThread);
   const SlopeLine line = {.middle = {}, .way = {0.1, 0, 0}, .least = 0.1};
   for (auto _ : state) {
-    benchmark::DoNotOptimize(sum_rises(view, 0, view.mesh.n_triangles, line, {0, 0.3, 0.6, 1},
-                                       kPlaces, [](std::size_t) {}));
+    benchmark::DoNotOptimize(
+        sum_rises(view, 0, view.mesh.n_faces, line, {0, 0.3, 0.6, 1}, kPlaces, [](std::size_t) {}));
   }
-  report_per_triangle(state, view.mesh.n_triangles);
+  report_per_triangle(state, view.mesh.n_faces);
 }
 
 // Measures the centroid of the solid.
@@ -136,7 +136,7 @@ void centroid(benchmark::State& state) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(volume_centroid(view.mesh, view.frame, kOneThread));
   }
-  report_per_triangle(state, view.mesh.n_triangles);
+  report_per_triangle(state, view.mesh.n_faces);
 }
 
 #define RHOLM_SIZES ->Arg(5)->Arg(6)->Arg(8)->Arg(9)->Unit(benchmark::kMillisecond)

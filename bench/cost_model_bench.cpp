@@ -208,13 +208,13 @@ Faces faces_of(const Mesh& mesh, int degree, double precision, double plain) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 5; ++i) {
     result = mesh_pass(view_of(mesh), {.degree = degree, .precision = precision}, kOneThread);
-    least = std::min(least, result.times["triangles"].cpu + result.times["spread"].cpu);
+    least = std::min(least, result.times["faces"].cpu + result.times["spread"].cpu);
   }
-  const double n = static_cast<double>(mesh.triangles.size());
+  const double n = static_cast<double>(mesh.faces.size());
   return {.beyond = 1e9 * least / n - plain,
           .nodes = static_cast<double>(result.report.nodes) / n,
-          .all_lumped = result.report.lumped_triangles == mesh.triangles.size(),
-          .none_lumped = result.report.lumped_triangles == 0};
+          .all_lumped = result.report.lumped_faces == mesh.faces.size(),
+          .none_lumped = result.report.lumped_faces == 0};
 }
 
 void faces() {

@@ -67,12 +67,12 @@ Tried try_body(const test::BodyGenes& genes) {
 void write(const test::RandomBody& body, const char* path) {
   std::FILE* file = std::fopen(path, "w");
   if (file == nullptr) return;
-  std::fprintf(file, "OFF\n%zu %zu 0\n", body.mesh.vertices.size(), body.mesh.triangles.size());
+  std::fprintf(file, "OFF\n%zu %zu 0\n", body.mesh.vertices.size(), body.mesh.faces.size());
   for (const Vec3& vertex : body.mesh.vertices) {
     const Vec3 x = vertex - body.center;
     std::fprintf(file, "%.17g %.17g %.17g\n", x.x, x.y, x.z);
   }
-  for (const Triangle& t : body.mesh.triangles) {
+  for (const Triangle& t : body.mesh.faces) {
     std::fprintf(file, "3 %u %u %u\n", t[0], t[1], t[2]);
   }
   std::fclose(file);
@@ -111,9 +111,8 @@ int main(int argc, char** argv) {
     if (is_worst || beyond || tried.reported < 0.5 * tried.true_error) {
       const test::RandomBody body = test::random_body(tried.genes);
       std::printf("%8llu  %-13s %7zu %4d  %6.0e  %8.3f  %8.3f\n",
-                  static_cast<unsigned long long>(n), body.family.c_str(),
-                  body.mesh.triangles.size(), body.degree, body.precision, tried.true_error,
-                  tried.reported);
+                  static_cast<unsigned long long>(n), body.family.c_str(), body.mesh.faces.size(),
+                  body.degree, body.precision, tried.true_error, tried.reported);
       std::fflush(stdout);
     }
     const auto place = std::upper_bound(

@@ -54,7 +54,7 @@ void measure(const Case& given, int degree, double precision) {
   const MeshPassResult exact = pass(given.mesh, degree, precision, 1e-3);
   // A pass repeated with other rules gives no information about windows.
   if (found.report.nodes != exact.report.nodes ||
-      found.report.lumped_triangles != exact.report.lumped_triangles) {
+      found.report.lumped_faces != exact.report.lumped_faces) {
     return;
   }
   const double error = distance(found.coefficients, exact.coefficients);
@@ -66,7 +66,7 @@ void measure(const Case& given, int degree, double precision) {
   const double rows =
       plan.aligned * plan.node_modulus / (sample.scale * std::sqrt(4 * std::numbers::pi));
   std::printf("| %-22s | %8zu | %3d | %.0e | %.1e | %.3f | %.2f | %2d%s | %.3g | %.3g | %.1e |\n",
-              given.name.c_str(), given.mesh.triangles.size(), degree, precision, error / norm,
+              given.name.c_str(), given.mesh.faces.size(), degree, precision, error / norm,
               error / (plan.allowed.window / sample.scale), plan.aligned, found.report.width,
               found.report.single ? " single" : "", error / (window * norm),
               rows > 0 ? error / (window * rows) : 0.0, found.report.single ? error / moduli : 0.0);
@@ -122,7 +122,7 @@ void compare_turned(const Case& given, int degree, double precision) {
   const Coefficients exact = timed_pass(given.mesh, degree, 0.01 * precision, other).found;
   const double wish = precision * norm_of_degrees(exact, 1, degree);
   std::printf("| %s | %zu | %d | %.0e | %.2f | %.2f | %.2f | %.3f | %.3f |\n", given.name.c_str(),
-              given.mesh.triangles.size(), degree, precision, plain.time, turned.time,
+              given.mesh.faces.size(), degree, precision, plain.time, turned.time,
               turned.time / plain.time, distance(plain.found, exact) / wish,
               distance(turned.found, exact) / wish);
   std::fflush(stdout);

@@ -19,8 +19,8 @@ Mesh octahedron() {
   Mesh mesh;
   mesh.vertices = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   for (std::size_t i = 0; i < 6; ++i) mesh.vertices[i] *= 0.6 + random_uniform(1, i);
-  mesh.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
-                    {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
+  mesh.faces = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
+                {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
   return mesh;
 }
 

@@ -21,7 +21,7 @@ const Context kOneThread{.threads = 1, .progress = {}};
 
 // A mesh that owns float vertices and faces of 13 bytes.
 struct PackedMesh {
-  std::vector<std::byte> vertices, triangles;
+  std::vector<std::byte> vertices, faces;
   MeshView view;
 };
 
@@ -29,24 +29,24 @@ PackedMesh packed(const Mesh& mesh) {
   constexpr std::size_t kVertex = 12, kFace = 13;
   PackedMesh result;
   result.vertices.resize(kVertex * mesh.vertices.size());
-  result.triangles.resize(kFace * mesh.triangles.size());
+  result.faces.resize(kFace * mesh.faces.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3& v = mesh.vertices[i];
     const float row[3] = {static_cast<float>(v.x), static_cast<float>(v.y),
                           static_cast<float>(v.z)};
     std::memcpy(&result.vertices[kVertex * i], row, kVertex);
   }
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    result.triangles[kFace * t] = std::byte{3};
-    std::memcpy(&result.triangles[kFace * t + 1], mesh.triangles[t].data(), 12);
+  for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
+    result.faces[kFace * t] = std::byte{3};
+    std::memcpy(&result.faces[kFace * t + 1], mesh.faces[t].data(), 12);
   }
   result.view = {.vertices = result.vertices.data(),
                  .n_vertices = mesh.vertices.size(),
                  .vertex_stride = kVertex,
                  .coordinate = ScalarType::kFloat32,
-                 .triangles = result.triangles.data() + 1,
-                 .n_triangles = mesh.triangles.size(),
-                 .triangle_stride = kFace};
+                 .faces = result.faces.data() + 1,
+                 .n_faces = mesh.faces.size(),
+                 .face_stride = kFace};
   return result;
 }
 
@@ -68,7 +68,7 @@ void per_triangle(benchmark::State& state, const Run& run) {
   const MeshView& mesh = bumpy(state.range(0));
   for (auto _ : state) benchmark::DoNotOptimize(run(mesh));
   state.counters["per_triangle"] = benchmark::Counter(
-      static_cast<double>(mesh.n_triangles),
+      static_cast<double>(mesh.n_faces),
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
@@ -76,7 +76,7 @@ void scan(benchmark::State& state) {
   const LocalView view = local_view(bumpy(state.range(0)), kOneThread);
   per_triangle(state, [&](const MeshView& mesh) {
     ScanLimits limits{.distance = 0};
-    scan_below(view, 0, mesh.n_triangles, {}, limits, [](std::size_t) {});
+    scan_below(view, 0, mesh.n_faces, {}, limits, [](std::size_t) {});
     return limits.distance;
   });
 }
@@ -105,7 +105,7 @@ double closed_form(const std::array<Vec3, 3>& p) {
 void norms_one_by_one(benchmark::State& state) {
   per_triangle(state, [](const MeshView& mesh) {
     double sum = 0;
-    for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    for (std::size_t t = 0; t < mesh.n_faces; ++t) {
       const Triangle v = mesh.triangle(t);
       sum += closed_form({mesh.vertex(v[0]), mesh.vertex(v[1]), mesh.vertex(v[2])});
     }

@@ -60,8 +60,8 @@ Mesh grid_sphere(double step) {
     for (std::uint32_t k = 0; k < kColumns; ++k) {
       const std::uint32_t a = i * kColumns + k;
       const std::uint32_t b = i * kColumns + (k + 1) % kColumns;
-      mesh.triangles.push_back({a, a + kColumns, b});
-      mesh.triangles.push_back({b, a + kColumns, b + kColumns});
+      mesh.faces.push_back({a, a + kColumns, b});
+      mesh.faces.push_back({b, a + kColumns, b + kColumns});
     }
   }
   return mesh;
@@ -83,12 +83,12 @@ void write_float_ply(const Mesh& mesh, const fs::path& path, bool big_endian) {
                       : "ply\nformat binary_little_endian 1.0\n");
   out.text("element vertex " + std::to_string(mesh.vertices.size()) +
            "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-           std::to_string(mesh.triangles.size()) +
+           std::to_string(mesh.faces.size()) +
            "\nproperty list uchar int vertex_indices\nend_header\n");
   for (const Vec3& v : mesh.vertices) {
     for (const double x : {v.x, v.y, v.z}) put(out, static_cast<float>(x), big_endian);
   }
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     out.text("\3");
     for (const std::uint32_t corner : t) put(out, corner, big_endian);
   }

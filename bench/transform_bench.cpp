@@ -89,7 +89,7 @@ void center_of(benchmark::State& state, CenterKind kind) {
     benchmark::DoNotOptimize(find_center(mesh, {.kind = kind, .rays = 0}, kOneThread));
   }
   state.counters["s/triangle"] =
-      benchmark::Counter(static_cast<double>(state.iterations() * mesh.triangles.size()),
+      benchmark::Counter(static_cast<double>(state.iterations() * mesh.faces.size()),
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK_CAPTURE(center_of, slope, CenterKind::kSlope)->Unit(benchmark::kMillisecond);

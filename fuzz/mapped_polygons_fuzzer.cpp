@@ -25,7 +25,7 @@ void check(std::span<const char> bytes) {
     return;  // coordinates that are not finite
   }
   const auto& mesh = std::get<Mesh>(whole.shape);
-  require(mesh.triangles == triangles);
+  require(mesh.faces == triangles);
   const MeshView& view = polygons->vertices().view();
   require(view.n_vertices == mesh.vertices.size());
   for (std::size_t i = 0; i < view.n_vertices; ++i) require(view.vertex(i) == mesh.vertices[i]);

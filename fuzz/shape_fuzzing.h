@@ -46,7 +46,7 @@ inline void check_round_trip(const ShapeView& shape, ShapeFormat format) {
   const ShapeFile again = parse_shape(bytes, to_string(format));
   const ShapeView read = view_of(again);
   require(all_of(shape.points) == all_of(read.points));
-  require(all_of(shape.triangles) == all_of(read.triangles));
+  require(all_of(shape.faces) == all_of(read.faces));
   if (!shape.is_mesh) {
     require(std::equal(shape.normals.begin(), shape.normals.end(), read.normals.begin(),
                        read.normals.end()));
@@ -66,7 +66,7 @@ inline void check_reader(const std::uint8_t* data, std::size_t size, const std::
   std::visit([](const auto& shape) { validate(shape); }, file.shape);
   // Memory is at most a small multiple of the file: each number takes a byte of it or more.
   const ShapeView shape = view_of(file);
-  require(shape.points.size() <= size && shape.triangles.size() <= size);
+  require(shape.points.size() <= size && shape.faces.size() <= size);
   check_round_trip(shape, ShapeFormat::kPly);
   // Formats that round to float or have no triangles are tested by their own round trips.
   const ShapeFormatInfo& format = shape_format_info(file.format);

@@ -145,7 +145,7 @@ Json by_degree(const Settings& settings) {
       ratios.push_back({{"triangles", triangles}, {"edges", edges}});
     }
     result.push_back(
-        {{"name", body.name}, {"faces", c.shape.chart.mesh.triangles.size()}, {"ratios", ratios}});
+        {{"name", body.name}, {"faces", c.shape.chart.mesh.faces.size()}, {"ratios", ratios}});
   }
   return {{"degrees", degrees}, {"bodies", result}};
 }
@@ -163,7 +163,7 @@ Json figure_four(const Settings& settings) {
     result.push_back({{"name", c.shape.name},
                       {"source", c.shape.source},
                       {"real", c.shape.real},
-                      {"faces", chart.mesh.triangles.size()},
+                      {"faces", chart.mesh.faces.size()},
                       {"degree", c.degree},
                       {"random_edges", random_points(c, SamplePlaces::kEdges, exact)},
                       {"random_triangles", random_points(c, SamplePlaces::kTriangles, exact)},

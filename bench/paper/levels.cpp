@@ -81,7 +81,7 @@ Json figure(const std::string& file, const Subject& shape, const std::vector<int
           {"name", shape.name},
           {"source", shape.source},
           {"real", shape.real},
-          {"faces", shape.chart.mesh.triangles.size()},
+          {"faces", shape.chart.mesh.faces.size()},
           {"star_shaped", shape.chart.report.star_shaped},
           {"once_share", shape.chart.report.once_share},
           {"levels", levels}};

@@ -38,7 +38,7 @@ std::filesystem::path find_file(const Data& data, const std::string& key) {
 Mesh quartered(const Mesh& mesh) {
   Mesh fine;
   fine.vertices = mesh.vertices;
-  fine.triangles.reserve(4 * mesh.triangles.size());
+  fine.faces.reserve(4 * mesh.faces.size());
   std::unordered_map<std::uint64_t, std::uint32_t> middles;
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {
     const std::uint64_t key = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
@@ -47,11 +47,11 @@ Mesh quartered(const Mesh& mesh) {
     if (is_new) fine.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]) / 2);
     return at->second;
   };
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const std::uint32_t a = middle(t[0], t[1]), b = middle(t[1], t[2]), c = middle(t[2], t[0]);
     for (const Triangle& part :
          {Triangle{t[0], a, c}, Triangle{t[1], b, a}, Triangle{t[2], c, b}, Triangle{a, b, c}}) {
-      fine.triangles.push_back(part);
+      fine.faces.push_back(part);
     }
   }
   return fine;
@@ -133,7 +133,7 @@ Subject subject(const std::string& name, const std::string& key, const Data& dat
   mesh.attributes.clear();
   std::string source = path.filename().string();
   std::size_t parts = 1;
-  for (; 2 * mesh.triangles.size() < faces; parts *= 4) mesh = quartered(mesh);
+  for (; 2 * mesh.faces.size() < faces; parts *= 4) mesh = quartered(mesh);
   if (parts > 1) source += fmt::format(", each face cut into {}", parts);
   return {name, source, true, chart_of_file(mesh, context)};
 }
@@ -180,8 +180,8 @@ Mesh octahedron() {
   Mesh mesh;
   mesh.vertices = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   for (std::size_t i = 0; i < 6; ++i) mesh.vertices[i] *= 0.6 + random_uniform(1, i);
-  mesh.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
-                    {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
+  mesh.faces = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
+                {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
   return mesh;
 }
 

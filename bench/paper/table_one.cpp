@@ -83,7 +83,7 @@ constexpr double kLongestRun = 20;
 // Uses two points on each triangle, the smallest possible number.
 Json measure_triangles(const StarChart& chart, int degree, double per_point,
                        const Coefficients& exact) {
-  const double points = 2 * static_cast<double>(chart.mesh.triangles.size());
+  const double points = 2 * static_cast<double>(chart.mesh.faces.size());
   Json result = {{"points", points},
                  {"cpu_seconds", points * per_point},
                  {"expected_error", expected_triangle_error(chart, degree, 2) / exact.c(0, 0)}};
@@ -127,7 +127,7 @@ Json measure_row(const Row& row, const Settings& settings) {
                  {"real", shape.real},
                  {"star_shaped", chart.report.star_shaped},
                  {"points", row.points},
-                 {"faces", chart.mesh.triangles.size()},
+                 {"faces", chart.mesh.faces.size()},
                  {"vertices", chart.mesh.vertices.size()},
                  {"degree", degree},
                  {"paper",

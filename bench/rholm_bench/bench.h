@@ -44,7 +44,7 @@ struct BenchRuns {
   // Times of stages. "norms" are the norms, "coefficients" everything else. "write" is the time of
   // writing a model file. Parts of "coefficients" are "read" (mapping or reading the file), "order"
   // (of triangles in random order), "topology" and "center". Meshes used in place have no "center".
-  // Other parts are "triangles", "spread", "fourier" and "verify".
+  // Other parts are "faces", "spread", "fourier" and "verify".
   Timings stages;
   // Wall time at the first number of threads over wall time at this one: median over pairs of runs.
   double speedup = 1;

@@ -61,7 +61,7 @@ Reference bench_reference(const std::filesystem::path& path, const Vec3& center,
   // Mapping counts triangles where it matters, in large files; small files may be read twice.
   const auto mapped = map_mesh(path, context);
   const double triangles =
-      mapped ? static_cast<double>(mapped->view().n_triangles)
+      mapped ? static_cast<double>(mapped->view().n_faces)
              : static_cast<double>(std::filesystem::file_size(path)) / 13;  // the least per face
   Reference reference;
   const auto nodes = static_cast<std::size_t>(kNodesPerTriangle * triangles);

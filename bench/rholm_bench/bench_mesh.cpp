@@ -52,7 +52,7 @@ std::string header(const Mesh& mesh, const char* type) {
   return fmt::format(
       "ply\nformat binary_{}_endian 1.0\nelement vertex {}\nproperty {} x\nproperty {} y\n"
       "property {} z\nelement face {}\nproperty list uchar uint vertex_indices\nend_header\n",
-      order, mesh.vertices.size(), type, type, type, mesh.triangles.size());
+      order, mesh.vertices.size(), type, type, type, mesh.faces.size());
 }
 
 }  // namespace
@@ -73,8 +73,8 @@ Mesh smooth_mesh(int triangles) {
 
 void shuffle(Mesh& mesh) {
   std::mt19937_64 random(1);
-  for (std::size_t i = mesh.triangles.size(); i > 1; --i) {
-    std::swap(mesh.triangles[i - 1], mesh.triangles[random() % i]);
+  for (std::size_t i = mesh.faces.size(); i > 1; --i) {
+    std::swap(mesh.faces[i - 1], mesh.faces[random() % i]);
   }
 }
 
@@ -101,7 +101,7 @@ TemporaryMesh::TemporaryMesh(const Mesh& mesh, const std::filesystem::path& fold
     }
     flush(kFlush);
   }
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     append(bytes, std::uint8_t{3});
     for (const std::uint32_t index : t) append(bytes, index);
     flush(kFlush);

@@ -32,7 +32,7 @@ std::vector<Row> stage_rows(const Timings& stages) {
       {"topology", "- join, pair edges"},
       {"center", "- check the centre"},
       {"order", "- sort the triangles"},
-      {"triangles", "- triangles"},
+      {"faces", "- triangles"},
       {"spread", "- spread"},
       {"fourier", "- Fourier and Legendre"},
       {"verify", "- measured error"},

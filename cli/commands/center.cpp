@@ -34,8 +34,7 @@ int run(const Options& options, Session& session) {
   const Prepared prepared = prepare(read_mesh(options.input, session), options.weld);
   if (prepared.flipped) session.note(kFlipped);
   const StarReport report = find_center(prepared.mesh, wanted, session.context());
-  const std::size_t duplicates =
-      report.star_shaped ? 0 : inspect(prepared.mesh).duplicate_triangles;
+  const std::size_t duplicates = report.star_shaped ? 0 : inspect(prepared.mesh).duplicate_faces;
   if (options.json) {
     Json json;
     json["file"] = options.input;
@@ -55,7 +54,7 @@ int run(const Options& options, Session& session) {
     session.warn(
         fmt::format("{} of {} faces are duplicates: they have the same three vertices as other "
                     "faces. Remove them with 'rholm repair'",
-                    duplicates, prepared.mesh.triangles.size()));
+                    duplicates, prepared.mesh.faces.size()));
   }
   return report.star_shaped ? kDone : kRefused;
 }

@@ -40,9 +40,7 @@ constexpr double kMemoryPerByte = 9;
 // faces share corners (scripts/memory-figures).
 constexpr MemoryOfMesh kCompared = {.vertex = 83, .face = 145};
 
-double memory_of(const Mesh& mesh) {
-  return kCompared.of(mesh.vertices.size(), mesh.triangles.size());
-}
+double memory_of(const Mesh& mesh) { return kCompared.of(mesh.vertices.size(), mesh.faces.size()); }
 
 Json report_json(const Options& options, const Comparison& c) {
   Json json = {{"a", options.a}, {"b", options.b}};
@@ -87,7 +85,7 @@ struct Place {
     return mapped ? rholm::in_place(*mapped) : MeshInPlace{.mesh = view_of(mesh)};
   }
   std::size_t memory() const {
-    return mesh.vertices.size() * sizeof(Vec3) + mesh.triangles.size() * sizeof(Triangle);
+    return mesh.vertices.size() * sizeof(Vec3) + mesh.faces.size() * sizeof(Triangle);
   }
 };
 

@@ -71,11 +71,11 @@ Mesh prepared_mesh(const Options& o, ShapeFile file, Session& session) {
   if (shape.flipped) session.note(kFlipped);
   Mesh& mesh = shape.welded.mesh;
   const Inspection state = inspect(mesh);
-  if (state.misoriented_edges + state.duplicate_triangles > 0) {
+  if (state.misoriented_edges + state.duplicate_faces > 0) {
     session.warn(
         fmt::format("{}: faces have opposite orientations at {} edges, {} faces are duplicates, "
                     "and caps follow both sides; repair it with 'rholm repair'",
-                    display_name(o.input), state.misoriented_edges, state.duplicate_triangles));
+                    display_name(o.input), state.misoriented_edges, state.duplicate_faces));
   }
   return std::move(mesh);
 }

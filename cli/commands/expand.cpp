@@ -96,7 +96,7 @@ void require_pass(double triangles, double kept, const Options& options) {
 }
 
 Context within_memory(const MappedMesh& mesh, const Options& options, const Session& session) {
-  const auto n = static_cast<double>(mesh.view().n_triangles);
+  const auto n = static_cast<double>(mesh.view().n_faces);
   require_pass(n, 0, options);
   return within_memory(n, 0, options, session);
 }
@@ -123,8 +123,8 @@ double memory_to_read_and_expand(const std::string& path, const Options& options
 void check_read_mesh(const Mesh& mesh, const Options& options) {
   if (!options.memory.gib) return;
   const auto vertices = static_cast<double>(mesh.vertices.size());
-  const auto faces = static_cast<double>(mesh.triangles.size());
-  const double paired = paired_mesh(options).of(mesh.vertices.size(), mesh.triangles.size());
+  const auto faces = static_cast<double>(mesh.faces.size());
+  const double paired = paired_mesh(options).of(mesh.vertices.size(), mesh.faces.size());
   note_enough_memory(paired + most_of_work(options));
   if (may_stay(vertices, faces, options)) {
     require_pass(faces, sizeof(Vec3) * vertices + sizeof(Triangle) * faces, options);
@@ -177,8 +177,8 @@ Expanded expand_stream(const Options& options, const ExpandOptions& wanted, Sess
   read_in = reading.elapsed();
   check_read_mesh(mesh, options);
   const double kept = static_cast<double>(sizeof(Vec3) * mesh.vertices.size() +
-                                          sizeof(Triangle) * mesh.triangles.size());
-  const auto faces = static_cast<double>(mesh.triangles.size());
+                                          sizeof(Triangle) * mesh.faces.size());
+  const auto faces = static_cast<double>(mesh.faces.size());
   return with_time(expand(mesh, wanted, within_memory(faces, kept, options, session)));
 }
 

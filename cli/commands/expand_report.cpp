@@ -19,8 +19,8 @@ namespace {
 
 Json times_json(const ExpandRun& run, double StageTime::*clock) {
   Json json;
-  for (const char* stage : {"read", "topology", "center", "transform", "order", "triangles",
-                            "spread", "fourier", "verify", "norms", "rays", "errors", "write"}) {
+  for (const char* stage : {"read", "topology", "center", "transform", "order", "faces", "spread",
+                            "fourier", "verify", "norms", "rays", "errors", "write"}) {
     const auto found = run.times.find(stage);
     json[stage] = found == run.times.end() ? 0.0 : found->second.*clock;
   }
@@ -81,7 +81,7 @@ Json expand_json(const ExpandCommandOptions& options, const ExpandRun& run) {
     json["face_nodes"] = transform.face_nodes;
   }
   json["merged_vertices"] = expanded.merged_vertices;
-  json["collapsed_faces"] = expanded.collapsed_triangles;
+  json["collapsed_faces"] = expanded.collapsed_faces;
   json["flipped"] = expanded.flipped;
   json["closure_residual"] = json_of(transform.closure_residual);
   json["norm_squared"] = json_of(transform.expansion.norm_squared);

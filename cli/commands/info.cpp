@@ -68,30 +68,15 @@ struct MeshReport {
 Json mesh_json(const MeshReport& report, double tolerance) {
   const Inspection& i = report.inspection;
   Json json;
-  json["counts"] = {{"vertices", i.vertices}, {"faces", i.triangles}, {"edges", i.edges}};
+  json["counts"] = {{"vertices", i.vertices}, {"faces", i.faces}, {"edges", i.edges}};
   json["as_read"] = {{"vertices", report.vertices_read}, {"faces", report.faces_read}};
   json["weld"] = {{"tolerance", tolerance},
                   {"merged_vertices", report.welded.merged_vertices},
-                  {"collapsed_faces", report.welded.collapsed_triangles}};
-  json["closed"] = i.closed;
-  json["boundary_edges"] = i.boundary_edges;
-  json["closes_at"] = json_of(report.closes_at);
-  json["manifold"] = i.manifold;
-  json["non_manifold_edges"] = i.non_manifold_edges;
-  json["non_manifold_vertices"] = i.non_manifold_vertices;
-  json["oriented"] = i.oriented;
-  json["misoriented_edges"] = i.misoriented_edges;
-  json["inside_out"] = i.inside_out;
-  json["components"] = i.components;
-  json["euler_characteristic"] = i.euler_characteristic;
-  json["genus"] = i.closed && i.manifold ? Json(i.genus) : Json(nullptr);
+                  {"collapsed_faces", report.welded.collapsed_faces}};
+  json.update(json_of(i));
+  for (const char* counted : {"vertices", "faces", "edges"}) json.erase(counted);
   json["isolated_vertices"] = report.isolated();
-  json["degenerate_faces"] = i.degenerate_triangles;
-  json["duplicate_faces"] = i.duplicate_triangles;
-  json["bounds"] = json_of(i.bounds);
-  json["area"] = i.area;
-  json["volume"] = report.solid() ? Json(i.volume) : Json(nullptr);
-  json["volume_centroid"] = report.solid() ? json_of(i.volume_centroid) : Json(nullptr);
+  json["closes_at"] = json_of(report.closes_at);
   json["attributes"] = json_of(report.welded.mesh.attributes);
   return json;
 }
@@ -121,9 +106,9 @@ std::string advice_text(const MeshReport& report) {
                                     *report.closes_at));
   }
   const bool damaged = i.boundary_edges + i.non_manifold_edges + i.non_manifold_vertices +
-                           i.misoriented_edges + i.degenerate_triangles + i.duplicate_triangles >
+                           i.misoriented_edges + i.degenerate_faces + i.duplicate_faces >
                        0;
-  if (damaged && i.triangles > 0) text += line("repair with", "rholm repair");
+  if (damaged && i.faces > 0) text += line("repair with", "rholm repair");
   return text;
 }
 
@@ -133,8 +118,8 @@ std::string mesh_text(const MeshReport& report) {
   text += line("vertices",
                fmt::format("{} ({} in the file, {} merged, {} in no face)", i.vertices,
                            report.vertices_read, report.welded.merged_vertices, report.isolated()));
-  text += line("faces", fmt::format("{} ({} in the file, {} collapsed)", i.triangles,
-                                    report.faces_read, report.welded.collapsed_triangles));
+  text += line("faces", fmt::format("{} ({} in the file, {} collapsed)", i.faces, report.faces_read,
+                                    report.welded.collapsed_faces));
   text += line("edges", fmt::format("{}", i.edges));
   text += line("closed", yes_or(i.closed, counted(i.boundary_edges, "boundary edge")));
   text += line("manifold", manifold_text(i));
@@ -143,12 +128,12 @@ std::string mesh_text(const MeshReport& report) {
   text += line("inside out", i.inside_out ? "yes (expand turns it right side out)" : "no");
   text += line("components", fmt::format("{}", i.components));
   if (i.closed && i.manifold) text += line("genus", fmt::format("{}", i.genus));
-  text += line("degenerate", counted(i.degenerate_triangles, "face") +
-                                 " thinner than the rounding of coordinates");
-  text += line("duplicate", counted(i.duplicate_triangles, "face"));
+  text += line("degenerate",
+               counted(i.degenerate_faces, "face") + " thinner than the rounding of coordinates");
+  text += line("duplicate", counted(i.duplicate_faces, "face"));
   text += line("bounds", fmt::format("{} to {}", text_of(i.bounds.min), text_of(i.bounds.max)));
   text += line("diagonal", measure_text(i.bounds.diagonal(), false));
-  const bool has_area = i.degenerate_triangles < i.triangles;
+  const bool has_area = i.degenerate_faces < i.faces;
   text += line("area", measure_text(i.area, has_area));
   // A flat solid has no volume. A volume too small for the area cannot be computed.
   text += line("volume", report.solid() ? measure_text(i.volume, has_area && i.area < 1e-200)
@@ -212,7 +197,7 @@ int report_shape(const Options& options, const ShapeFile& file) {
                             welded,
                             inspect(welded.mesh),
                             mesh->vertices.size(),
-                            mesh->triangles.size(),
+                            mesh->faces.size(),
                             closing_tolerance(welded.mesh)};
     json.update(mesh_json(report, options.weld));
     text += mesh_text(report);
@@ -231,7 +216,7 @@ int report_shape(const Options& options, const ShapeFile& file) {
 std::string survey_text(const MeshView& mesh, const MeshSurvey& survey, double needed) {
   const auto gib = fmt::format("unknown: about {:.2g} GiB are needed", needed / 0x1p30);
   return line("vertices", fmt::format("{}", mesh.n_vertices)) +
-         line("faces", fmt::format("{}", mesh.n_triangles)) +
+         line("faces", fmt::format("{}", mesh.n_faces)) +
          line("closed", survey.closed ? "yes" : "no, or not oriented, or its vertices not joined") +
          line("topology", gib) +
          line("bounds",
@@ -253,7 +238,7 @@ bool report_large_mesh(const Options& options, double needed, Session& session) 
   json["kind"] = "mesh";
   json["format"] = "ply";
   json["topology"] = nullptr;
-  json["counts"] = {{"vertices", view.n_vertices}, {"faces", view.n_triangles}};
+  json["counts"] = {{"vertices", view.n_vertices}, {"faces", view.n_faces}};
   json["closed"] = survey.closed;
   json["bounds"] = json_of(survey.bounds);
   json["area"] = survey.area;
@@ -420,7 +405,7 @@ int run(const Options& options, Session& session) {
   const Input input = read_input(options.input, session, options.convention, options.columns);
   if (const auto* file = std::get_if<ShapeFile>(&input)) {
     if (const auto* mesh = std::get_if<Mesh>(&file->shape)) {
-      options.memory.require(kLookedAt.of(mesh->vertices.size(), mesh->triangles.size()),
+      options.memory.require(kLookedAt.of(mesh->vertices.size(), mesh->faces.size()),
                              "looking at " + display_name(options.input));
     }
     return report_shape(options, *file);

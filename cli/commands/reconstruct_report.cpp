@@ -92,8 +92,8 @@ void judge_normals(const ReconstructReport& r) {
 
 Json json_of(const ReconstructReport& r, bool confidence) {
   Json json = json_of_fields(r);
-  json["full_faces"] = r.faces;
-  json["faces"] = r.triangles;
+  json["full_faces"] = r.full_faces;
+  json["faces"] = r.faces;
   json["diagonal"] = r.bounds.diagonal();
   json["foreseen_memory"] = r.memory;
   for (const char* key : {"memory", "stored", "bounds", "times", "warnings", "contradictions",
@@ -156,8 +156,8 @@ std::string report_text(const ReconstructReport& r, const ReconstructOptions& op
   if (r.cut_handles > 0) text += line("small handles", fmt::format("{} cut", r.cut_handles));
   if (r.dropped_components > 0)
     text += line("small parts", fmt::format("{} dropped", r.dropped_components));
-  if (r.triangles < r.faces) {
-    text += line("simplified", fmt::format("from {} faces, moved by at most {}", r.faces,
+  if (r.faces < r.full_faces) {
+    text += line("simplified", fmt::format("from {} faces, moved by at most {}", r.full_faces,
                                            relative(r.simplify_error)));
   }
   if (options.confidence) {
@@ -167,7 +167,7 @@ std::string report_text(const ReconstructReport& r, const ReconstructOptions& op
                              100 * r.unseen_area, 100 * r.thin_area, 100 * r.unsure_area));
   }
   return text + line("surface", fmt::format("{}, {}", counted(r.vertices, "vertex", "vertices"),
-                                            counted(r.triangles, "face")));
+                                            counted(r.faces, "face")));
 }
 
 void judge(const ReconstructReport& report, bool filled, Session& session) {

@@ -12,6 +12,7 @@
 #include "cli/files/prepare.h"
 #include "cli/grammar/parse.h"
 #include "cli/options/field_options.h"
+#include "cli/terminal/field_json.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
@@ -29,49 +30,13 @@ struct Options {
   bool json = false;
 };
 
-Json state_json(const Inspection& i) {
-  return {{"vertices", i.vertices},
-          {"faces", i.triangles},
-          {"edges", i.edges},
-          {"closed", i.closed},
-          {"boundary_edges", i.boundary_edges},
-          {"manifold", i.manifold},
-          {"non_manifold_edges", i.non_manifold_edges},
-          {"non_manifold_vertices", i.non_manifold_vertices},
-          {"oriented", i.oriented},
-          {"misoriented_edges", i.misoriented_edges},
-          {"components", i.components},
-          {"genus", i.closed && i.manifold ? Json(i.genus) : Json(nullptr)},
-          {"degenerate_faces", i.degenerate_triangles},
-          {"duplicate_faces", i.duplicate_triangles},
-          {"area", i.area},
-          {"volume", i.closed && i.oriented ? Json(i.volume) : Json(nullptr)}};
-}
-
 Json report_json(const RepairReport& r, const Options& options) {
-  Json json;
-  json["file"] = options.input;
-  json["weld"] = {{"tolerance", options.repair.weld},
-                  {"merged_vertices", r.merged_vertices},
-                  {"collapsed_faces", r.collapsed_triangles}};
-  json["dropped"] = {{"isolated_vertices", r.isolated_vertices},
-                     {"duplicate_faces", r.duplicate_triangles},
-                     {"degenerate_faces", r.degenerate_triangles}};
-  json["junctions"] = r.junctions;
-  json["split_vertices"] = r.split_vertices;
-  json["turned_faces"] = r.flipped_triangles;
-  json["turned_parts"] = r.inside_out_parts;
-  json["cavities"] = r.cavities;
-  json["holes"] = {{"max_edges", options.repair.max_hole},
-                   {"closed", r.closed_holes},
-                   {"new_faces", r.hole_triangles}};
-  json["left"] = {{"large_holes", r.large_holes},
-                  {"largest_hole_edges", r.largest_hole},
-                  {"open_sheets", r.sheets},
-                  {"one_sided_parts", r.one_sided_parts}};
-  json["closes_at"] = json_of(r.closes_at);
-  json["before"] = state_json(r.before);
-  json["after"] = state_json(r.after);
+  Json json = {{"file", options.input},
+               {"weld", options.repair.weld},
+               {"max_hole", options.repair.max_hole}};
+  json.update(json_of_fields(r));
+  json["before"] = json_of(r.before);
+  json["after"] = json_of(r.after);
   return json;
 }
 
@@ -88,9 +53,8 @@ std::string state_of(const Inspection& i) {
   std::string text = i.closed ? "closed" : "open, " + counted(i.boundary_edges, "boundary edge");
   text += i.manifold ? ", manifold" : ", not manifold";
   text += i.oriented ? ", oriented" : ", faces disagree at " + counted(i.misoriented_edges, "edge");
-  add(text, i.duplicate_triangles, counted(i.duplicate_triangles, "duplicate face"));
-  add(text, i.degenerate_triangles,
-      counted(i.degenerate_triangles, "face") + " thinner than rounding");
+  add(text, i.duplicate_faces, counted(i.duplicate_faces, "duplicate face"));
+  add(text, i.degenerate_faces, counted(i.degenerate_faces, "face") + " thinner than rounding");
   text += ", " + counted(i.components, "component");
   if (i.closed && i.oriented) text += ", volume " + text_of(i.volume);
   return text;
@@ -98,9 +62,8 @@ std::string state_of(const Inspection& i) {
 
 std::string dropped_text(const RepairReport& r) {
   std::string list;
-  add(list, r.duplicate_triangles, counted(r.duplicate_triangles, "duplicate face"));
-  add(list, r.degenerate_triangles,
-      counted(r.degenerate_triangles, "face") + " thinner than rounding");
+  add(list, r.duplicate_faces, counted(r.duplicate_faces, "duplicate face"));
+  add(list, r.degenerate_faces, counted(r.degenerate_faces, "face") + " thinner than rounding");
   add(list, r.isolated_vertices,
       counted(r.isolated_vertices, "vertex", "vertices") + " in no face");
   return list_or(list, "nothing");
@@ -108,7 +71,7 @@ std::string dropped_text(const RepairReport& r) {
 
 std::string turned_text(const RepairReport& r) {
   std::string list;
-  add(list, r.flipped_triangles, counted(r.flipped_triangles, "face"));
+  add(list, r.flipped_faces, counted(r.flipped_faces, "face"));
   add(list, r.inside_out_parts, counted(r.inside_out_parts, "closed part") + " as a whole");
   return list_or(list, "nothing");
 }
@@ -118,7 +81,7 @@ std::string report_text(const RepairReport& r) {
   text += line("before", state_of(r.before));
   text += line("welded",
                fmt::format("{}, {} collapsed", counted(r.merged_vertices, "vertex", "vertices"),
-                           counted(r.collapsed_triangles, "face")));
+                           counted(r.collapsed_faces, "face")));
   text += line("dropped", dropped_text(r));
   if (r.junctions > 0) {
     text += line("joined", counted(r.junctions, "vertex", "vertices") + " on edges of other faces");
@@ -131,7 +94,7 @@ std::string report_text(const RepairReport& r) {
     text += line("cavities", counted(r.cavities, "part") + " within others, facing inwards");
   }
   text += line("holes closed",
-               fmt::format("{}, with {}", r.closed_holes, counted(r.hole_triangles, "new face")));
+               fmt::format("{}, with {}", r.closed_holes, counted(r.hole_faces, "new face")));
   return text + line("after", state_of(r.after));
 }
 
@@ -152,9 +115,9 @@ void warn_of_rest(const RepairReport& r, const Options& options, Session& sessio
         "{} left unchanged: surfaces with one side, for example Moebius strips, cannot be oriented",
         counted(r.one_sided_parts, "part")));
   }
-  if (r.after.degenerate_triangles > 0) {
+  if (r.after.degenerate_faces > 0) {
     session.warn(fmt::format("{} thinner than rounding left unchanged",
-                             counted(r.after.degenerate_triangles, "face")));
+                             counted(r.after.degenerate_faces, "face")));
   }
   if (r.after.non_manifold_edges + r.after.non_manifold_vertices > 0) {
     session.warn(fmt::format("still not manifold: {}, {}",
@@ -173,7 +136,7 @@ int run(const Options& options, Session& session) {
   const Mesh mesh = read_mesh(options.input, session);
   const Repaired result = repair(mesh, options.repair, session.context());
   stop_if_interrupted();
-  if (result.mesh.triangles.empty()) {
+  if (result.mesh.faces.empty()) {
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("{} has no face with an area, and nothing can be written",
                             display_name(options.input)));

@@ -36,8 +36,8 @@ constexpr double kHardlyAnything = 0.02;
 
 double mean_edge(const Mesh& mesh) {
   double sum = 0;
-  const auto n = static_cast<double>(3 * mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
+  const auto n = static_cast<double>(3 * mesh.faces.size());
+  for (const Triangle& t : mesh.faces) {
     for (int k = 0; k < 3; ++k) {
       const Vec3 edge = mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]];
       sum += std::hypot(edge.x, edge.y, edge.z) / n;
@@ -47,7 +47,7 @@ double mean_edge(const Mesh& mesh) {
 }
 
 SimplifyOptions library_options(const Options& o, SimplifyOptions wanted, const Mesh& mesh) {
-  const bool automatic = wanted.triangles == 0 && wanted.share == 0;
+  const bool automatic = wanted.faces == 0 && wanted.share == 0;
   if (o.max_error) {
     wanted.max_error = *o.max_error;
   } else if (automatic) {
@@ -68,18 +68,18 @@ int run(const Options& options, Session& session) {
   const ShapeFormat format = mesh_output(options.output, options.format, options.json);
   check_writable(options.output);
   Mesh mesh = weld(read_mesh(options.input, session)).mesh;
-  if (mesh.triangles.empty()) {
+  if (mesh.faces.empty()) {
     throw Error(
         ErrorCode::kInvalidInput,
         fmt::format("{} has no face: there is nothing to simplify", display_name(options.input)));
   }
-  const std::size_t faces_before = mesh.triangles.size(), vertices_before = mesh.vertices.size();
+  const std::size_t faces_before = mesh.faces.size(), vertices_before = mesh.vertices.size();
   const double diagonal = bounds(mesh.vertices).diagonal();
   const SimplifyOptions wanted = library_options(options, faces, mesh);
   const Simplification result = simplify(std::move(mesh), wanted, session.context());
   stop_if_interrupted();
   write_shape_output(result.mesh, options.output, {format, options.ascii}, session);
-  const std::size_t n = result.mesh.triangles.size();
+  const std::size_t n = result.mesh.faces.size();
   if (options.json) {
     print_json({{"file", options.input},
                 {"faces_before", faces_before},
@@ -97,11 +97,11 @@ int run(const Options& options, Session& session) {
                                   "({} of the diagonal)",
                                   text_of(result.error), text_of(result.error / diagonal))));
   }
-  if (faces.triangles > 0 && n > faces.triangles) {
+  if (faces.faces > 0 && n > faces.faces) {
     session.warn(
         fmt::format("{} faces are left, more than {}: the surface would turn over or lose "
                     "its shape",
-                    n, faces.triangles));
+                    n, faces.faces));
   }
   return 0;
 }

@@ -79,12 +79,12 @@ int write_surface(const AtlasModel& model, const AtlasSynthesisOptions& wanted, 
     Json json;
     json["file"] = o.input;
     json["output"] = o.output;
-    json["counts"] = {{"vertices", surface.vertices.size()}, {"faces", surface.triangles.size()}};
+    json["counts"] = {{"vertices", surface.vertices.size()}, {"faces", surface.faces.size()}};
     json["resolution"] = wanted.step > 0 ? wanted.step : model.step;
     print_json(json);
   } else {
     session.note(fmt::format("{} and {}", counted(surface.vertices.size(), "vertex", "vertices"),
-                             counted(surface.triangles.size(), "face")));
+                             counted(surface.faces.size(), "face")));
   }
   return 0;
 }
@@ -152,7 +152,7 @@ int run(const Options& options, Session& session) {
 
   Json json;
   json["file"] = options.input;
-  json["counts"] = {{"vertices", sphere.vertices.size()}, {"faces", sphere.triangles.size()}};
+  json["counts"] = {{"vertices", sphere.vertices.size()}, {"faces", sphere.faces.size()}};
   json["outputs"] = Json::array();
   for (std::size_t i = 0; i < degrees.size(); ++i) {
     const std::string path = output_for(options.output, degrees[i], several);

@@ -52,7 +52,9 @@ Guess guess(std::span<const char> head, const std::string& path) {
   }
   const std::optional<bool> shape = is_shape_file(head, path);
   if (!shape) return Guess::kUnknown;
-  return *shape ? Guess::kShape : Guess::kCoefficients;
+  if (*shape) return Guess::kShape;
+  // An extension alone makes neither coefficients of an empty file nor a model of other bytes.
+  return head.empty() || is_model_name(path) ? Guess::kUnknown : Guess::kCoefficients;
 }
 
 // Returns "a gravity_field, no shape".

@@ -27,7 +27,7 @@ std::optional<SimplifyOptions> parse_simplify(const std::string& option, const s
   if (number && per_cent && *number > 0 && *number <= 100)
     return SimplifyOptions{.share = *number / 100};
   if (number && !per_cent && *number >= 4 && *number <= 4e9 && std::floor(*number) == *number) {
-    return SimplifyOptions{.triangles = static_cast<std::size_t>(*number)};
+    return SimplifyOptions{.faces = static_cast<std::size_t>(*number)};
   }
   throw UsageError(
       fmt::format("{} is '{}'; it must be auto, none, a number of faces from 4, or a percentage, "

@@ -21,12 +21,12 @@ template <typename V>
 Json json_of_value(const V& value) {
   if constexpr (kIsOptional<V>) {
     return value ? json_of_value(*value) : Json(nullptr);
+  } else if constexpr (std::is_same_v<V, Vec3>) {
+    return json_of(value);
   } else if constexpr (HasFields<V>) {
     return json_of_fields(value);
   } else if constexpr (NamedEnum<V>) {
     return to_string(value);
-  } else if constexpr (std::is_same_v<V, Vec3>) {
-    return json_of(value);
   } else if constexpr (std::is_same_v<V, StageTimes>) {
     Json json = Json::object();
     for (const auto& [stage, time] : value) json[stage] = {{"wall", time.wall}, {"cpu", time.cpu}};
@@ -42,23 +42,12 @@ Json json_of_value(const V& value) {
   }
 }
 
-// Returns the key of a field in JSON, where triangles are called faces.
-inline std::string key_of(const FieldInfo& info) {
-  std::string key = info.name;
-  constexpr std::string_view kOurs = "triangles";
-  if (const std::size_t at = key.find(kOurs); at != std::string::npos) {
-    key.replace(at, kOurs.size(), "faces");
-  }
-  return key;
-}
-
 // Returns {"field": value, ...} in the order of the list.
 template <HasFields T>
 Json json_of_fields(const T& result) {
   Json json = Json::object();
-  for_each_field<T>([&](auto member, const FieldInfo& info) {
-    json[key_of(info)] = json_of_value(result.*member);
-  });
+  for_each_field<T>(
+      [&](auto member, const FieldInfo& info) { json[info.name] = json_of_value(result.*member); });
   return json;
 }
 

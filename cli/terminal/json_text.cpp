@@ -41,6 +41,15 @@ Json json_of(const Bounds& bounds) {
       {"min", json_of(bounds.min)}, {"max", json_of(bounds.max)}, {"diagonal", bounds.diagonal()}};
 }
 
+Json json_of(const Inspection& inspection) {
+  Json json = json_of_fields(inspection);
+  json["bounds"] = json_of(inspection.bounds);
+  const bool solid = inspection.closed && inspection.oriented;
+  if (!inspection.closed || !inspection.manifold) json["genus"] = nullptr;
+  if (!solid) json["volume"] = json["volume_centroid"] = nullptr;
+  return json;
+}
+
 Json json_of(const std::vector<Attribute>& attributes) {
   Json list = Json::array();
   for (const Attribute& attribute : attributes) {
@@ -69,7 +78,7 @@ Json json_of(const FastReport& fast) {
       {"precision", fast.single ? "single" : "double"},
       {"window_width", fast.width},
       {"oversampling", fast.oversampling},
-      {"lumped_faces", fast.lumped_triangles},
+      {"lumped_faces", fast.lumped_faces},
       {"vertices", fast.vertices},
       {"nodes", fast.nodes},
       {"passes", fast.passes},
@@ -125,9 +134,9 @@ std::string star_report_text(const StarReport& report, double diagonal) {
     text += line("", "(no point sees the whole surface: the best of two guesses)");
   }
   text += line("star-shaped",
-               yes_or(report.star_shaped, counted(report.bad_triangles, "face turns its back",
-                                                  "faces turn their backs") +
-                                              " to the centre"));
+               yes_or(report.star_shaped,
+                      counted(report.bad_faces, "face turns its back", "faces turn their backs") +
+                          " to the centre"));
   text += line("min d", fmt::format("{} ({:.3g} of the diagonal)", text_of(report.min_d),
                                     diagonal > 0 ? report.min_d / diagonal : 0.0));
   text += line("min cos gamma", text_of(report.min_cos_gamma));

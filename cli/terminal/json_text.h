@@ -15,6 +15,8 @@ namespace rholm::cli {
 
 Json json_of(const Bounds& bounds);
 Json json_of(const std::vector<Attribute>& attributes);
+// Returns the fields; null for those without a meaning, as the volume of an open mesh.
+Json json_of(const Inspection& inspection);
 // Return JSON with "kinds", the quality of each error: "exact" up to rounding, "measured" against
 // the shape, or an "estimate" from a model of the truncation error.
 Json json_of(const TruncationErrors& errors);

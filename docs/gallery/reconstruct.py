@@ -60,7 +60,7 @@ print(
 )
 what = r.mesh.inspect()
 print(
-    f"closed {what.closed}, manifold {what.manifold}, genus {what.genus}, {what.triangles} triangles"
+    f"closed {what.closed}, manifold {what.manifold}, genus {what.genus}, {what.faces} faces"
 )
 distance = rholm.compare(beads, r.mesh)
 print(

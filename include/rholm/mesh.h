@@ -36,7 +36,7 @@ using Triangle = std::array<std::uint32_t, 3>;  // vertex indices, counter-clock
 // Triangles that share vertices.
 struct Mesh {
   std::vector<Vec3> vertices = {};         // in any unit
-  std::vector<Triangle> triangles = {};    // vertex indices
+  std::vector<Triangle> faces = {};        // vertex indices
   std::vector<Attribute> attributes = {};  // per vertex, each with vertices.size() values
 };
 

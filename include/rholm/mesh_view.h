@@ -18,11 +18,11 @@ struct MeshView {
   std::size_t n_vertices = 0;                    // number of vertices
   std::size_t vertex_stride = 0;                 // bytes between consecutive vertices
   ScalarType coordinate = ScalarType::kFloat64;  // or kFloat32
-  // Face t has its three 32-bit vertex indices one after the other at triangles + t *
-  // triangle_stride, counter-clockwise from outside.
-  const std::byte* triangles = nullptr;
-  std::size_t n_triangles = 0;      // number of faces
-  std::size_t triangle_stride = 0;  // bytes between consecutive faces
+  // Face t has its three 32-bit vertex indices one after the other at faces + t *
+  // face_stride, counter-clockwise from outside.
+  const std::byte* faces = nullptr;
+  std::size_t n_faces = 0;      // number of faces
+  std::size_t face_stride = 0;  // bytes between consecutive faces
 
   // Returns vertex i < n_vertices; not checked.
   Vec3 vertex(std::size_t i) const {
@@ -36,10 +36,10 @@ struct MeshView {
     std::memcpy(v, at, sizeof v);
     return {v[0], v[1], v[2]};
   }
-  // Returns face t < n_triangles; neither t nor the indices are checked.
+  // Returns face t < n_faces; neither t nor the indices are checked.
   Triangle triangle(std::size_t t) const {
     Triangle corners;
-    std::memcpy(corners.data(), triangles + t * triangle_stride, sizeof corners);
+    std::memcpy(corners.data(), faces + t * face_stride, sizeof corners);
     return corners;
   }
 };
@@ -52,9 +52,9 @@ Mesh mesh_of(const MeshView& view);
 // A mesh that need not fit in memory, with functions that remove used rows from memory. A removed
 // row is loaded again when it is used. Without a function rows stay in memory.
 struct MeshInPlace {
-  MeshView mesh;                                                                 // not copied
-  std::function<void(std::size_t first, std::size_t n)> release_vertices = {};   // n vertices
-  std::function<void(std::size_t first, std::size_t n)> release_triangles = {};  // n faces
+  MeshView mesh;                                                                // not copied
+  std::function<void(std::size_t first, std::size_t n)> release_vertices = {};  // n vertices
+  std::function<void(std::size_t first, std::size_t n)> release_faces = {};     // n faces
 };
 
 // Throws InvalidInput unless every coordinate is finite and every index is below the number of

@@ -95,8 +95,8 @@ struct Expanded {
   double diagonal = 0;                       // diagonal of the bounding box
   std::size_t vertices = 0;                  // number after welding, if the mesh was welded
   std::size_t faces = 0, edges = 0;          // numbers after welding
-  std::size_t merged_vertices = 0, collapsed_triangles = 0;  // results of welding, as in Welded
-  bool flipped = false;                                      // true if the mesh was inside out
+  std::size_t merged_vertices = 0, collapsed_faces = 0;  // results of welding, as in Welded
+  bool flipped = false;                                  // true if the mesh was inside out
   // Stages "read", "topology", "center", "transform" and its parts; "rays" for a surface that is
   // not star-shaped.
   StageTimes times;
@@ -121,8 +121,8 @@ void visit_fields(FieldsOf<Expanded>, const Visitor& field) {
         {.name = "edges", .help = "number of edges, after welding if the mesh was welded"});
   field(&E::merged_vertices,
         {.name = "merged_vertices", .help = "number of vertices removed by welding"});
-  field(&E::collapsed_triangles,
-        {.name = "collapsed_triangles",
+  field(&E::collapsed_faces,
+        {.name = "collapsed_faces",
          .help = "number of faces removed because welding merged two of their corners"});
   field(&E::flipped, {.name = "flipped", .help = "true if the mesh was inside out and was turned"});
   field(&E::times,

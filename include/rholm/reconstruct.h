@@ -249,7 +249,7 @@ struct ReconstructReport {
   std::size_t smooth_holes = 0;        // holes closed by a surface that continues the rim
   std::size_t cut_handles = 0;         // bridges and tunnels too small for the points
   std::size_t dropped_components = 0;  // number of parts of the surface that were too small
-  std::size_t faces = 0;               // number, before simplification
+  std::size_t full_faces = 0;          // number, before simplification
   double simplify_error = 0;           // Simplification::error of simplify()
   // Area of the surface, area of its parts that close holes, and area represented by the points, by
   // the circles of their neighbours. The first minus the second is about the third, unless the
@@ -259,14 +259,14 @@ struct ReconstructReport {
   // Shares of the surface's area, with the option `confidence`: without data within three spacings,
   // thinner than one and a half spacings, and with a confidence below 1/2.
   double unseen_area = 0, thin_area = 0, unsure_area = 0;
-  std::size_t memory = 0;    // estimate for points, grid and surface, bytes
-  StageTimes times;          // "survey", ..., "caps", ..., "surface", "attributes"
-  Bounds bounds = {};        // box of finite points without far isolated points
-  std::uint64_t tiles = 1;   // number of tiles
-  std::uint64_t stored = 0;  // largest amount of bytes stored between steps of tiles
-  std::uint64_t vertices = 0, triangles = 0;  // numbers, of the surface
-  std::uint64_t coefficients = 0;             // number, in all caps
-  std::vector<std::string> warnings = {};     // warnings of the reader of the points' file
+  std::size_t memory = 0;                  // estimate for points, grid and surface, bytes
+  StageTimes times;                        // "survey", ..., "caps", ..., "surface", "attributes"
+  Bounds bounds = {};                      // box of finite points without far isolated points
+  std::uint64_t tiles = 1;                 // number of tiles
+  std::uint64_t stored = 0;                // largest amount of bytes stored between steps of tiles
+  std::uint64_t vertices = 0, faces = 0;   // numbers, of the surface
+  std::uint64_t coefficients = 0;          // number, in all caps
+  std::vector<std::string> warnings = {};  // warnings of the reader of the points' file
 };
 
 // Lists the fields of ReconstructReport (fields.h).
@@ -341,8 +341,8 @@ void visit_fields(FieldsOf<ReconstructReport>, const Visitor& field) {
   field(&R::dropped_components,
         {.name = "dropped_components",
          .help = "number of parts of the surface dropped because they are too small"});
-  field(&R::faces,
-        {.name = "faces", .help = "number of faces of the surface before simplification"});
+  field(&R::full_faces,
+        {.name = "full_faces", .help = "number of faces of the surface before simplification"});
   field(&R::simplify_error,
         {.name = "simplify_error",
          .help = "error of the simplification, measured as max_error of simplify"});
@@ -376,7 +376,7 @@ void visit_fields(FieldsOf<ReconstructReport>, const Visitor& field) {
         {.name = "stored",
          .help = "largest number of bytes stored at a time between the steps of several tiles"});
   field(&R::vertices, {.name = "vertices", .help = "number of vertices of the surface"});
-  field(&R::triangles, {.name = "triangles", .help = "number of faces of the surface"});
+  field(&R::faces, {.name = "faces", .help = "number of faces of the surface"});
   field(&R::coefficients, {.name = "coefficients", .help = "number of coefficients of all caps"});
   field(&R::warnings,
         {.name = "warnings", .help = "warnings from reading the file of points, list of str"});

@@ -43,25 +43,25 @@ void visit_fields(FieldsOf<RepairOptions>, const Visitor& field) {
 
 // Counts of repairs and of remaining defects.
 struct RepairReport {
-  Inspection before;                     // state of the mesh after exact welding
-  std::size_t merged_vertices = 0;       // vertices merged by welding
-  std::size_t collapsed_triangles = 0;   // faces dropped by welding: two corners were merged
-  std::size_t isolated_vertices = 0;     // vertices dropped: not used by a face
-  std::size_t duplicate_triangles = 0;   // faces dropped: same three vertices as an earlier face
-  std::size_t degenerate_triangles = 0;  // faces thinner than rounding; dropped or swapped
-  std::size_t junctions = 0;             // joined T-junctions: vertices on edges of other faces
-  std::size_t flipped_triangles = 0;     // faces turned: their part is now consistent and outward
-  std::size_t inside_out_parts = 0;      // closed parts turned as a whole, in flipped_triangles too
-  std::size_t cavities = 0;              // closed parts inside another part: oriented inwards
-  std::size_t split_vertices = 0;        // new vertices where sheets met in one vertex
-  std::size_t closed_holes = 0;          // holes closed by new faces
-  std::size_t hole_triangles = 0;        // new faces in closed holes
-  std::size_t large_holes = 0;           // holes not closed: more edges than allowed
-  std::size_t largest_hole = 0;          // number of edges of the largest of these
-  std::size_t sheets = 0;                // holes not closed: borders of open sheets, see repair()
-  std::size_t one_sided_parts = 0;       // parts without orientation (Moebius strips); not changed
-  std::optional<double> closes_at{};     // closing_tolerance() for the remaining borders
-  Inspection after;                      // state of the result, exactly welded
+  Inspection before;                  // state of the mesh after exact welding
+  std::size_t merged_vertices = 0;    // vertices merged by welding
+  std::size_t collapsed_faces = 0;    // faces dropped by welding: two corners were merged
+  std::size_t isolated_vertices = 0;  // vertices dropped: not used by a face
+  std::size_t duplicate_faces = 0;    // faces dropped: same three vertices as an earlier face
+  std::size_t degenerate_faces = 0;   // faces thinner than rounding; dropped or swapped
+  std::size_t junctions = 0;          // joined T-junctions: vertices on edges of other faces
+  std::size_t flipped_faces = 0;      // faces turned: their part is now consistent and outward
+  std::size_t inside_out_parts = 0;   // closed parts turned as a whole, in flipped_faces too
+  std::size_t cavities = 0;           // closed parts inside another part: oriented inwards
+  std::size_t split_vertices = 0;     // new vertices where sheets met in one vertex
+  std::size_t closed_holes = 0;       // holes closed by new faces
+  std::size_t hole_faces = 0;         // new faces in closed holes
+  std::size_t large_holes = 0;        // holes not closed: more edges than allowed
+  std::size_t largest_hole = 0;       // number of edges of the largest of these
+  std::size_t sheets = 0;             // holes not closed: borders of open sheets, see repair()
+  std::size_t one_sided_parts = 0;    // parts without orientation (Moebius strips); not changed
+  std::optional<double> closes_at{};  // closing_tolerance() for the remaining borders
+  Inspection after;                   // state of the result, exactly welded
 };
 
 // Lists the fields of RepairReport.
@@ -72,22 +72,21 @@ void visit_fields(FieldsOf<RepairReport>, const Visitor& field) {
         {.name = "before", .help = "state of the mesh before the repair, welded exactly"});
   field(&R::merged_vertices,
         {.name = "merged_vertices", .help = "number of vertices merged by welding"});
-  field(&R::collapsed_triangles,
-        {.name = "collapsed_triangles",
+  field(&R::collapsed_faces,
+        {.name = "collapsed_faces",
          .help = "number of faces dropped because welding merged two of their corners"});
   field(&R::isolated_vertices, {.name = "isolated_vertices",
                                 .help = "number of vertices dropped because no face uses them"});
-  field(&R::duplicate_triangles,
-        {.name = "duplicate_triangles",
+  field(&R::duplicate_faces,
+        {.name = "duplicate_faces",
          .help = "number of faces dropped because an earlier face has the same vertices"});
-  field(&R::degenerate_triangles,
-        {.name = "degenerate_triangles",
+  field(&R::degenerate_faces,
+        {.name = "degenerate_faces",
          .help = "number of faces dropped or swapped because they are thinner than rounding"});
   field(&R::junctions,
         {.name = "junctions",
          .help = "number of vertices on edges of other faces (T-junctions) that were joined"});
-  field(&R::flipped_triangles,
-        {.name = "flipped_triangles", .help = "number of faces that were turned"});
+  field(&R::flipped_faces, {.name = "flipped_faces", .help = "number of faces that were turned"});
   field(&R::inside_out_parts,
         {.name = "inside_out_parts", .help = "number of closed parts that were turned as a whole"});
   field(&R::cavities,
@@ -96,8 +95,7 @@ void visit_fields(FieldsOf<RepairReport>, const Visitor& field) {
   field(&R::split_vertices, {.name = "split_vertices",
                              .help = "number of new vertices where sheets met in one vertex"});
   field(&R::closed_holes, {.name = "closed_holes", .help = "number of holes closed by new faces"});
-  field(&R::hole_triangles,
-        {.name = "hole_triangles", .help = "number of new faces that close holes"});
+  field(&R::hole_faces, {.name = "hole_faces", .help = "number of new faces that close holes"});
   field(&R::large_holes,
         {.name = "large_holes",
          .help = "number of holes left open because they have more edges than allowed"});

@@ -13,8 +13,8 @@ namespace rholm {
 // When simplification stops: at the first limit reached. Without limits, reconstruct() and the
 // synthesis of an atlas allow an error of 1/50 of their grid's step.
 struct SimplifyOptions {
-  std::size_t triangles = 0;  // largest number of faces in the result; 0: any
-  double share = 0;           // largest share of the given faces in the result, 0 ... 1
+  std::size_t faces = 0;  // largest number of faces in the result; 0: any
+  double share = 0;       // largest share of the given faces in the result, 0 ... 1
   // Largest error, in the mesh's unit. It is the distance of a vertex's place in the result from
   // the planes of its original faces (root mean square, weighted by area). A vertex with a larger
   // error is not removed.
@@ -25,9 +25,9 @@ struct SimplifyOptions {
 template <typename Visitor>
 void visit_fields(FieldsOf<SimplifyOptions>, const Visitor& field) {
   using O = SimplifyOptions;
-  field(&O::triangles, {.name = "triangles",
-                        .help = "largest number of faces in the result; 0: any number",
-                        .value = "N"});
+  field(&O::faces, {.name = "faces",
+                    .help = "largest number of faces in the result; 0: any number",
+                    .value = "N"});
   field(&O::share, {.name = "share",
                     .help = "largest share of the given faces in the result; 0: any share",
                     .value = "SHARE",

@@ -73,7 +73,7 @@ struct StarReport {
   // ball of the kernel. In the shape's unit.
   double min_d = 0;
   double min_cos_gamma = 0;       // smallest, over all corners of all faces
-  std::size_t bad_triangles = 0;  // number of faces with d_T <= 0 (beyond rounding)
+  std::size_t bad_faces = 0;      // number of faces with d_T <= 0 (beyond rounding)
   bool star_shaped = false;       // no bad face, and every direction meets the surface once
   int rays = 0;                   // number of directions tested: a Fibonacci lattice
   double once_share = 0;          // share of the directions that meet the surface exactly once
@@ -94,8 +94,8 @@ void visit_fields(FieldsOf<StarReport>, const Visitor& field) {
   field(&S::min_cos_gamma, {.name = "min_cos_gamma",
                             .help = "smallest cosine of the angle between normal and ray from the "
                                     "centre, over all corners of all faces"});
-  field(&S::bad_triangles,
-        {.name = "bad_triangles", .help = "number of faces that point away from the centre"});
+  field(&S::bad_faces,
+        {.name = "bad_faces", .help = "number of faces that point away from the centre"});
   field(&S::star_shaped, {.name = "star_shaped",
                           .help = "true if no face points away from the centre and every direction "
                                   "meets the surface once"});

@@ -15,9 +15,9 @@ namespace rholm {
 
 // A mesh in which coinciding vertices are merged.
 struct Welded {
-  Mesh mesh;                            // mesh with the remaining vertices
-  std::size_t merged_vertices = 0;      // removed vertices
-  std::size_t collapsed_triangles = 0;  // faces dropped because two corners were merged
+  Mesh mesh;                        // mesh with the remaining vertices
+  std::size_t merged_vertices = 0;  // removed vertices
+  std::size_t collapsed_faces = 0;  // faces dropped because two corners were merged
 };
 
 // Merges vertices. Tolerance 0 merges bit-identical ones (0 and -0 are equal).
@@ -60,17 +60,17 @@ Bounds bounds(const std::vector<Vec3>& points);  // {0,0,0} twice for no points
 
 // Properties of a mesh. Counts are of the given mesh: weld it first to close seams.
 struct Inspection {
-  std::size_t vertices = 0, triangles = 0;  // used or not, with an area or not
-  std::size_t edges = 0;                    // pairs of vertices joined by a face
-  std::size_t boundary_edges = 0;           // edges of one face only
-  std::size_t non_manifold_edges = 0;       // edges of three or more faces
-  std::size_t misoriented_edges = 0;        // edges that two faces use in the same direction
-  std::size_t non_manifold_vertices = 0;    // vertices whose faces do not form one fan
-  std::size_t isolated_vertices = 0;        // vertices without faces
-  std::size_t degenerate_triangles = 0;     // thinner than the rounding of their coordinates
-  std::size_t duplicate_triangles = 0;      // same three vertices as an earlier face
-  std::size_t components = 0;               // parts of faces connected through edges
-  long long euler_characteristic = 0;       // used vertices - edges + faces
+  std::size_t vertices = 0, faces = 0;    // used or not, with an area or not
+  std::size_t edges = 0;                  // pairs of vertices joined by a face
+  std::size_t boundary_edges = 0;         // edges of one face only
+  std::size_t non_manifold_edges = 0;     // edges of three or more faces
+  std::size_t misoriented_edges = 0;      // edges that two faces use in the same direction
+  std::size_t non_manifold_vertices = 0;  // vertices whose faces do not form one fan
+  std::size_t isolated_vertices = 0;      // vertices without faces
+  std::size_t degenerate_faces = 0;       // thinner than the rounding of their coordinates
+  std::size_t duplicate_faces = 0;        // same three vertices as an earlier face
+  std::size_t components = 0;             // parts of faces connected through edges
+  long long euler_characteristic = 0;     // used vertices - edges + faces
   std::size_t genus = 0;    // sum over the components; meaningful if closed and manifold
   bool closed = false;      // no boundary edge, at least one face
   bool manifold = false;    // no non-manifold edge or vertex
@@ -87,7 +87,7 @@ template <typename Visitor>
 void visit_fields(FieldsOf<Inspection>, const Visitor& field) {
   using I = Inspection;
   field(&I::vertices, {.name = "vertices", .help = "number of vertices, used or not"});
-  field(&I::triangles, {.name = "triangles", .help = "number of faces, with an area or not"});
+  field(&I::faces, {.name = "faces", .help = "number of faces, with an area or not"});
   field(&I::edges, {.name = "edges", .help = "number of pairs of vertices that a face joins"});
   field(&I::boundary_edges, {.name = "boundary_edges", .help = "number of edges of only one face"});
   field(&I::non_manifold_edges,
@@ -99,11 +99,11 @@ void visit_fields(FieldsOf<Inspection>, const Visitor& field) {
                                     .help = "number of vertices whose faces do not form one fan"});
   field(&I::isolated_vertices,
         {.name = "isolated_vertices", .help = "number of vertices that no face uses"});
-  field(&I::degenerate_triangles,
-        {.name = "degenerate_triangles",
+  field(&I::degenerate_faces,
+        {.name = "degenerate_faces",
          .help = "number of faces thinner than the rounding of their coordinates"});
-  field(&I::duplicate_triangles,
-        {.name = "duplicate_triangles",
+  field(&I::duplicate_faces,
+        {.name = "duplicate_faces",
          .help = "number of faces with the same three vertices as an earlier face"});
   field(&I::components, {.name = "components", .help = "number of parts connected through edges"});
   field(&I::euler_characteristic,

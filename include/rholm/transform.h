@@ -28,12 +28,12 @@ EnumNames names_of(Method method);  // "edge", "gauge", "curl", "area"
 
 // Settings and errors of a run of the fast engine.
 struct FastReport {
-  bool single = false;               // true if sources were spread in single precision
-  int width = 0;                     // number of grid points of the spreading window
-  double oversampling = 0;           // oversampling factor of the grid
-  std::size_t lumped_triangles = 0;  // triangles represented by sources at their vertices
-  std::size_t nodes = 0;             // number of sources that are not at vertices
-  std::size_t vertices = 0;          // number of sources at vertices
+  bool single = false;           // true if sources were spread in single precision
+  int width = 0;                 // number of grid points of the spreading window
+  double oversampling = 0;       // oversampling factor of the grid
+  std::size_t lumped_faces = 0;  // triangles represented by sources at their vertices
+  std::size_t nodes = 0;         // number of sources that are not at vertices
+  std::size_t vertices = 0;      // number of sources at vertices
   // l2 error over 1 <= l <= L, relative to the norm of the function without its mean.
   double error = 0;
   double band_error = 0;  // error of the degrees above 3L/4, relative to the norm of these degrees
@@ -55,8 +55,8 @@ void visit_fields(FieldsOf<FastReport>, const Visitor& field) {
   field(&F::single, {.name = "single", .help = "true if sources were spread in single precision"});
   field(&F::width, {.name = "width", .help = "number of grid points of the spreading window"});
   field(&F::oversampling, {.name = "oversampling", .help = "oversampling factor of the grid"});
-  field(&F::lumped_triangles, {.name = "lumped_triangles",
-                               .help = "number of faces represented by sources at their vertices"});
+  field(&F::lumped_faces, {.name = "lumped_faces",
+                           .help = "number of faces represented by sources at their vertices"});
   field(&F::nodes, {.name = "nodes", .help = "number of sources that are not at vertices"});
   field(&F::vertices, {.name = "vertices", .help = "number of sources at vertices"});
   field(&F::error, {.name = "error",
@@ -130,7 +130,7 @@ struct Transform {
   // Precision that the coefficients were computed for. The search for a degree may use a finer
   // precision than TransformOptions::precision.
   double precision = 0;
-  StageTimes times;  // stages "triangles", "spread", "fourier", "verify", "norms"
+  StageTimes times;  // stages "faces", "spread", "fourier", "verify", "norms"
   // Truncation error over solid angle, sqrt(||f - f_L||^2 / 4 pi), in the unit of f, and its
   // uncertainty. It is computed from the difference of the exact norm and the norm of the
   // coefficients, which are as exact as the precision. Empty if the uncertainty is not below an

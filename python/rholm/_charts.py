@@ -140,7 +140,7 @@ def check_star(
 
     Examples
     --------
-    >>> rholm.harmonics.check_star(rholm.box((1, 1, 1)), (0, 0, 0)).bad_triangles
+    >>> rholm.harmonics.check_star(rholm.box((1, 1, 1)), (0, 0, 0)).bad_faces
     0
     """
     at = triple(center, "center")

@@ -41,7 +41,7 @@ class Mesh:
     def vertices(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]: ...
 
     @property
-    def triangles(self) -> Annotated[NDArray[numpy.uint32], dict(writable=False)]: ...
+    def faces(self) -> Annotated[NDArray[numpy.uint32], dict(writable=False)]: ...
 
     @property
     def attributes(self) -> list: ...
@@ -156,7 +156,7 @@ class Inspection:
         """Number of vertices, used or not."""
 
     @property
-    def triangles(self) -> int:
+    def faces(self) -> int:
         """Number of faces, with an area or not."""
 
     @property
@@ -184,11 +184,11 @@ class Inspection:
         """Number of vertices that no face uses."""
 
     @property
-    def degenerate_triangles(self) -> int:
+    def degenerate_faces(self) -> int:
         """Number of faces thinner than the rounding of their coordinates."""
 
     @property
-    def duplicate_triangles(self) -> int:
+    def duplicate_faces(self) -> int:
         """Number of faces with the same three vertices as an earlier face."""
 
     @property
@@ -270,7 +270,7 @@ class RepairReport:
         """Number of vertices merged by welding."""
 
     @property
-    def collapsed_triangles(self) -> int:
+    def collapsed_faces(self) -> int:
         """Number of faces dropped because welding merged two of their corners."""
 
     @property
@@ -278,11 +278,11 @@ class RepairReport:
         """Number of vertices dropped because no face uses them."""
 
     @property
-    def duplicate_triangles(self) -> int:
+    def duplicate_faces(self) -> int:
         """Number of faces dropped because an earlier face has the same vertices."""
 
     @property
-    def degenerate_triangles(self) -> int:
+    def degenerate_faces(self) -> int:
         """
         Number of faces dropped or swapped because they are thinner than rounding.
         """
@@ -294,7 +294,7 @@ class RepairReport:
         """
 
     @property
-    def flipped_triangles(self) -> int:
+    def flipped_faces(self) -> int:
         """Number of faces that were turned."""
 
     @property
@@ -316,7 +316,7 @@ class RepairReport:
         """Number of holes closed by new faces."""
 
     @property
-    def hole_triangles(self) -> int:
+    def hole_faces(self) -> int:
         """Number of new faces that close holes."""
 
     @property
@@ -400,10 +400,10 @@ class SimplifyOptions:
     def __repr__(self) -> str: ...
 
     @property
-    def triangles(self) -> int: ...
+    def faces(self) -> int: ...
 
-    @triangles.setter
-    def triangles(self, arg: int | None, /) -> None: ...
+    @faces.setter
+    def faces(self, arg: int | None, /) -> None: ...
 
     @property
     def share(self) -> float: ...
@@ -1518,7 +1518,7 @@ class StarReport:
         """
 
     @property
-    def bad_triangles(self) -> int:
+    def bad_faces(self) -> int:
         """Number of faces that point away from the centre."""
 
     @property
@@ -1597,7 +1597,7 @@ class FastReport:
         """Oversampling factor of the grid."""
 
     @property
-    def lumped_triangles(self) -> int:
+    def lumped_faces(self) -> int:
         """Number of faces represented by sources at their vertices."""
 
     @property
@@ -1778,7 +1778,7 @@ class Expanded:
         """Number of vertices removed by welding."""
 
     @property
-    def collapsed_triangles(self) -> int:
+    def collapsed_faces(self) -> int:
         """Number of faces removed because welding merged two of their corners."""
 
     @property
@@ -2858,7 +2858,7 @@ class ReconstructReport:
         """Number of parts of the surface dropped because they are too small."""
 
     @property
-    def faces(self) -> int:
+    def full_faces(self) -> int:
         """Number of faces of the surface before simplification."""
 
     @property
@@ -2928,7 +2928,7 @@ class ReconstructReport:
         """Number of vertices of the surface."""
 
     @property
-    def triangles(self) -> int:
+    def faces(self) -> int:
         """Number of faces of the surface."""
 
     @property

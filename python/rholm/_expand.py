@@ -144,7 +144,7 @@ def _mesh_arrays(shape: Any) -> tuple[Any, Any]:
     if arrays is None:
         if type(shape) not in (tuple, list) or len(shape) != 2:
             core = as_mesh(shape)._core
-            return core.vertices, core.triangles
+            return core.vertices, core.faces
         arrays = (shape[0], shape[1], {})
     return unwritable(vertex_rows(arrays[0])), unwritable(face_rows(arrays[1]))
 

@@ -19,7 +19,7 @@ class RepairKeywords(TypedDict, total=False):
 class SimplifyKeywords(TypedDict, total=False):
     """Options of `simplify`: when it stops."""
 
-    triangles: int
+    faces: int
     share: float
     max_error: float
 

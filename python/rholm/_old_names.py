@@ -64,7 +64,7 @@ def _reconstruct_bricks(
         Path(options["work_dir"]).mkdir(exist_ok=True)
     r = reconstruct(points, output=mesh_path, tile_points=points_per_brick, foreseen=told, **options).report
     return BrickReconstruction(
-        r, r.bounds, r.tiles, r.vertices, r.triangles, r.coefficients, r.stored, r.warnings
+        r, r.bounds, r.tiles, r.vertices, r.faces, r.coefficients, r.stored, r.warnings
     )
 
 

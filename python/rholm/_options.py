@@ -12,6 +12,7 @@ from . import _core
 from ._arguments import whole
 from ._arrays import triple
 from ._errors import InvalidInputError
+from ._run import renamed
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 #: Placeholder for the documentation of the options in the docstring of a function.
@@ -25,11 +26,14 @@ def simplify_options(simplify: Any) -> _core.SimplifyOptions | None:
     if simplify is True or simplify == "auto":
         return _core.SimplifyOptions()
     if isinstance(simplify, dict):
-        named = {"triangles" if name == "faces" else str(name): value for name, value in simplify.items()}
+        named = {str(name): value for name, value in simplify.items()}
+        if "triangles" in named:
+            renamed("simplify={'triangles': ...}", "simplify={'faces': ...}")
+            named["faces"] = named.pop("triangles")
         return _core.SimplifyOptions(**named)
     if isinstance(simplify, str):
         raise InvalidInputError(f"simplify is {simplify!r}; it must be 'auto', a number of faces or a dict")
-    return _core.SimplifyOptions(triangles=whole(simplify, "simplify"))
+    return _core.SimplifyOptions(faces=whole(simplify, "simplify"))
 
 
 def _converted(field: dict[str, Any], value: Any) -> Any:

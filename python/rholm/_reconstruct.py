@@ -88,7 +88,7 @@ class Reconstruction(_Parts, Shown):
         self.mesh.save(path, format, ascii)
 
     def __repr__(self) -> str:
-        report = f"{self.report.vertices} vertices, {self.report.triangles} faces"
+        report = f"{self.report.vertices} vertices, {self.report.faces} faces"
         return f"<rholm.clouds.Reconstruction: {report} from {self.report.points} points>"
 
     def _repr_png_(self) -> bytes | None:

@@ -131,3 +131,31 @@ def renamed(old: str, new: str) -> None:
         The name that was used, and the name that replaces it.
     """
     warn(f"{old} is {new} now; the next version removes the old name", DeprecationWarning)
+
+
+#: Fields of results that were called triangles in the previous version, by their class.
+_FIELDS_OF_FACES = {
+    _core.Expanded: ["collapsed_faces"],
+    _core.FastReport: ["lumped_faces"],
+    _core.Inspection: ["faces", "degenerate_faces", "duplicate_faces"],
+    _core.ReconstructReport: ["faces"],
+    _core.RepairReport: [
+        *("collapsed_faces", "duplicate_faces", "degenerate_faces", "flipped_faces", "hole_faces")
+    ],
+    _core.StarReport: ["bad_faces"],
+}
+
+
+def _old_field(kind: type, new: str) -> None:
+    old = new.replace("faces", "triangles")
+
+    def value(self: Any) -> Any:
+        renamed(f"{kind.__name__}.{old}", f"{kind.__name__}.{new}")
+        return getattr(self, new)
+
+    setattr(kind, old, property(value, doc=f"Old name of `{new}`."))
+
+
+for _kind, _names in _FIELDS_OF_FACES.items():
+    for _name in _names:
+        _old_field(_kind, _name)

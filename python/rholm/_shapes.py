@@ -90,7 +90,7 @@ class Mesh(Shown):
     @property
     def faces(self) -> IndexArray:
         """Vertex indices, (M, 3) uint32; read-only, not copied."""
-        return self._core.triangles
+        return self._core.faces
 
     @property
     def triangles(self) -> IndexArray:

@@ -316,7 +316,7 @@ def simplify(
         faces = triangles
     if faces is not None and not 0 <= faces < 2**63:
         raise InvalidInputError(f"simplify(): faces is {faces}, which is out of range")
-    options = _core.SimplifyOptions(triangles=faces, share=share, max_error=max_error)
+    options = _core.SimplifyOptions(faces=faces, share=share, max_error=max_error)
     with caller(threads, progress) as how:
         core, error = _core.simplify(as_mesh(mesh)._core, options, how)
     return Simplification(Mesh._of(core), error)

@@ -202,7 +202,7 @@ nb::tuple state_of_rules(const SurfaceRules& rules) {
   nb::object simplify = nb::none(), seen = nb::none();
   if (rules.simplify) {
     const SimplifyOptions& s = *rules.simplify;
-    simplify = nb::make_tuple(s.triangles, s.share, s.max_error);
+    simplify = nb::make_tuple(s.faces, s.share, s.max_error);
   }
   if (rules.seen) {
     const SeenCubes& s = *rules.seen;

@@ -97,7 +97,7 @@ void bind_mesh(nb::module_& m) {
   bind_state(
       mesh_class,
       [](const Mesh& mesh) {
-        return nb::make_tuple(array_of(std::vector(mesh.vertices)), indices_of(mesh.triangles),
+        return nb::make_tuple(array_of(std::vector(mesh.vertices)), indices_of(mesh.faces),
                               tuples_of(mesh.attributes));
       },
       [](const nb::object& state) {
@@ -119,17 +119,16 @@ void bind_mesh(nb::module_& m) {
                      const auto& v = nb::cast<const Mesh&>(self).vertices;
                      return array_within<const double>(self, v.data(), {v.size(), 3});
                    })
-      .def_prop_ro("triangles",
+      .def_prop_ro("faces",
                    [](nb::handle self) {
-                     const auto& t = nb::cast<const Mesh&>(self).triangles;
+                     const auto& t = nb::cast<const Mesh&>(self).faces;
                      return array_within<const std::uint32_t>(self, t.data(), {t.size(), 3});
                    })
       .def_prop_ro("attributes", [](const Mesh& mesh) { return tuples_of(mesh.attributes); });
   mesh_class.def(
       "__eq__",
       [](const Mesh& a, const Mesh& b) {
-        return a.vertices == b.vertices && a.triangles == b.triangles &&
-               same(a.attributes, b.attributes);
+        return a.vertices == b.vertices && a.faces == b.faces && same(a.attributes, b.attributes);
       },
       nb::is_operator(), nb::sig("def __eq__(self, arg: object, /) -> bool"));
   nb::class_<PointCloud> cloud_class(m, "PointCloud", "Points without faces.");
@@ -270,12 +269,11 @@ void bind_mapped(nb::module_& m) {
       .def_prop_ro("triangle_bytes",
                    [](nb::handle self) {
                      const MeshView& v = nb::cast<const MappedMesh&>(self).view();
-                     return bytes_of(self, v.triangles, v.n_triangles, v.triangle_stride,
-                                     sizeof(Triangle));
+                     return bytes_of(self, v.faces, v.n_faces, v.face_stride, sizeof(Triangle));
                    })
       .def_prop_ro("triangle_layout", [](const MappedMesh& mesh) {
         const MeshView& v = mesh.view();
-        return nb::make_tuple(v.n_triangles, v.triangle_stride, "uint32");
+        return nb::make_tuple(v.n_faces, v.face_stride, "uint32");
       });
   m.def("map_mesh", [](const std::string& path, const Caller& caller) {
     return caller.run([&](const Context& context) { return map_mesh(path, context); });

@@ -39,8 +39,7 @@ void bind_records(nb::module_& m) {
 void bind_edges(nb::module_& m) {
   m.def("weld", [](const Mesh& mesh, double tolerance) {
     Welded welded = unlocked([&] { return weld(mesh, tolerance); });
-    return nb::make_tuple(std::move(welded.mesh), welded.merged_vertices,
-                          welded.collapsed_triangles);
+    return nb::make_tuple(std::move(welded.mesh), welded.merged_vertices, welded.collapsed_faces);
   });
   m.def("pair_edges", [](const Mesh& mesh) {
     static_assert(sizeof(Edge) == 4 * sizeof(std::uint32_t));
@@ -69,7 +68,7 @@ void bind_edges(nb::module_& m) {
     return mesh;
   });
   m.def("area_normals", [](const Mesh& mesh) {
-    return array_of(unlocked([&] { return area_normals(mesh.vertices, mesh.triangles); }));
+    return array_of(unlocked([&] { return area_normals(mesh.vertices, mesh.faces); }));
   });
   m.def("surface_area", unlocked_function(&surface_area));
   m.def("enclosed_volume", unlocked_function(&enclosed_volume));

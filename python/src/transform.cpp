@@ -49,9 +49,9 @@ MeshView view_of_arrays(const AnyVertices& vertices, const AnyTriangles& triangl
           .n_vertices = vertices.shape(0),
           .vertex_stride = stride_of(vertices, single ? sizeof(float) : sizeof(double)),
           .coordinate = single ? ScalarType::kFloat32 : ScalarType::kFloat64,
-          .triangles = reinterpret_cast<const std::byte*>(triangles.data()),
-          .n_triangles = triangles.shape(0),
-          .triangle_stride = stride_of(triangles, sizeof(std::uint32_t))};
+          .faces = reinterpret_cast<const std::byte*>(triangles.data()),
+          .n_faces = triangles.shape(0),
+          .face_stride = stride_of(triangles, sizeof(std::uint32_t))};
 }
 
 void bind_star(nb::module_& m) {

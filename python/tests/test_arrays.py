@@ -262,7 +262,7 @@ def test_an_empty_mesh_is_a_mesh():
     empty = rholm.Mesh([], [])
     assert empty.vertices.shape == empty.faces.shape == (0, 3)
     assert empty.area == 0
-    assert rholm.inspect(empty).triangles == 0
+    assert rholm.inspect(empty).faces == 0
 
 
 def test_directions_of_any_length_are_the_same(bumpy, random):

@@ -145,7 +145,7 @@ def test_every_function_takes_every_kind_of_mesh_and_mends_it(tmp_path):
         lambda m: rholm.files.attributes_left_out(m, "stl"),
         lambda m: rholm.files.write_shape(m, tmp_path / "w.off"),
         lambda m: rholm.repair(m).mesh.volume,
-        lambda m: rholm.inspect(m).triangles,
+        lambda m: rholm.inspect(m).faces,
         lambda m: len(rholm.sample_surface(m, 50)),
         lambda m: rholm.compare(m, body, samples=50).hausdorff < 1e-6,
     ]

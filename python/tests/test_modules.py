@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import rholm
 from conftest import MODULES, ROOT, public_names
-from rholm import _old_names
+from rholm import _old_names, _run
 
 FOLDER = Path(rholm.__file__).parent
 
@@ -127,8 +127,17 @@ def test_old_names_of_faces_warn_and_work(bumpy):
     welded = rholm.meshes.weld(bumpy)
     with pytest.warns(DeprecationWarning, match="collapsed_faces"):
         assert welded.collapsed_triangles == welded.collapsed_faces
-    mesh = rholm.compress(rholm.icosphere(2), 0.05).mesh(simplify={"faces": 100})
+    atlas = rholm.compress(rholm.icosphere(2), 0.05)
+    mesh = atlas.mesh(simplify={"faces": 100})
     assert len(mesh.faces) <= 100
+    with pytest.warns(DeprecationWarning, match="simplify={'faces': ...}"):
+        assert atlas.mesh(simplify={"triangles": 100}) == mesh
+    report = bumpy.inspect()
+    with pytest.warns(DeprecationWarning, match=r"Inspection\.triangles is Inspection\.faces now"):
+        assert report.triangles == report.faces
+    for kind, names in _run._FIELDS_OF_FACES.items():
+        for name in names:
+            assert isinstance(getattr(kind, name.replace("faces", "triangles")), property)
 
 
 def test_importing_loads_nothing_else():

@@ -184,7 +184,7 @@ FUNCTIONS = [
     (
         rholm.simplify,
         {"mesh": MESH},
-        {"triangles": count(4, 50), "share": number(0.1, 1), "max_error": number(0, 1)},
+        {"faces": count(4, 50), "share": number(0.1, 1), "max_error": number(0, 1)},
     ),
     (rholm.meshes.weld, {"mesh": MESH}, {"tolerance": number(0, 0.3)}),
     (rholm.meshes.pair_edges, {"mesh": MESH}, {}),

@@ -80,7 +80,7 @@ def test_inspection_and_repair(bumpy):
     assert report.closed
     assert report.manifold
     assert report.genus == 0
-    assert report.vertices - report.edges + report.triangles == 2
+    assert report.vertices - report.edges + report.faces == 2
     assert rholm.inspect(rholm.torus(2, 1, 12, 8)).genus == 1
     assert rholm.meshes.pair_edges(bumpy).shape == (report.edges, 4)
     hole = rholm.Mesh(bumpy.vertices, bumpy.faces[5:])

@@ -133,7 +133,7 @@ def test_what_is_said_is_what_is_there(cloud, tmp_path):
     )
     report, mesh = made.report, made.mesh
     assert made[:2] == (None, None)
-    assert (report.vertices, report.triangles) == (len(mesh.vertices), len(mesh.faces))
+    assert (report.vertices, report.faces) == (len(mesh.vertices), len(mesh.faces))
     assert np.isclose(report.volume, mesh.volume, rtol=1e-5)  # coordinates are single precision
     assert mesh.inspect().closed
     assert np.abs(mesh.attributes["height"] - mesh.vertices[:, 2]).max() < 4 * report.spacing
@@ -157,7 +157,7 @@ def test_what_is_said_is_what_is_there(cloud, tmp_path):
     assert kept.atlas.mesh().inspect().genus == 1
     assert kept.atlas.rules.left_out == ["height", "confidence"]
     bare = rholm.reconstruct(cloud, output=tmp_path / "s.ply")
-    assert len(bare.mesh.faces) == bare.report.triangles
+    assert len(bare.mesh.faces) == bare.report.faces
     with pytest.raises(rholm.InvalidInputError, match="model="):
         bare.atlas  # noqa: B018
 

@@ -101,7 +101,7 @@ Site make_site(const Mesh& mesh, std::span<const Region> regions, const PatchOpt
       site.weights[i] = std::max(site.weights[i], weights[v]);
     }
   }
-  const double spacing = median_edge(site.local.points, site.local.triangles, site.weights);
+  const double spacing = median_edge(site.local.points, site.local.faces, site.weights);
   if (options.wavelength < kFewestEdges * spacing) {
     refuse(
         fmt::format("a wavelength of {:g} is not in the mesh, whose edges are {:g} long in the "

@@ -42,7 +42,7 @@ void check_update(const TransferUpdate& u, int from_degree) {
 double median_edge(const TexturedPatch& textured) {
   std::vector<double> in(textured.row.size());
   for (std::size_t i = 0; i < in.size(); ++i) in[i] = textured.row[i] == kNoRow ? 0 : 1;
-  return median_edge(textured.local.points, textured.local.triangles, in);
+  return median_edge(textured.local.points, textured.local.faces, in);
 }
 
 // Heights of the source on the target's chart, whose lengths are `scale` of the source's lengths.
@@ -117,7 +117,7 @@ std::vector<Vec3> displaced(const TexturedPatch& target, const Texture& texture,
 
 // Throws if the base needs waves that the source cannot represent.
 void check_degree(const Mesh& source, std::span<const double> weights, double radius, int degree) {
-  const double edge = median_edge(source.vertices, source.triangles, weights);
+  const double edge = median_edge(source.vertices, source.faces, weights);
   if (4 * radius / degree >= kFewestEdges * edge) return;
   const int most = static_cast<int>(4 * radius / (kFewestEdges * edge));
   refuse(
@@ -214,7 +214,7 @@ TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& targ
         refine_target(transition, kRefined * report.source_edge * about, regions, mesh);
   }
   const double edge =
-      median_edge(mesh.vertices, mesh.triangles, region_weights(mesh, regions, transition));
+      median_edge(mesh.vertices, mesh.faces, region_weights(mesh, regions, transition));
   report.target_wavelength = std::max(wanted, kFewestBaseEdges * edge);
   auto state = std::make_shared<TransferState>();
   state->source = source.state;

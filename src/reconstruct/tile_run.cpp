@@ -53,7 +53,7 @@ std::vector<StageCost> costs_of_caps(const ReconstructOptions& options) {
   std::vector<StageCost> all = {{"survey", 0.05}, {"signs", 0.8},    {"distribute", 0.1},
                                 {"sort", 0.2},    {"sample", 0.3},   {"cap size", 0.3},
                                 {"caps", 2.1},    {"crossings", 0.3}};
-  if (!options.keep_outliers) all.push_back({"strays", 0.9});
+  if (!options.keep_outliers) all.push_back({"isolated points", 0.9});
   return all;
 }
 std::vector<StageCost> costs_of_surface(const ReconstructOptions& options, std::size_t n_tiles) {
@@ -106,7 +106,7 @@ class TileRun {
     made.mesh = join_and_write(surface);
     if (keeps_model()) stages_.once("model", [&] { made.model = model_of(caps); });
     report_.stored = store_.most_bytes();
-    report_.vertices = whole_.vertices, report_.triangles = whole_.triangles;
+    report_.vertices = whole_.vertices, report_.faces = whole_.faces;
     return made;
   }
 
@@ -156,7 +156,7 @@ class TileRun {
                                           .max_memory = options_.max_memory,
                                           .memory_in_use = kMemoryOfOnly * scene.tree->size()},
                                          context_);
-    if (surface.mesh.triangles.empty()) {
+    if (surface.mesh.faces.empty()) {
       throw Error(ErrorCode::kInvalidInput,
                   fmt::format("a grid with steps of {:.3g} finds no surface of these points, "
                               "{:.3g} apart, with a diagonal of {:.3g}: take smaller steps",
@@ -165,10 +165,10 @@ class TileRun {
     report_.holes = surface.holes, report_.smooth_holes = surface.smooth_holes;
     report_.cut_handles = surface.cut_handles;
     report_.dropped_components = surface.dropped_components;
-    report_.faces = surface.faces, report_.simplify_error = surface.simplify_error;
+    report_.full_faces = surface.faces, report_.simplify_error = surface.simplify_error;
     report_.memory = surface.memory;
     report_.vertices = surface.mesh.vertices.size();
-    report_.triangles = surface.mesh.triangles.size();
+    report_.faces = surface.mesh.faces.size();
     const Sizes sums =
         measure_sizes(view_of(surface.mesh), unit_frame(bounds(surface.mesh.vertices)), context_);
     report_.volume = sums.volume, report_.area = sums.area;
@@ -198,12 +198,12 @@ class TileRun {
   // Fits caps to the points, without outliers near the surface.
   TileCaps fit() {
     const auto n = static_cast<double>(cloud_.n_points()),
-               strays = static_cast<double>(report_.outliers);
+               isolated = static_cast<double>(report_.outliers);
     const bool asked = !options_.keep_outliers && cloud_.normals_given();
     const double wrong = asked ? n * cloud_.sample().wrong : 0;
-    if (!are_suspicious(n, strays, wrong)) return fit_round("");
+    if (!are_suspicious(n, isolated, wrong)) return fit_round("");
     OutlierSearch search{.n_points = cloud_.n_points(),
-                         .most = most_outliers(strays, wrong),
+                         .most = most_outliers(isolated, wrong),
                          .noise = cloud_.size().noise,
                          .load = [&](std::size_t tile) { return cloud_.load(tile); },
                          .changed = [&] { cloud_.forget_scenes(); }};
@@ -427,7 +427,7 @@ class TileRun {
     TileParts parts(store_, surface, n_);
     const TileParts::Whole whole = join_parts(parts, options_.min_component);
     report_.dropped_components = whole.dropped;
-    report_.faces = whole.triangles;
+    report_.full_faces = whole.faces;
     set_sizes(whole, whole);
     check_points(parts);
     if (!options_.simplify) return write(parts);
@@ -475,7 +475,7 @@ class TileRun {
   void simplify(TileSurface& surface, const TileParts& parts) {
     TileSimplify less(store_, surface, parts, n_,
                       {.stops = simplify_stops(*options_.simplify, report_.step),
-                       .triangles = report_.faces,
+                       .faces = report_.full_faces,
                        .step = report_.step});
     if (less.wants_curves()) {
       stages_.each("simplify", n_, [&](std::size_t tile) {

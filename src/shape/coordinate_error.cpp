@@ -120,9 +120,9 @@ bool are_written_singles(const MeshView& mesh, const Decimals& written, double l
 
 // Returns true if fewer than half of a sample of the faces are thinner than the error.
 bool leaves_most_faces(const MeshView& mesh, double scale, const Vec3& error) {
-  const std::size_t step = std::max<std::size_t>(1, mesh.n_triangles / kSampled);
+  const std::size_t step = std::max<std::size_t>(1, mesh.n_faces / kSampled);
   std::size_t thin = 0, n = 0;
-  for (std::size_t t = 0; t < mesh.n_triangles; t += step, ++n) {
+  for (std::size_t t = 0; t < mesh.n_faces; t += step, ++n) {
     const Triangle triangle = mesh.triangle(t);
     if (std::ranges::max(triangle) >= mesh.n_vertices) validate(mesh);  // throws with the index
     thin += is_thin(scaled_corners(mesh, triangle, scale), scale * error);

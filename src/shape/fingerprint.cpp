@@ -33,7 +33,7 @@ std::uint64_t fingerprint(const MeshView& mesh) {
   Hash hash;
   const std::size_t row = mesh.coordinate == ScalarType::kFloat32 ? 12 : 24;
   hash.add_some(mesh.vertices, mesh.n_vertices, mesh.vertex_stride, row);
-  hash.add_some(mesh.triangles, mesh.n_triangles, mesh.triangle_stride, sizeof(Triangle));
+  hash.add_some(mesh.faces, mesh.n_faces, mesh.face_stride, sizeof(Triangle));
   return hash.value();
 }
 

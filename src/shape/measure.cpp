@@ -31,8 +31,8 @@ Sizes measure_sizes(const MeshView& mesh, const UnitFrame& frame, const Context&
   struct Sums {
     CompensatedSum twice_area, six_volumes;
   };
-  std::vector<Sums> parts((mesh.n_triangles + kGrain - 1) / kGrain);
-  parallel_for(mesh.n_triangles, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+  std::vector<Sums> parts((mesh.n_faces + kGrain - 1) / kGrain);
+  parallel_for(mesh.n_faces, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     Sums part;
     for (std::size_t t = begin; t < end; ++t) {
       const std::array<Vec3, 3> corners = scaled_corners(mesh, mesh.triangle(t), frame.scale);
@@ -55,7 +55,7 @@ Measures measure(const MeshView& mesh, const UnitFrame& frame) {
   CompensatedSum twice_area, six_volumes, moduli;
   VectorSum area_moment, volume_moment;
   CancelPoll poll;
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+  for (std::size_t t = 0; t < mesh.n_faces; ++t) {
     poll();
     const std::array<Vec3, 3> corners = scaled_corners(mesh, mesh.triangle(t), frame.scale);
     const Vec3 normal = face_normal(corners).twice_area;
@@ -114,7 +114,7 @@ double enclosed_volume(const Mesh& mesh) {
 }
 
 void flip(Mesh& mesh) {
-  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  for (Triangle& t : mesh.faces) std::swap(t[1], t[2]);
   for (Attribute& attribute : mesh.attributes) {
     if (attribute.name != "nx" && attribute.name != "ny" && attribute.name != "nz") continue;
     for (double& value : attribute.values) value = -value;

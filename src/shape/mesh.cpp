@@ -53,23 +53,23 @@ MeshView view_of(const Mesh& mesh) {
           .n_vertices = mesh.vertices.size(),
           .vertex_stride = sizeof(Vec3),
           .coordinate = ScalarType::kFloat64,
-          .triangles = reinterpret_cast<const std::byte*>(mesh.triangles.data()),
-          .n_triangles = mesh.triangles.size(),
-          .triangle_stride = sizeof(Triangle)};
+          .faces = reinterpret_cast<const std::byte*>(mesh.faces.data()),
+          .n_faces = mesh.faces.size(),
+          .face_stride = sizeof(Triangle)};
 }
 
 Mesh mesh_of(const MeshView& view) {
   Mesh mesh;
   mesh.vertices.reserve(view.n_vertices);
-  mesh.triangles.reserve(view.n_triangles);
+  mesh.faces.reserve(view.n_faces);
   CancelPoll poll;
   for (std::size_t i = 0; i < view.n_vertices; ++i) {
     poll();
     mesh.vertices.push_back(view.vertex(i));
   }
-  for (std::size_t t = 0; t < view.n_triangles; ++t) {
+  for (std::size_t t = 0; t < view.n_faces; ++t) {
     poll();
-    mesh.triangles.push_back(view.triangle(t));
+    mesh.faces.push_back(view.triangle(t));
   }
   return mesh;
 }
@@ -80,7 +80,7 @@ void validate(const MeshView& mesh) {
     poll();
     check_point(mesh.vertex(i), i, "vertex");
   }
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+  for (std::size_t t = 0; t < mesh.n_faces; ++t) {
     poll();
     for (const std::uint32_t index : mesh.triangle(t)) {
       if (index >= mesh.n_vertices) {
@@ -88,7 +88,7 @@ void validate(const MeshView& mesh) {
         const bool negative = index > INT32_MAX;
         throw Error(
             ErrorCode::kInvalidInput,
-            "triangle " + std::to_string(t) + " names vertex " +
+            "face " + std::to_string(t) + " names vertex " +
                 (negative ? std::to_string(static_cast<std::int32_t>(index))
                           : std::to_string(index)) +
                 (negative ? ", but indices begin at 0 and end at " : ", but the last one is ") +

@@ -79,12 +79,12 @@ Response json_response(const Json& json, int status) {
 Response surface_answer(const Item& item, bool original) {
   if (item.points) return points_answer(item);
   const Mesh& mesh = original && item.original ? *item.original : *item.shown;
-  const std::size_t n = mesh.vertices.size(), m = mesh.triangles.size();
+  const std::size_t n = mesh.vertices.size(), m = mesh.faces.size();
   const std::vector<float> positions = floats_of(mesh.vertices);
   Binary binary;
   binary.add("positions", positions, {n, 3});
-  binary.add("normals", normals_of(positions, mesh.triangles, joined_triangles(mesh)), {n, 3});
-  binary.add("triangles", indices_of(mesh.triangles), {m, 3});
+  binary.add("normals", normals_of(positions, mesh.faces, joined_triangles(mesh)), {n, 3});
+  binary.add("triangles", indices_of(mesh.faces), {m, 3});
   // A series has the colours and the vertices of its shape.
   const std::vector<std::uint8_t> colors = colors_of(item.original ? *item.original : mesh);
   if (!colors.empty()) binary.add("colors", colors, {n, 3});

@@ -73,7 +73,7 @@ Step simplify_item(const Json& request, const Document& now, Shared& shared) {
   return {"Simplify " + item->name, true, [=, &shared](Document& document, const Context& context) {
             SimplifyOptions options;
             if (error) options.max_error = *error;
-            if (faces > 0) options.triangles = static_cast<std::size_t>(faces);
+            if (faces > 0) options.faces = static_cast<std::size_t>(faces);
             Mesh mesh = simplify(*item->shown, options, context).mesh;
             const Named from = surface_of(document.recipe, *item);
             finish(document, *item, std::move(mesh), "-simple", of_surface(step, "from", from),

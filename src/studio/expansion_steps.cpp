@@ -102,7 +102,7 @@ Mesh placed_mesh(Mesh mesh, const Placement& placement) {
   };
   for (Vec3& v : mesh.vertices) v = turned(v - placement.from) + placement.to;
   if (best.mirrored) {
-    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    for (Triangle& t : mesh.faces) std::swap(t[1], t[2]);
   }
   Attribute* normals[3] = {};
   for (Attribute& a : mesh.attributes) {

@@ -44,8 +44,8 @@ Response mesh_answer(const Item& item, const Mesh& mesh) {
   const std::size_t n = mesh.vertices.size();
   Binary binary;
   binary.add("positions", positions, {n, 3});
-  binary.add("normals", normals_of(positions, mesh.triangles, joined_triangles(mesh)), {n, 3});
-  binary.add("triangles", indices_of(mesh.triangles), {mesh.triangles.size(), 3});
+  binary.add("normals", normals_of(positions, mesh.faces, joined_triangles(mesh)), {n, 3});
+  binary.add("triangles", indices_of(mesh.faces), {mesh.faces.size(), 3});
   binary.meta = meta_of(item);
   return binary.response();
 }
@@ -188,8 +188,7 @@ Response Live::blend(const Json& request, const Document& document) const {
   const std::vector<float> positions = floats_of(points);
   Binary binary;
   binary.add("positions", positions, {points.size(), 3});
-  binary.add("normals", normals_of(positions, sphere.triangles, a->model->joined),
-             {points.size(), 3});
+  binary.add("normals", normals_of(positions, sphere.faces, a->model->joined), {points.size(), 3});
   binary.meta = meta_of(*a);
   return binary.response();
 }

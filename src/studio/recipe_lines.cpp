@@ -313,7 +313,7 @@ void simplify(Reading& r) {
   std::vector<std::string> python = {from.variable};
   if (const int faces = integer_or(r.step, "faces", 0); faces > 0) {
     shell += fmt::format(" --faces {}", faces);
-    python.push_back(fmt::format("triangles={}", faces));
+    python.push_back(fmt::format("faces={}", faces));
   }
   if (const std::optional<double> error = maybe_number(r.step, "error")) {
     shell += " --max-error " + digits(*error);

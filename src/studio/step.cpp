@@ -17,7 +17,7 @@ std::size_t attribute_bytes(const std::vector<Attribute>& attributes) {
 }
 
 std::size_t bytes_of(const Mesh& mesh) {
-  return sizeof(Vec3) * mesh.vertices.size() + sizeof(Triangle) * mesh.triangles.size() +
+  return sizeof(Vec3) * mesh.vertices.size() + sizeof(Triangle) * mesh.faces.size() +
          attribute_bytes(mesh.attributes);
 }
 

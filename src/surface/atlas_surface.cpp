@@ -178,14 +178,14 @@ double median_support(const Atlas& atlas) {
 // Marks connected parts without support as kept if their area is below `least`.
 void bridge_gaps(const Mesh& mesh, double least, std::vector<double>& support) {
   DisjointSets parts(support.size());
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
       if (support[a] <= 0 && support[b] <= 0) parts.unite(a, b);
     }
   }
   std::vector<double> areas(support.size(), 0.0);
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const Vec3& a = mesh.vertices[t[0]];
     const double area = norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) / 2;
     for (const std::uint32_t v : t) {
@@ -205,11 +205,11 @@ double guessed_share(const ExtractedSurface& surface, const Context& context) {
   struct Areas {
     double guessed = 0, whole = 0;
   };
-  std::vector<Areas> parts((mesh.triangles.size() + kGrain - 1) / kGrain);
-  parallel_for(mesh.triangles.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+  std::vector<Areas> parts((mesh.faces.size() + kGrain - 1) / kGrain);
+  parallel_for(mesh.faces.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     Areas part;
     for (std::size_t i = begin; i < end; ++i) {
-      const Triangle& t = mesh.triangles[i];
+      const Triangle& t = mesh.faces[i];
       const Vec3& a = mesh.vertices[t[0]];
       const double area = norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a));
       part.whole += area;
@@ -233,13 +233,13 @@ void complete_normals(Mesh& mesh, const Context& context) {
   std::vector<std::uint8_t> flags(mesh.vertices.size(), 0);
   for (const std::uint32_t v : missing) flags[v] = 1;
   const std::vector<std::uint32_t> around =
-      indices_where(mesh.triangles.size(), context, [&](std::uint32_t t) {
-        const Triangle& c = mesh.triangles[t];
+      indices_where(mesh.faces.size(), context, [&](std::uint32_t t) {
+        const Triangle& c = mesh.faces[t];
         return (flags[c[0]] | flags[c[1]] | flags[c[2]]) != 0;
       });
   std::vector<Vec3> sums(missing.size());
   for (const std::uint32_t i : around) {
-    const Triangle& t = mesh.triangles[i];
+    const Triangle& t = mesh.faces[i];
     const Vec3& a = mesh.vertices[t[0]];
     const Vec3 area = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
     for (const std::uint32_t v : t) {
@@ -253,7 +253,7 @@ void complete_normals(Mesh& mesh, const Context& context) {
 }  // namespace
 
 SimplifyOptions simplify_stops(SimplifyOptions options, double step) {
-  const bool none = options.triangles == 0 && options.share == 0 && std::isinf(options.max_error);
+  const bool none = options.faces == 0 && options.share == 0 && std::isinf(options.max_error);
   if (none) options.max_error = kSimplifyError * step;
   return options;
 }
@@ -299,7 +299,7 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   result.dropped_components =
       drop_small_components(result.mesh, options.min_component, context).dropped;
   complete_normals(result.mesh, context);
-  result.faces = result.mesh.triangles.size();
+  result.faces = result.mesh.faces.size();
   if (options.judge) options.judge(result.mesh);
   if (options.simplify) {
     grid = {};

@@ -59,7 +59,7 @@ class Bench(CliTest):
         case, = self.report("--faces", "5000", *QUICK)["cases"]
         stages = case["runs"][0]["stages"]
         self.assertEqual(case["runs"][0]["threads"], 1)
-        for name in ("coefficients", "read", "triangles", "spread", "fourier", "norms", "write"):
+        for name in ("coefficients", "read", "faces", "spread", "fourier", "norms", "write"):
             stage = stages[name]
             self.assertLessEqual(stage["least_cpu_seconds"], stage["cpu_seconds"])
             self.assertAlmostEqual(stage["cpu_ns_per_face"] * case["counts"]["faces"],
@@ -85,7 +85,7 @@ class Bench(CliTest):
 
     def test_the_text_has_a_table(self):
         text = self.bench("--faces", "5000", *QUICK).out
-        for word in ("bytes to coefficients", "triangles", "spread", "row updates alone", "GB/s",
+        for word in ("bytes to coefficients", "faces", "spread", "row updates alone", "GB/s",
                      "ns/face", "measured against direct sums"):
             self.assertIn(word, text)
         text = self.bench("--faces", "2000", "--shuffle", "--thread-counts", "1,2", *QUICK).out

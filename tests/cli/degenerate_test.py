@@ -286,6 +286,12 @@ class DegenerateCoefficients(CliTest):
         for name in ("e.h5", "e.sh", "e.gfc", "e.json", "e.npy", "e.txt"):
             self.write(name, b"")
             self.check_refused(name)
+            self.assertIn("empty", self.rholm("repair", name, "-o", "o.ply", code=3).err)
+
+    def test_text_with_the_extension_of_models_is_no_model(self):
+        self.write("text.h5", "nothing of use\n")
+        for command in (["repair", "text.h5", "-o", "o.ply"], ["render", "text.h5", "-o", "o.png"]):
+            self.assertNotIn("contains coefficients", self.rholm(*command, code=3).err)
 
     def test_lies_are_refused_quickly(self):
         header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 1000001, 1000001), }"

@@ -24,12 +24,6 @@ TEST(json_of_fields, has_null_for_what_is_not_finite) {
   EXPECT_TRUE(json_of_value(std::numeric_limits<double>::quiet_NaN()).is_null());
 }
 
-TEST(json_of_fields, says_faces_for_triangles) {
-  const Json json = json_of_fields(StarReport{.center = {}, .bad_triangles = 3});
-  EXPECT_EQ(json.at("bad_faces"), 3);
-  EXPECT_FALSE(json.contains("bad_triangles"));
-}
-
 TEST(json_of_fields, has_both_times_of_each_stage) {
   CompressReport report;
   report.times["fit"] = {.wall = 1, .cpu = 2};

@@ -99,7 +99,7 @@ class Analyze(CliTest):
 
     def test_report_has_the_promised_keys(self):
         report = self.rholm("expand", "a.off", "--degree", "4", "-o", "a.h5", "--json").json()
-        stages = {"read", "topology", "center", "transform", "order", "triangles", "spread",
+        stages = {"read", "topology", "center", "transform", "order", "faces", "spread",
                   "fourier", "verify", "norms", "rays", "errors", "write"}
         self.assertEqual(set(report["seconds"]), stages)
         self.assertEqual(set(report["cpu_seconds"]), stages)

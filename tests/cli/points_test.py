@@ -167,7 +167,7 @@ class Orient(CliTest):
             wrong += sum(float(a[c]) * float(b[c]) for c in ("nx", "ny", "nz")) < 0
         self.assertLessEqual(wrong, 5)
 
-    def test_a_stray_point_is_counted_unless_told(self):
+    def test_an_isolated_point_is_counted_unless_told(self):
         self.write("s.xyz", "".join(" ".join(row[:3]) + "\n" for row in
                                     ([str(x) for x in r] for r in rows(self.folder / "true.xyz")))
                    + "1e6 0 0\n")

@@ -167,10 +167,10 @@ class Reconstruct(CliTest):
         self.assertIn("uncertain", failed.err)
         self.assertFalse(self.shape_of("s.ply")["closed"])
 
-    def test_a_stray_point_far_away_is_left_out(self):
+    def test_an_isolated_point_far_away_is_left_out(self):
         lines = (self.folder / "p.xyz").read_text()
-        self.write("stray.xyz", lines + "1e7 0 0 1 0 0\n")
-        self.assertEqual(self.reconstruct("stray.xyz")["outliers"], 1)
+        self.write("far.xyz", lines + "1e7 0 0 1 0 0\n")
+        self.assertEqual(self.reconstruct("far.xyz")["outliers"], 1)
         self.assertEqual(self.shape_of("s.ply")["genus"], 1)
 
     def test_resolution_is_along_the_longest_side(self):

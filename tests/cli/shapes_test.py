@@ -82,10 +82,9 @@ class Repair(CliTest):
         faces.append((0, 1, 2))
         self.write("bad.off", off(vertices, faces))
         report = self.repair("bad.off")
-        self.assertEqual(report["dropped"],
-                         {"isolated_vertices": 1, "duplicate_faces": 1, "degenerate_faces": 0})
-        self.assertEqual(report["turned_faces"], 1)
-        self.assertEqual(report["holes"]["closed"], 1)
+        for repaired, times in (("isolated_vertices", 1), ("duplicate_faces", 1), ("degenerate_faces", 0),
+                                ("flipped_faces", 1), ("closed_holes", 1)):
+            self.assertEqual(report[repaired], times, repaired)
         self.assertTrue(report["after"]["closed"] and report["after"]["oriented"])
         self.assertAlmostEqual(report["after"]["volume"], 4 / 3)
         self.rholm("expand", "repaired.off", "--degree", 4, "-o", "model.h5")

@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   rholm::AtomicFile output(argv[2]);
   output.write({"unfinished", 10});
   if (::truncate(argv[1], 100) != 0) return 2;
-  const rholm::Triangle last = mesh->view().triangle(mesh->view().n_triangles - 1);
+  const rholm::Triangle last = mesh->view().triangle(mesh->view().n_faces - 1);
   std::printf("still there: %u\n", last[0]);
   return 0;
 }

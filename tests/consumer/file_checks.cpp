@@ -33,8 +33,7 @@ void shape_io() {
   const rholm::ShapeFile file = rholm::read_shape("box.obj");
   expect(file.format == rholm::ShapeFormat::kObj, "the content says the format");
   const auto& read = std::get<rholm::Mesh>(file.shape);
-  expect(read.vertices == box.vertices && read.triangles == box.triangles,
-         "what is written is read");
+  expect(read.vertices == box.vertices && read.faces == box.faces, "what is written is read");
 }
 
 void formats() {
@@ -71,8 +70,8 @@ void mapped_mesh() {
   const rholm::Mesh sphere = rholm::icosphere(3);
   rholm::write_shape(sphere, "sphere.ply");
   const auto mapped = rholm::map_mesh("sphere.ply");
-  expect(mapped && mapped->view().n_triangles == sphere.triangles.size(), "a mesh is mapped");
-  expect(mapped->counts_are_three(0, sphere.triangles.size()), "faces are triangles");
+  expect(mapped && mapped->view().n_faces == sphere.faces.size(), "a mesh is mapped");
+  expect(mapped->counts_are_three(0, sphere.faces.size()), "faces are triangles");
   expect(mapped->view().vertex(5) == sphere.vertices[5], "vertices lie where they should");
 }
 

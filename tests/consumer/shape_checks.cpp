@@ -24,7 +24,7 @@ void mesh() {
   rholm::validate(mesh);
   expect(rholm::find_attribute(mesh.attributes, "quality")->values[7] == 0.5,
          "attributes are found");
-  mesh.triangles[0][0] = 8;
+  mesh.faces[0][0] = 8;
   try {
     rholm::validate(mesh);
   } catch (const rholm::Error&) {
@@ -85,15 +85,15 @@ void primitives() {
 
 void repair() {
   rholm::Mesh open = rholm::box({1, 1, 1}, 4);
-  open.triangles.pop_back();
+  open.faces.pop_back();
   const rholm::Repaired mended = rholm::repair(open);
   expect(mended.report.closed_holes == 1 && mended.report.after.closed, "a hole is closed");
   expect_near(rholm::enclosed_volume(mended.mesh), 1, 1e-12, "the volume of the mended box");
 }
 
 void simplify() {
-  const rholm::Simplification fewer = rholm::simplify(rholm::box({1, 1, 1}, 8), {.triangles = 12});
-  expect(fewer.mesh.triangles.size() == 12, "a box needs 12 triangles");
+  const rholm::Simplification fewer = rholm::simplify(rholm::box({1, 1, 1}, 8), {.faces = 12});
+  expect(fewer.mesh.faces.size() == 12, "a box needs 12 triangles");
   expect_near(rholm::surface_area(fewer.mesh), 6, 1e-12, "its area stays");
 }
 

@@ -30,11 +30,11 @@ Mesh sheet(int n, double h, const Height& height) {
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
       if (i % 2 == 0) {
-        mesh.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j)});
-        mesh.triangles.push_back({at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
+        mesh.faces.push_back({at(i, j), at(i, j + 1), at(i + 1, j)});
+        mesh.faces.push_back({at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
       } else {
-        mesh.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
-        mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+        mesh.faces.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+        mesh.faces.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
       }
     }
   }

@@ -190,7 +190,7 @@ TEST(Smooth, what_has_no_weight_stays_to_the_last_bit) {
     moved += same ? 0 : 1;
   }
   EXPECT_GT(moved, 100u);
-  EXPECT_EQ(mesh.triangles, edited.triangles);
+  EXPECT_EQ(mesh.faces, edited.faces);
   EXPECT_EQ(mesh.attributes[0].values, edited.attributes[0].values);
   EXPECT_EQ(update(patch, {.strength = 0}), patch.positions);
 }

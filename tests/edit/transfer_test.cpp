@@ -200,7 +200,7 @@ TEST(Transfer, meshes_that_are_inside_out_have_their_heights_outwards) {
         const Mesh found = transfer(from ? flipped(source) : source, at,
                                     to ? flipped(target) : target, at, options);
         EXPECT_EQ(found.vertices, expected.vertices) << from << to;
-        EXPECT_EQ(found.triangles, (to ? flipped(expected) : expected).triangles) << from << to;
+        EXPECT_EQ(found.faces, (to ? flipped(expected) : expected).faces) << from << to;
       }
     }
   }
@@ -266,7 +266,7 @@ TEST(Transfer, raw_coefficients_step_at_the_rim_where_displacements_fade) {
     const Mesh moved =
         transfer(source, disc, target, disc, {.from_degree = 8}, {.angle = 0.0, .mode = mode});
     double largest = 0;
-    for (const Triangle& t : moved.triangles) {
+    for (const Triangle& t : moved.faces) {
       const Vec3 &a = target.vertices[t[0]], &b = target.vertices[t[1]];
       if ((norm(a) < 0.5) == (norm(b) < 0.5)) continue;
       largest = std::max(largest, std::abs(moved.vertices[t[0]].z - moved.vertices[t[1]].z));
@@ -310,7 +310,7 @@ TEST(Refine, edges_get_short_and_a_sphere_stays_round) {
   std::vector<double> weights(mesh.vertices.size(), 1);
   refine(mesh, weights, 0.05);
   EXPECT_TRUE(inspect(mesh).closed);
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_LE(norm(mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]), 0.05);
     }
@@ -341,10 +341,10 @@ TEST(LocalMesh, edges_do_not_depend_on_the_order_of_corners) {
 TEST(LocalMesh, vertices_at_the_same_place_are_one_point_whatever_the_sign_of_zero) {
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, -0.0, 0}, {1, 1, 0}, {-0.0, 1, -0.0}};
-  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  mesh.faces = {{0, 1, 2}, {3, 4, 5}};
   const LocalMesh local = cut_out(mesh, bounds(mesh.vertices));
   EXPECT_EQ(local.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}));
-  EXPECT_EQ(local.triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}}));
+  EXPECT_EQ(local.faces, (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}}));
 }
 
 TEST(Transfer, what_cannot_be_done_is_refused) {

@@ -62,7 +62,7 @@ std::vector<Mesh> random_bodies(Dice& dice) {
 // Returns the winding number of the body at each point: near 1 inside, near 0 outside.
 std::vector<double> winding_of(const Mesh& body, const std::vector<Vec3>& points) {
   std::vector<Vec3> centers, areas;
-  for (const Triangle& t : body.triangles) {
+  for (const Triangle& t : body.faces) {
     const Vec3 &a = body.vertices[t[0]], &b = body.vertices[t[1]], &c = body.vertices[t[2]];
     centers.push_back((a + b + c) / 3);
     areas.push_back(cross(b - a, c - a) / 2);
@@ -125,7 +125,7 @@ TEST(RandomReconstruct, every_surface_is_a_closed_manifold) {
       EXPECT_EQ(found.non_manifold_edges, 0U);
       EXPECT_EQ(found.non_manifold_vertices, 0U);
       EXPECT_EQ(found.misoriented_edges, 0U);
-      EXPECT_GT(found.triangles, 0U);
+      EXPECT_GT(found.faces, 0U);
       EXPECT_GT(found.volume, 0);
       options.holes = HolePolicy::kKeep;
       const Inspection open = inspect(reconstruct(std::move(cloud), options).mesh);

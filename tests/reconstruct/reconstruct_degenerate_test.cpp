@@ -35,7 +35,7 @@ void expect_closed_or_refused(const PointCloud& cloud, const std::string& name) 
     try {
       const Reconstruction made = reconstruct(cloud, {.holes = holes, .max_memory = 1 << 28});
       expect_finite(made.mesh);
-      EXPECT_FALSE(made.mesh.triangles.empty());
+      EXPECT_FALSE(made.mesh.faces.empty());
       const Inspection found = inspect(made.mesh);
       expect_manifold(found);
       if (holes == HolePolicy::kFill) {
@@ -104,7 +104,7 @@ TEST(ReconstructDegenerate, a_grid_too_coarse_for_the_shape_is_refused_with_its_
   const PointCloud sphere = sphere_points(500);
   try {
     const Reconstruction made = reconstruct(sphere, {.step = 20});
-    FAIL() << made.mesh.triangles.size() << " triangles";
+    FAIL() << made.mesh.faces.size() << " triangles";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kInvalidInput);
     EXPECT_NE(std::string(error.what()).find("steps of 20 "), std::string::npos) << error.what();

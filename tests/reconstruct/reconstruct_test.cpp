@@ -97,7 +97,7 @@ TEST(Reconstruct, normals_into_the_solid_are_turned) {
     const Reconstruction turned = reconstruct(cloud);
     EXPECT_TRUE(turned.report.turned_normals);
     EXPECT_EQ(turned.mesh.vertices, right.mesh.vertices);
-    EXPECT_EQ(turned.mesh.triangles, right.mesh.triangles);
+    EXPECT_EQ(turned.mesh.faces, right.mesh.faces);
   }
 }
 
@@ -317,7 +317,7 @@ TEST(Reconstruct, points_that_say_nothing_change_nothing) {
   EXPECT_EQ(made.report.points, 2004U);
   EXPECT_EQ(made.report.dropped_points, 4U);
   EXPECT_EQ(made.mesh.vertices, expected.vertices);
-  EXPECT_EQ(made.mesh.triangles, expected.triangles);
+  EXPECT_EQ(made.mesh.faces, expected.faces);
 }
 
 TEST_OF_TWO_SIZES(Reconstruct, uneven_density_does_not_tear_the_surface) {
@@ -427,7 +427,7 @@ TEST(Reconstruct, results_are_the_same_bits_for_every_number_of_threads) {
   const Reconstruction one = reconstruct(cloud, {}, {.threads = 1});
   const Reconstruction two = reconstruct(cloud, {}, {.threads = 2});
   EXPECT_EQ(one.mesh.vertices, two.mesh.vertices);
-  EXPECT_EQ(one.mesh.triangles, two.mesh.triangles);
+  EXPECT_EQ(one.mesh.faces, two.mesh.faces);
   EXPECT_EQ(one.model.atlas.coefficients, two.model.atlas.coefficients);
   ASSERT_EQ(one.mesh.attributes.size(), two.mesh.attributes.size());
   for (std::size_t a = 0; a < one.mesh.attributes.size(); ++a) {
@@ -472,7 +472,7 @@ TEST(Reconstruct, direction_does_not_matter) {
 }
 
 TEST(Reconstruct, stops_when_asked) {
-  for (const char* stage : {"strays", "caps", "surface"}) {
+  for (const char* stage : {"isolated points", "caps", "surface"}) {
     bool seen = false;
     const Context context{.progress = [&](std::string_view name, double) {
       const bool now = name.starts_with(stage);  // the time that is left may follow

@@ -79,11 +79,11 @@ TEST_F(TileReconstructOptions, simplifies_through_tiles_nightly) {
   for (const Vec3& p : cloud.points) {
     cloud.attributes[0].values.push_back(static_cast<double>(static_cast<float>(p.z)));
   }
-  const ReconstructOptions wanted{.simplify = SimplifyOptions{.triangles = 8000}};
+  const ReconstructOptions wanted{.simplify = SimplifyOptions{.faces = 8000}};
   const ReconstructReport report = run(cloud, 3000, "simple.ply", wanted);
   const Mesh simple = mesh("simple.ply");
   const Inspection found = test::expect_closed_manifold(simple);
-  EXPECT_EQ(found.triangles, 8000U);
+  EXPECT_EQ(found.faces, 8000U);
   EXPECT_EQ(found.components, 1U);
   EXPECT_EQ(found.genus, 1);
   const Reconstruction one = reconstruct(cloud, wanted);
@@ -119,8 +119,8 @@ TEST_F(TileReconstructOptions, simplifies_what_is_open_nightly) {
   EXPECT_LE(report.simplify_error, 0.02 * report.step * (1 + 1e-4));
   const Reconstruction one = reconstruct(cloud, wanted);
   EXPECT_NEAR(report.area, one.report.area, 5e-3 * report.area);
-  const auto n = static_cast<double>(one.mesh.triangles.size());
-  EXPECT_NEAR(static_cast<double>(found.triangles), n, 0.05 * n);
+  const auto n = static_cast<double>(one.mesh.faces.size());
+  EXPECT_NEAR(static_cast<double>(found.faces), n, 0.05 * n);
 }
 
 // The cloud is a torus with a hole and a thin plate.

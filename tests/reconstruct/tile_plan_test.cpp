@@ -10,7 +10,7 @@
 #include "reconstruct/points/point_sample.h"
 #include "reconstruct/test_support.h"
 #include "rholm/error.h"
-#include "shape/points/strays.h"
+#include "shape/points/isolated_points.h"
 
 namespace rholm {
 namespace {
@@ -81,7 +81,7 @@ class Unsized final : public PointSource {
   std::unique_ptr<PointSource> source_;
 };
 
-PointCloud with_strays() {
+PointCloud with_isolated_points() {
   PointCloud cloud = sphere_points(20000);
   cloud.points[5] = {kNan, 0, 0};
   cloud.points[70] = {0, -std::numeric_limits<double>::infinity(), 0};
@@ -92,28 +92,28 @@ PointCloud with_strays() {
 }
 
 TEST(survey, counts_as_those_do_who_see_all_points) {
-  const PointCloud cloud = with_strays();
-  const std::vector<std::uint8_t> far = find_far_strays(cloud.points);
+  const PointCloud cloud = with_isolated_points();
+  const std::vector<std::uint8_t> far = find_far_isolated_points(cloud.points);
   std::vector<Vec3> kept;
   for (std::size_t i = 0; i < far.size(); ++i) {
     if (far[i] == 0 && is_finite(cloud.points[i])) kept.push_back(cloud.points[i]);
   }
   const Survey found = survey(*points_in_memory(cloud));
-  EXPECT_EQ(found.far_strays, static_cast<std::uint64_t>(std::count(far.begin(), far.end(), 1)));
-  EXPECT_EQ(found.far_strays, 2u);
+  EXPECT_EQ(found.far_isolated, static_cast<std::uint64_t>(std::count(far.begin(), far.end(), 1)));
+  EXPECT_EQ(found.far_isolated, 2u);
   EXPECT_EQ(found.not_finite, 2u);
   EXPECT_EQ(found.points, kept.size());
   EXPECT_EQ(found.bounds.min, bounds(kept).min);
   EXPECT_EQ(found.bounds.max, bounds(kept).max);
   EXPECT_EQ(found.n_different, static_cast<double>(kept.size()));
   EXPECT_EQ(found.sample.size(), kept.size());
-  const Survey all = survey(*points_in_memory(cloud), {.drop_far_strays = false});
-  EXPECT_EQ(all.far_strays, 0u);
+  const Survey all = survey(*points_in_memory(cloud), {.drop_far_isolated = false});
+  EXPECT_EQ(all.far_isolated, 0u);
   EXPECT_EQ(all.bounds.max.x, 1000);
 }
 
 TEST(survey, does_not_depend_on_the_order) {
-  const PointCloud cloud = with_strays();
+  const PointCloud cloud = with_isolated_points();
   const SurveyOptions options{.points_per_tile = 100, .least_sample = 300};
   const Survey a = survey(*points_in_memory(cloud), options);
   const PointCloud other = shuffled(cloud);
@@ -161,7 +161,7 @@ TEST(survey, knows_the_narrowest_layout) {
 TEST(survey, is_kept_in_a_store) {
   MemoryStore store;
   EXPECT_FALSE(read_survey(store));
-  const PointCloud cloud = with_strays();
+  const PointCloud cloud = with_isolated_points();
   const Survey found = survey(*points_in_memory(cloud));
   write_survey(found, store);
   const std::optional<Survey> again = read_survey(store);
@@ -170,7 +170,7 @@ TEST(survey, is_kept_in_a_store) {
   EXPECT_EQ(again->layout, found.layout);
   EXPECT_EQ(again->points, found.points);
   EXPECT_EQ(again->not_finite, found.not_finite);
-  EXPECT_EQ(again->far_strays, found.far_strays);
+  EXPECT_EQ(again->far_isolated, found.far_isolated);
   EXPECT_EQ(again->ball.radius, found.ball.radius);
   EXPECT_EQ(again->ball.middle, found.ball.middle);
   EXPECT_EQ(again->bounds.min, found.bounds.min);

@@ -40,7 +40,7 @@ TEST_F(TileReconstruct, is_as_good_as_one_piece) {
   EXPECT_NEAR(report.volume, one.report.volume, 1e-4 * report.volume);
   EXPECT_NEAR(report.points_area, one.report.points_area, 0.05 * report.points_area);
   EXPECT_NEAR(report.step, one.report.step, 0.03 * one.report.step);
-  EXPECT_EQ(report.faces, tiles.triangles.size());
+  EXPECT_EQ(report.faces, tiles.faces.size());
   EXPECT_LT(rms_of(tiles), 1.05 * rms_of(one.mesh));
   // Compares normals with the true normals.
   double worst = 1;
@@ -285,7 +285,7 @@ TEST_F(TileReconstruct, has_unit_normals_everywhere_nightly) {
   run(cloud, 1500, "normals.ply");
   const Mesh closed = mesh("normals.ply");
   std::vector<Vec3> sums(closed.vertices.size());
-  for (const Triangle& t : closed.triangles) {
+  for (const Triangle& t : closed.faces) {
     const Vec3& a = closed.vertices[t[0]];
     const Vec3 area = cross(closed.vertices[t[1]] - a, closed.vertices[t[2]] - a);
     for (const std::uint32_t v : t) sums[v] += area;

@@ -28,7 +28,7 @@ double distance_to_torus(const Vec3& x) {
 
 double rms_of_middles(const Mesh& mesh) {
   double sum = 0, all = 0;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
     const double area = norm(cross(b - a, c - a));
     sum += area * std::pow(distance_to_torus((1.0 / 3) * (a + b + c)), 2);
@@ -62,7 +62,7 @@ class TilesOfMesh {
     TileParts parts(store_, *surface_, n_);
     const TileParts::Whole whole = joined(parts);
     TileSimplify less(store_, *surface_, parts, n_,
-                      {.stops = stops, .triangles = whole.triangles, .step = 0.02, .group = group});
+                      {.stops = stops, .faces = whole.faces, .step = 0.02, .group = group});
     if (less.wants_curves()) {
       for (std::size_t tile = 0; tile < n_; ++tile) less.find_curve(tile, {});
     }
@@ -80,10 +80,10 @@ class TilesOfMesh {
       const PlyPart part = simple.part(tile);
       const auto& vertices = part.vertices.vertices;
       result.mesh.vertices.insert(result.mesh.vertices.end(), vertices.begin(), vertices.end());
-      for (const auto& t : part.triangles) {
-        result.mesh.triangles.push_back({static_cast<std::uint32_t>(t[0]),
-                                         static_cast<std::uint32_t>(t[1]),
-                                         static_cast<std::uint32_t>(t[2])});
+      for (const auto& t : part.faces) {
+        result.mesh.faces.push_back({static_cast<std::uint32_t>(t[0]),
+                                     static_cast<std::uint32_t>(t[1]),
+                                     static_cast<std::uint32_t>(t[2])});
       }
     }
     return result;
@@ -108,7 +108,7 @@ class TilesOfMesh {
         part.mesh.attributes.push_back({axis, ScalarType::kFloat32, {}});
       }
     }
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.faces) {
       const Vec3 sum = mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]];
       tile.push_back(static_cast<std::uint32_t>(plan_.tile_of((1.0 / 3) * sum)));
       for (const std::uint32_t v : t) {
@@ -120,7 +120,7 @@ class TilesOfMesh {
     }
     std::vector<std::map<VertexKey, std::uint32_t>> foreign(n_);
     for (std::size_t t = 0; t < tile.size(); ++t) {
-      for (const std::uint32_t v : mesh.triangles[t]) {
+      for (const std::uint32_t v : mesh.faces[t]) {
         if (owner[v] != tile[t]) foreign[tile[t]][VertexKey::direct(owner[v], number[v])] = v;
       }
     }
@@ -133,9 +133,9 @@ class TilesOfMesh {
       }
       for (std::size_t t = 0; t < tile.size(); ++t) {
         if (tile[t] != b) continue;
-        Triangle own = mesh.triangles[t];
+        Triangle own = mesh.faces[t];
         for (std::uint32_t& v : own) v = owner[v] == b ? number[v] : place.at(v);
-        parts[b].mesh.triangles.push_back(own);
+        parts[b].mesh.faces.push_back(own);
       }
       surface_->write_mesh(b, parts[b]);
     }
@@ -152,11 +152,10 @@ class TilesOfMesh {
 // Groups of two tiles, then of four, then all together; or all tiles at once.
 TEST(tile_simplify, is_as_good_as_of_the_whole_in_groups_of_any_size) {
   const Mesh mesh = torus(kRing, kTube, 300, 120);
-  const Simplification whole = simplify(mesh, {.triangles = 6000});
+  const Simplification whole = simplify(mesh, {.faces = 6000});
   for (const std::size_t group : {2U, 64U}) {
-    const TilesOfMesh::Result found =
-        TilesOfMesh(mesh, 5000).simplified({.triangles = 6000}, group);
-    EXPECT_EQ(found.mesh.triangles.size(), 6000U);
+    const TilesOfMesh::Result found = TilesOfMesh(mesh, 5000).simplified({.faces = 6000}, group);
+    EXPECT_EQ(found.mesh.faces.size(), 6000U);
     const Inspection inspection = test::expect_closed_manifold(found.mesh);
     EXPECT_EQ(inspection.components, 1U);
     EXPECT_EQ(inspection.genus, 1);
@@ -172,20 +171,20 @@ TEST(tile_simplify, keeps_the_error_that_is_allowed) {
   const TilesOfMesh::Result found = TilesOfMesh(mesh, 5000).simplified({.max_error = allowed}, 2);
   test::expect_closed_manifold(found.mesh);
   EXPECT_LE(found.error, allowed * (1 + 1e-4));
-  const auto n = static_cast<double>(whole.mesh.triangles.size());
-  EXPECT_NEAR(static_cast<double>(found.mesh.triangles.size()), n, 0.02 * n);
+  const auto n = static_cast<double>(whole.mesh.faces.size());
+  EXPECT_NEAR(static_cast<double>(found.mesh.faces.size()), n, 0.02 * n);
   // The error does not allow the requested share.
   const TilesOfMesh::Result both =
       TilesOfMesh(mesh, 5000).simplified({.share = 0.01, .max_error = allowed}, 64);
   EXPECT_LE(both.error, allowed * (1 + 1e-4));
-  EXPECT_NEAR(static_cast<double>(both.mesh.triangles.size()), n, 0.02 * n);
+  EXPECT_NEAR(static_cast<double>(both.mesh.faces.size()), n, 0.02 * n);
 }
 
 TEST(tile_simplify, of_one_tile_is_that_of_the_whole) {
   const Mesh mesh = torus(kRing, kTube, 100, 40);
-  const TilesOfMesh::Result found = TilesOfMesh(mesh, 1e6).simplified({.triangles = 1000}, 64);
-  EXPECT_EQ(found.mesh.triangles.size(), 1000U);
-  EXPECT_NEAR(rms_of_middles(found.mesh), rms_of_middles(simplify(mesh, {.triangles = 1000}).mesh),
+  const TilesOfMesh::Result found = TilesOfMesh(mesh, 1e6).simplified({.faces = 1000}, 64);
+  EXPECT_EQ(found.mesh.faces.size(), 1000U);
+  EXPECT_NEAR(rms_of_middles(found.mesh), rms_of_middles(simplify(mesh, {.faces = 1000}).mesh),
               0.02 * rms_of_middles(found.mesh));  // in another order and another unit
 }
 

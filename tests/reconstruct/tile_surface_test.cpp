@@ -90,7 +90,7 @@ Corners corners_of(const Mesh& mesh, const Triangle& t) {
 TEST(TileSurface, triangles_of_all_tiles_are_those_of_the_whole) {
   const ExtractedSurface whole = extract_surface(make_grid(all_blocks()));
   std::vector<Corners> expected, found;
-  for (const Triangle& t : whole.mesh.triangles) expected.push_back(corners_of(whole.mesh, t));
+  for (const Triangle& t : whole.mesh.faces) expected.push_back(corners_of(whole.mesh, t));
   std::vector<TileMesh> tiles;
   std::size_t n_vertices = 0;
   for (std::uint32_t tile = 0; tile < 4; ++tile) {
@@ -102,9 +102,9 @@ TEST(TileSurface, triangles_of_all_tiles_are_those_of_the_whole) {
         tile_mesh(extract_part(grid, n_own), grid, n_own, border_blocks(kFrame, tile, own)));
     n_vertices += tiles.back().n_own;
     const Mesh& mesh = tiles.back().mesh;
-    for (const Triangle& t : mesh.triangles) found.push_back(corners_of(mesh, t));
+    for (const Triangle& t : mesh.faces) found.push_back(corners_of(mesh, t));
     ASSERT_EQ(mesh.vertices.size(), tiles.back().n_own + tiles.back().foreign.size());
-    EXPECT_GT(mesh.triangles.size(), 100U);
+    EXPECT_GT(mesh.faces.size(), 100U);
   }
   EXPECT_EQ(n_vertices, whole.mesh.vertices.size());
   std::sort(expected.begin(), expected.end());

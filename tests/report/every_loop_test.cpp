@@ -64,7 +64,7 @@ Mesh large_mesh_in_random_order() {
   std::iota(order.begin(), order.end(), 0);
   test::shuffle(order, 1);
   Mesh mesh = test::renumbered(sphere, order);
-  test::shuffle(mesh.triangles, 2);
+  test::shuffle(mesh.faces, 2);
   return mesh;
 }
 
@@ -160,7 +160,7 @@ TEST(every_loop, gives_the_same_bits_for_centres_and_star_checks) {
     }
     bits.add(check_star(mesh, {2, 0, 0}, 3000, context).missed_share);
     Mesh open = mesh;
-    open.triangles.pop_back();
+    open.faces.pop_back();
     return bits.add(check_star(open, {}, 3000, context).missed_share);
   });
 }
@@ -424,7 +424,7 @@ TEST(every_loop, gives_the_same_bits_for_surfaces_in_tiles) {
     run_tiles(*source, store, wanted, alone, context);
     const Mesh made = std::get<Mesh>(read_shape(file).shape);
     std::filesystem::remove(file);
-    return Bits{}.add(made.vertices).add(made.triangles).add(made.attributes.back().values);
+    return Bits{}.add(made.vertices).add(made.faces).add(made.attributes.back().values);
   });
 }
 
@@ -460,15 +460,15 @@ TEST(every_loop, gives_the_same_bits_for_bridges_that_are_cut) {
 
 TEST(every_loop, gives_the_same_bits_for_components_that_are_dropped) {
   Mesh bodies = many_triangles();
-  const std::size_t n = bodies.vertices.size(), n_triangles = bodies.triangles.size();
+  const std::size_t n = bodies.vertices.size(), n_faces = bodies.faces.size();
   for (const double scale : {0.01, 0.5, 0.02}) {
     const auto first = static_cast<std::uint32_t>(bodies.vertices.size());
     for (std::size_t v = 0; v < n; ++v) {
       bodies.vertices.push_back(scale * bodies.vertices[v] + Vec3{5, 0, 0});
     }
-    for (std::size_t t = 0; t < n_triangles; ++t) {
-      const Triangle& own = bodies.triangles[t];
-      bodies.triangles.push_back({first + own[0], first + own[1], first + own[2]});
+    for (std::size_t t = 0; t < n_faces; ++t) {
+      const Triangle& own = bodies.faces[t];
+      bodies.faces.push_back({first + own[0], first + own[1], first + own[2]});
     }
   }
   test::add_normals(bodies);
@@ -531,11 +531,11 @@ TEST(every_loop, gives_the_same_bits_for_few_caps) {
 
 TEST(every_loop, gives_the_same_bits_for_gaps_between_sheets) {
   const Mesh mesh = icosphere(3);
-  std::vector<std::uint32_t> triangles(mesh.triangles.size());
+  std::vector<std::uint32_t> triangles(mesh.faces.size());
   std::iota(triangles.begin(), triangles.end(), 0);
   std::vector<Vec3> middles;
-  middles.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
+  middles.reserve(mesh.faces.size());
+  for (const auto& [a, b, c] : mesh.faces) {
     middles.push_back((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3);
   }
   const PointsOnMesh points{mesh, middles, triangles};

@@ -49,7 +49,7 @@ TEST(volume_centroid, is_that_of_the_whole_measure_and_of_a_moved_box) {
 TEST(volume_centroid, of_no_volume_is_the_middle_of_the_frame) {
   Mesh sheet;
   sheet.vertices = {{0, 0, 1}, {2, 0, 1}, {0, 4, 1}};
-  sheet.triangles = {{0, 1, 2}, {0, 2, 1}};
+  sheet.faces = {{0, 1, 2}, {0, 2, 1}};
   EXPECT_EQ(volume_centroid(view_of(sheet), frame_of(sheet), {}), (Vec3{1, 2, 1}));
 }
 

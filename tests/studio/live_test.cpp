@@ -62,7 +62,7 @@ TEST(Live, DegreesAreTheSurfacesOfTheLibrary) {
     const auto arrays = arrays_of(answer.body);
     const Mesh wanted = synthesize(expansion, sphere, std::span(&degree, 1)).front();
     expect_near(arrays.at("positions"), wanted.vertices, 1e-6);
-    std::vector<Vec3> normals = area_normals(wanted.vertices, wanted.triangles);
+    std::vector<Vec3> normals = area_normals(wanted.vertices, wanted.faces);
     for (Vec3& n : normals) n = normalized(n);
     expect_near(arrays.at("normals"), normals, 1e-4);
     const std::vector<float> error = arrays.at("error").as<float>();
@@ -79,7 +79,7 @@ TEST(Live, ASeamOfTheFileIsNoCrease) {
   const Mesh sphere = icosphere(3);
   std::vector<Vec3> corners;
   std::string vertices, faces;
-  for (const Triangle& t : sphere.triangles) {
+  for (const Triangle& t : sphere.faces) {
     const std::size_t n = corners.size();
     faces += fmt::format("3 {} {} {}\n", n, n + 1, n + 2);
     for (const std::uint32_t corner : t) {
@@ -87,7 +87,7 @@ TEST(Live, ASeamOfTheFileIsNoCrease) {
       vertices += fmt::format("{} {} {}\n", v.x, v.y, v.z);
     }
   }
-  const std::string head = fmt::format("OFF\n{} {} 0\n", corners.size(), sphere.triangles.size());
+  const std::string head = fmt::format("OFF\n{} {} 0\n", corners.size(), sphere.faces.size());
   Client client;
   client.open("cut.off", head + vertices + faces);
   const Response surface = client.ask("GET", "api/item/1/surface");
@@ -172,7 +172,7 @@ TEST(Live, TransferIsThatOfTheLibrary) {
   arrays = arrays_of(client.live(look).body);
   const Mesh refined = transfer(mesh, from, mesh, to, {.refine = true}, {.height = 3});
   expect_near(arrays.at("positions"), refined.vertices, 1e-6);
-  EXPECT_EQ(arrays.at("triangles").shape[0], refined.triangles.size());
+  EXPECT_EQ(arrays.at("triangles").shape[0], refined.faces.size());
   EXPECT_EQ(arrays.count("indices"), 0U);
 }
 

@@ -53,8 +53,8 @@ inline double signed_random(std::uint64_t stream, std::uint64_t i) {
 inline std::vector<std::uint32_t> vertices_of_run(const Mesh& mesh, std::size_t first,
                                                   std::size_t n) {
   std::vector<std::uint32_t> found;
-  for (std::size_t t = first; t < std::min(first + n, mesh.triangles.size()); ++t) {
-    for (const std::uint32_t v : mesh.triangles[t]) found.push_back(v);
+  for (std::size_t t = first; t < std::min(first + n, mesh.faces.size()); ++t) {
+    for (const std::uint32_t v : mesh.faces[t]) found.push_back(v);
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -100,14 +100,14 @@ inline Mesh stretched(Mesh mesh, const Vec3& by) {
 
 // Sorts the triangles by a key.
 inline Mesh ordered(Mesh mesh, const std::function<double(std::size_t)>& key) {
-  std::vector<std::size_t> order(mesh.triangles.size());
+  std::vector<std::size_t> order(mesh.faces.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   std::vector<Triangle> triangles;
   triangles.reserve(order.size());
-  for (const std::size_t t : order) triangles.push_back(mesh.triangles[t]);
-  mesh.triangles = std::move(triangles);
+  for (const std::size_t t : order) triangles.push_back(mesh.faces[t]);
+  mesh.faces = std::move(triangles);
   return mesh;
 }
 inline Mesh in_random_order(Mesh mesh) {
@@ -122,11 +122,11 @@ inline Mesh dealt_out(Mesh mesh, std::size_t stride) {
 
 // Repeats some faces, once as they are and once flipped: the surface does not change.
 inline Mesh with_duplicates(Mesh mesh, std::size_t every) {
-  const std::size_t n = mesh.triangles.size();
+  const std::size_t n = mesh.faces.size();
   for (std::size_t t = 0; t < n; t += every) {
-    const Triangle f = mesh.triangles[t];
-    mesh.triangles.push_back(f);
-    mesh.triangles.push_back({f[0], f[2], f[1]});
+    const Triangle f = mesh.faces[t];
+    mesh.faces.push_back(f);
+    mesh.faces.push_back({f[0], f[2], f[1]});
   }
   return mesh;
 }
@@ -219,8 +219,7 @@ inline std::vector<AdversarialMesh> adversarial_meshes(Adversaries which) {
   {
     const Mesh pole = pulled(cube_sphere(40), 5);
     add("pulled, large ones last",
-        ordered(pole, [&](std::size_t t) { return -pole.vertices[pole.triangles[t][0]].z; }), 64,
-        1e-5);
+        ordered(pole, [&](std::size_t t) { return -pole.vertices[pole.faces[t][0]].z; }), 64, 1e-5);
   }
   // Lattices that are aligned with the grid, aligned in part, and turned by a small angle.
   add("lattice", lattice(80, 160), 64, 1e-5);

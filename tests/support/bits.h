@@ -20,7 +20,7 @@ class Bits {
   Bits& add(const std::vector<Triangle>& values) { return add(std::span(values)); }
   Bits& add(const Coefficients& f) { return add(f.values()); }
   Bits& add(const Mesh& mesh) {
-    add(mesh.vertices).add(mesh.triangles);
+    add(mesh.vertices).add(mesh.faces);
     for (const Attribute& attribute : mesh.attributes) add(attribute.values);
     return *this;
   }

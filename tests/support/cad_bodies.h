@@ -96,10 +96,10 @@ inline FacedSolid star_prism(const std::vector<Vec3>& polygon, double half_heigh
 
 // Splits each face into a fan of triangles about its first vertex.
 inline Mesh triangulated(const FacedSolid& solid) {
-  Mesh mesh{.vertices = solid.vertices, .triangles = {}, .attributes = {}};
+  Mesh mesh{.vertices = solid.vertices, .faces = {}, .attributes = {}};
   for (const std::vector<std::uint32_t>& face : solid.faces) {
     for (std::size_t i = 2; i < face.size(); ++i) {
-      mesh.triangles.push_back({face[0], face[i - 1], face[i]});
+      mesh.faces.push_back({face[0], face[i - 1], face[i]});
     }
   }
   return mesh;

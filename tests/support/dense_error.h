@@ -28,7 +28,7 @@ inline std::vector<double> radial_errors(const Mesh& mesh, const Coefficients& c
   for (const FacePoint& p : points) {
     Vec3 x{};
     for (std::size_t k = 0; k < 3; ++k) {
-      x = x + p.weights[k] * mesh.vertices[mesh.triangles[p.face][k]];
+      x = x + p.weights[k] * mesh.vertices[mesh.faces[p.face][k]];
     }
     errors.push_back(norm(x));
     directions.push_back(x / norm(x));
@@ -43,7 +43,7 @@ inline std::vector<double> radial_errors(const Mesh& mesh, const Coefficients& c
 inline double largest_error_of_dense_points(const Mesh& mesh, const Coefficients& c, int n,
                                             int rounds = 150) {
   std::vector<FacePoint> points;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
     for (int i = 0; i <= n; ++i) {
       for (int j = 0; i + j <= n; ++j) {
         const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;

@@ -17,7 +17,7 @@ namespace rholm::test {
 template <typename Visit>
 void visit_oracle_nodes(const Mesh& mesh, int n, const Visit& visit) {
   const GaussRule rule = gauss_legendre(n);
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
     for (int i = 0; i < n; ++i) {
       for (int k = 0; k < n; ++k) {

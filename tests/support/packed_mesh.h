@@ -10,7 +10,7 @@
 namespace rholm::test {
 
 struct PackedMesh {
-  std::vector<std::byte> vertices, triangles;  // exactly as many bytes as needed
+  std::vector<std::byte> vertices, faces;  // exactly as many bytes as needed
   MeshView view;
 };
 
@@ -20,22 +20,22 @@ PackedMesh packed(const Mesh& mesh, std::size_t gap = 0) {
   const std::size_t row = 3 * sizeof(T), stride = row + gap, n = mesh.vertices.size();
   PackedMesh result;
   result.vertices.resize(n == 0 ? 0 : stride * (n - 1) + row, std::byte{0x7f});
-  result.triangles.resize(13 * mesh.triangles.size(), std::byte{3});
+  result.faces.resize(13 * mesh.faces.size(), std::byte{3});
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3& v = mesh.vertices[i];
     const T xyz[3] = {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
     std::memcpy(&result.vertices[stride * i], xyz, row);
   }
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    std::memcpy(&result.triangles[13 * t + 1], mesh.triangles[t].data(), 12);
+  for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
+    std::memcpy(&result.faces[13 * t + 1], mesh.faces[t].data(), 12);
   }
   result.view = {.vertices = result.vertices.data(),
                  .n_vertices = n,
                  .vertex_stride = stride,
                  .coordinate = sizeof(T) == 4 ? ScalarType::kFloat32 : ScalarType::kFloat64,
-                 .triangles = result.triangles.data() + 1,
-                 .n_triangles = mesh.triangles.size(),
-                 .triangle_stride = 13};
+                 .faces = result.faces.data() + 1,
+                 .n_faces = mesh.faces.size(),
+                 .face_stride = 13};
   return result;
 }
 
@@ -43,7 +43,7 @@ PackedMesh packed(const Mesh& mesh, std::size_t gap = 0) {
 inline Mesh unpacked(const MeshView& view) {
   Mesh mesh;
   for (std::size_t i = 0; i < view.n_vertices; ++i) mesh.vertices.push_back(view.vertex(i));
-  for (std::size_t t = 0; t < view.n_triangles; ++t) mesh.triangles.push_back(view.triangle(t));
+  for (std::size_t t = 0; t < view.n_faces; ++t) mesh.faces.push_back(view.triangle(t));
   return mesh;
 }
 

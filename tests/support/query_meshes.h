@@ -15,8 +15,8 @@ inline Mesh cube() {
   for (int k = 0; k < 8; ++k) {
     mesh.vertices.push_back({k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0});
   }
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  mesh.faces = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return mesh;
 }
 
@@ -37,7 +37,7 @@ inline Mesh soup(std::uint64_t seed, std::uint32_t n) {
     if (t % 5 == 0) c = a + 0.5 * (b - a);
     if (t % 10 == 0) b = c = a;
     mesh.vertices.insert(mesh.vertices.end(), {a, b, c});
-    mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    mesh.faces.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   }
   return mesh;
 }

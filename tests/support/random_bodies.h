@@ -70,13 +70,13 @@ inline Mesh of_rings(const std::vector<std::vector<Vec3>>& rings, double top, do
   const auto last = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t j = (i + 1) % n;
-    mesh.triangles.push_back({0, 1 + i, 1 + j});
+    mesh.faces.push_back({0, 1 + i, 1 + j});
     for (std::uint32_t k = 0; k + 1 < m; ++k) {
       const std::uint32_t a = 1 + k * n, b = a + n;
-      mesh.triangles.push_back({a + i, b + i, a + j});
-      mesh.triangles.push_back({a + j, b + i, b + j});
+      mesh.faces.push_back({a + i, b + i, a + j});
+      mesh.faces.push_back({a + j, b + i, b + j});
     }
-    mesh.triangles.push_back({last, 1 + (m - 1) * n + j, 1 + (m - 1) * n + i});
+    mesh.faces.push_back({last, 1 + (m - 1) * n + j, 1 + (m - 1) * n + i});
   }
   return mesh;
 }
@@ -168,8 +168,8 @@ inline Mesh polyhedron(const BodyGenes& g) {
 
 // Returns a point near a corner, the middle of an edge or the middle of a face of a convex body.
 inline Vec3 near_surface(const Mesh& mesh, const BodyGenes& g) {
-  const auto n = static_cast<double>(mesh.triangles.size());
-  const Triangle& t = mesh.triangles[static_cast<std::size_t>(n * g.u[8])];
+  const auto n = static_cast<double>(mesh.faces.size());
+  const Triangle& t = mesh.faces[static_cast<std::size_t>(n * g.u[8])];
   const int corners = 1 + static_cast<int>(3 * g.u[9]);
   Vec3 at;
   for (int i = 0; i < corners; ++i) at += mesh.vertices[t[i]] / corners;
@@ -205,7 +205,7 @@ inline RandomBody random_body(const BodyGenes& g) {
   for (Vec3& v : body.mesh.vertices) v = size * rotate(v, rotation);
   body.center = size * rotate(body.center, rotation);
   // The degree is limited so that direct sums take at most some seconds.
-  const double faces = static_cast<double>(body.mesh.triangles.size());
+  const double faces = static_cast<double>(body.mesh.faces.size());
   const double most = std::clamp(std::sqrt(3e6 / faces), 4.0, 128.0);
   body.degree = make::whole(2, most, g.u[14]);
   body.precision = std::pow(10.0, -3 - 2 * std::floor(4 * g.u[15]));

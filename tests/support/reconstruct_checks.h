@@ -24,7 +24,7 @@ inline void expect_manifold(const Inspection& found) {
   EXPECT_EQ(found.non_manifold_edges, 0U);
   EXPECT_EQ(found.non_manifold_vertices, 0U);
   EXPECT_EQ(found.misoriented_edges, 0U);
-  EXPECT_EQ(found.duplicate_triangles, 0U);
+  EXPECT_EQ(found.duplicate_faces, 0U);
 }
 
 inline Inspection expect_closed_manifold(const Mesh& mesh) {
@@ -33,7 +33,7 @@ inline Inspection expect_closed_manifold(const Mesh& mesh) {
   Inspection found = inspect(mesh);
   expect_manifold(found);
   EXPECT_EQ(found.boundary_edges, 0U);
-  EXPECT_GT(found.triangles, 0U);
+  EXPECT_GT(found.faces, 0U);
   return found;
 }
 

@@ -58,7 +58,7 @@ inline Mesh star_polyhedron(std::size_t n, double roughness, double offset, std:
   for (Vec3& v : p) v = v / std::sqrt(3.0);
   for (std::uint64_t i = 0; i < n; ++i) p.push_back(random_direction(seed, i));
   Mesh mesh;
-  mesh.triangles = hull(p);
+  mesh.faces = hull(p);
   const std::uint64_t other = seed + 1'000'000;
   for (std::size_t i = 0; i < p.size(); ++i) {
     p[i] *= 1 + roughness * (2 * random_uniform(other, i) - 1);
@@ -68,7 +68,7 @@ inline Mesh star_polyhedron(std::size_t n, double roughness, double offset, std:
   }
   const Vec3 toward = random_direction(other, 2000);
   double most = 1e3;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const Vec3 normal = cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
     const double ahead = dot(normal, toward), distance = dot(normal, p[t[0]]);
     if (ahead > 0) most = std::min(most, distance / ahead);

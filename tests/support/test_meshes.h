@@ -13,7 +13,7 @@ namespace rholm::test {
 // Corners are the origin and the unit points of the axes: volume 1/6, area 3/2 + sqrt(3)/2.
 inline Mesh tetrahedron() {
   return {.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-          .triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}},
+          .faces = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}},
           .attributes = {}};
 }
 
@@ -34,10 +34,10 @@ inline Mesh prism(const std::vector<Point2>& polygon, const Point2& apex, double
   mesh.vertices.push_back({apex.x, apex.y, height / 2});
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t j = (i + 1) % n;
-    mesh.triangles.push_back({i, j, n + j});
-    mesh.triangles.push_back({i, n + j, n + i});
-    mesh.triangles.push_back({2 * n, j, i});
-    mesh.triangles.push_back({2 * n + 1, n + i, n + j});
+    mesh.faces.push_back({i, j, n + j});
+    mesh.faces.push_back({i, n + j, n + i});
+    mesh.faces.push_back({2 * n, j, i});
+    mesh.faces.push_back({2 * n + 1, n + i, n + j});
   }
   return mesh;
 }
@@ -55,7 +55,7 @@ inline Mesh renumbered(const Mesh& mesh, const std::vector<std::uint32_t>& order
     number[order[i]] = i;
     result.vertices[i] = mesh.vertices[order[i]];
   }
-  for (Triangle& t : result.triangles) {
+  for (Triangle& t : result.faces) {
     for (std::uint32_t& corner : t) corner = number[corner];
   }
   return result;
@@ -64,10 +64,10 @@ inline Mesh renumbered(const Mesh& mesh, const std::vector<std::uint32_t>& order
 // Gives each triangle three vertices of its own.
 inline Mesh exploded(const Mesh& mesh) {
   Mesh soup;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const auto first = static_cast<std::uint32_t>(soup.vertices.size());
     for (const std::uint32_t v : t) soup.vertices.push_back(mesh.vertices[v]);
-    soup.triangles.push_back({first, first + 1, first + 2});
+    soup.faces.push_back({first, first + 1, first + 2});
   }
   return soup;
 }
@@ -77,8 +77,8 @@ inline Mesh joined(const Mesh& a, const Mesh& b) {
   Mesh both = a;
   const auto first = static_cast<std::uint32_t>(a.vertices.size());
   both.vertices.insert(both.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (const Triangle& t : b.triangles) {
-    both.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  for (const Triangle& t : b.faces) {
+    both.faces.push_back({t[0] + first, t[1] + first, t[2] + first});
   }
   return both;
 }

@@ -51,14 +51,14 @@ inline Mesh random_octahedron(std::uint64_t seed) {
   Mesh mesh;
   mesh.vertices = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   for (std::size_t i = 0; i < 6; ++i) mesh.vertices[i] *= 0.6 + random_uniform(seed, i);
-  mesh.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
-                    {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
+  mesh.faces = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
+                {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
   return mesh;
 }
 
 // Adds attributes nx, ny, nz: the mean normal of the triangles at each vertex.
 inline void add_normals(Mesh& mesh) {
-  const std::vector<Vec3> sums = area_normals(mesh.vertices, mesh.triangles);
+  const std::vector<Vec3> sums = area_normals(mesh.vertices, mesh.faces);
   std::vector<double> axes[3];
   for (const Vec3& sum : sums) {
     const Vec3 n = normalized(sum);

@@ -77,7 +77,7 @@ class ModelNet {
       double nearest = 1e300;
       for (const Neighbor& neighbor : found) {
         for (const std::uint32_t t : triangles_at()[tree_.order()[neighbor.index]]) {
-          const Triangle& f = sphere().triangles[t];
+          const Triangle& f = sphere().faces[t];
           const Vec3 to =
               closest_point_of_triangle(from, {points_[f[0]], points_[f[1]], points_[f[2]]});
           nearest = std::min(nearest, norm(from - to));
@@ -119,8 +119,8 @@ class ModelNet {
   static const std::vector<std::vector<std::uint32_t>>& triangles_at() {
     static const std::vector<std::vector<std::uint32_t>> lists = [] {
       std::vector<std::vector<std::uint32_t>> at(sphere().vertices.size());
-      for (std::uint32_t t = 0; t < sphere().triangles.size(); ++t) {
-        for (const std::uint32_t v : sphere().triangles[t]) at[v].push_back(t);
+      for (std::uint32_t t = 0; t < sphere().faces.size(); ++t) {
+        for (const std::uint32_t v : sphere().faces[t]) at[v].push_back(t);
       }
       return at;
     }();
@@ -140,7 +140,7 @@ inline TrueDistance true_distance(const Mesh& mesh, const Coefficients& c, std::
   const ModelNet net(c);
   std::vector<double> areas;
   double whole = 0;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const Vec3& a = mesh.vertices[t[0]];
     areas.push_back(norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) / 2);
     whole += areas.back();
@@ -155,7 +155,7 @@ inline TrueDistance true_distance(const Mesh& mesh, const Coefficients& c, std::
       double s = std::fmod(0.7548776662466927 * static_cast<double>(k + 1), 1.0);
       double v = std::fmod(0.5698402909980532 * static_cast<double>(k + 1), 1.0);
       if (s + v > 1) s = 1 - s, v = 1 - v;
-      const Triangle& f = mesh.triangles[t];
+      const Triangle& f = mesh.faces[t];
       x.push_back((1 - s - v) * mesh.vertices[f[0]] + s * mesh.vertices[f[1]] +
                   v * mesh.vertices[f[2]]);
       weights.push_back(areas[t] / static_cast<double>(count));
@@ -178,7 +178,7 @@ inline TrueDistance true_distance(const Mesh& mesh, const Coefficients& c, std::
   for (std::size_t k = 0; k < n; ++k) {
     const Vec3 y = model.values[k] * u[k];
     double nearest = 1e300;
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.faces) {
       const Vec3 to = closest_point_of_triangle(
           y, {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
       nearest = std::min(nearest, norm(y - to));

@@ -62,9 +62,9 @@ TEST(AtlasSurface, of_a_sphere_is_closed_at_every_step) {
     EXPECT_EQ(found.euler_characteristic, 2);
     // Half the step gives four times the triangles.
     if (before > 0) {
-      EXPECT_NEAR(static_cast<double>(found.triangles) / static_cast<double>(before), 4, 0.5);
+      EXPECT_NEAR(static_cast<double>(found.faces) / static_cast<double>(before), 4, 0.5);
     }
-    before = found.triangles;
+    before = found.faces;
     expect_unit_normals(made.mesh);
   }
 }
@@ -114,19 +114,19 @@ TEST(AtlasSurface, memory_is_foreseen_and_kept) {
 TEST(AtlasSurface, is_simplified_as_far_as_wanted) {
   const Atlas atlas = atlas_of(sphere_at({1, 2, 3}, 1, 4000));
   const AtlasSurface full = extract_atlas(atlas, {.step = 0.05});
-  EXPECT_EQ(full.faces, full.mesh.triangles.size());
+  EXPECT_EQ(full.faces, full.mesh.faces.size());
   EXPECT_EQ(full.simplify_error, 0);
   const AtlasSurface tenth =
       extract_atlas(atlas, {.step = 0.05, .simplify = SimplifyOptions{.share = 0.1}});
   EXPECT_EQ(tenth.faces, full.faces);
-  EXPECT_LE(tenth.mesh.triangles.size(), full.faces / 10);
+  EXPECT_LE(tenth.mesh.faces.size(), full.faces / 10);
   EXPECT_EQ(expect_closed(tenth.mesh).euler_characteristic, 2);
   expect_unit_normals(tenth.mesh);
   // Without a number, the step determines the allowed error.
   const AtlasSurface chosen = extract_atlas(atlas, {.step = 0.05, .simplify = SimplifyOptions{}});
   EXPECT_GT(chosen.simplify_error, 0);
   EXPECT_LE(chosen.simplify_error, 0.05 / 50 * (1 + 1e-5));
-  EXPECT_LT(chosen.mesh.triangles.size(), full.faces);
+  EXPECT_LT(chosen.mesh.faces.size(), full.faces);
   EXPECT_GT(chosen.memory, full.memory);
 }
 
@@ -135,7 +135,7 @@ TEST(AtlasSurface, is_the_same_for_every_number_of_threads) {
   const Mesh one = extract_atlas(atlas, {.step = 0.04}, {.threads = 1}).mesh;
   const Mesh two = extract_atlas(atlas, {.step = 0.04}, {.threads = 2}).mesh;
   EXPECT_EQ(one.vertices, two.vertices);
-  EXPECT_EQ(one.triangles, two.triangles);
+  EXPECT_EQ(one.faces, two.faces);
 }
 
 }  // namespace

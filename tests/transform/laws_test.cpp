@@ -49,7 +49,7 @@ TEST(solid_angle, of_a_closed_mesh_is_4_pi_from_inside_and_0_from_outside) {
   for (const double shift : {0.0, 0.7, 3.0}) {
     double sum = 0;
     const Mesh mesh = bumpy_sphere(3);
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.faces) {
       const Vec3 c = {shift, 0, 0};
       sum +=
           solid_angle({mesh.vertices[t[0]] - c, mesh.vertices[t[1]] - c, mesh.vertices[t[2]] - c});

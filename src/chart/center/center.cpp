@@ -86,7 +86,7 @@ FoundCenter slope_center(const LocalView& view, const KernelCenter& kernel,
 FoundCenter volume_center(const LocalView& view, const Context& context) {
   validate(view.mesh);
   const FoundCenter centroid = {.point = volume_centroid(view.mesh, view.frame, context)};
-  if (check_star(view, centroid.point, 0, context).bad_triangles == 0) return centroid;
+  if (check_star(view, centroid.point, 0, context).bad_faces == 0) return centroid;
   const KernelCenter kernel = chebyshev_center(view, context);
   return kernel.value > 0 ? slope_center(view, kernel, context) : centroid;
 }
@@ -125,8 +125,8 @@ StarReport better_center(const LocalView& view, const StarReport& program, int r
                          const Context& context) {
   const StarReport volume =
       check_star(view, volume_centroid(view.mesh, view.frame, context), rays, context);
-  const bool volume_is_better = rays > 0 ? volume.once_share > program.once_share
-                                         : volume.bad_triangles < program.bad_triangles;
+  const bool volume_is_better =
+      rays > 0 ? volume.once_share > program.once_share : volume.bad_faces < program.bad_faces;
   StarReport better = volume_is_better ? volume : program;
   better.center_fell_back = true;
   return better;

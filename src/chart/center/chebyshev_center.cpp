@@ -83,7 +83,7 @@ struct Faces {
 };
 
 Faces sample(const LocalView& view) {
-  const std::size_t n = view.mesh.n_triangles;
+  const std::size_t n = view.mesh.n_faces;
   const std::size_t wanted = std::clamp(n / kSampled, kFewestSampled, kMostSampled);
   const std::size_t step = std::max<std::size_t>(1, n / wanted);
   Faces faces;
@@ -201,7 +201,7 @@ double grow_pool(const LocalView& view, const Flat& flat, const PoolOptimum& opt
   for (std::size_t i = 0; i < faces.chunks.size(); ++i) {
     if (faces.chunks[i].at(optimum.point) < optimum.top - kGap) open.push_back(i);
   }
-  const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
+  const std::size_t n = view.mesh.n_faces, grain = triangle_grain(n);
   std::vector<std::vector<FacePlane>> found(open.size());
   parallel_for(open.size(), 1, context, {}, [&](std::size_t i, std::size_t) {
     const std::size_t begin = open[i] * grain, end = std::min(n, begin + grain);

@@ -56,7 +56,7 @@ void take_steepest(const LocalView& view, std::size_t triangle, const Vec3& cent
 std::vector<Corner> steepest_corners(const LocalView& view, const Vec3& center,
                                      const Context& context) {
   // Chosen: some hundred cuts in each pass.
-  const std::size_t n = view.mesh.n_triangles, grain = std::max<std::size_t>(256, n / 256);
+  const std::size_t n = view.mesh.n_faces, grain = std::max<std::size_t>(256, n / 256);
   std::vector<Corner> chunks((n + grain - 1) / grain);
   parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
     Corner& best = chunks[begin / grain];

@@ -20,12 +20,12 @@ Bounds finite_bounds(const MeshView& mesh, const Context& context) {
 }
 
 void require_surface(const LocalView& view) {
-  for (std::size_t t = 0; t < view.mesh.n_triangles; ++t) {
+  for (std::size_t t = 0; t < view.mesh.n_faces; ++t) {
     if (view.plane(t).exists()) return;
   }
   throw Error(ErrorCode::kInvalidInput,
-              "none of the mesh's " + std::to_string(view.mesh.n_triangles) +
-                  " triangles has an area above zero, or is wider than the rounding of its "
+              "none of the mesh's " + std::to_string(view.mesh.n_faces) +
+                  " faces has an area above zero, or is wider than the rounding of its "
                   "coordinates: there is no surface to look at from a centre");
 }
 

@@ -55,8 +55,8 @@ LocalView local_view(const MeshView& mesh, const Context& context);
 using VisitTriangle = std::function<void(std::size_t triangle)>;
 
 // Returns the size of chunks: a few hundred chunks of 5 to 20 us (chosen), more for large meshes.
-inline std::size_t triangle_grain(std::size_t n_triangles) {
-  return std::clamp<std::size_t>(n_triangles / 256, 1024, 4096);
+inline std::size_t triangle_grain(std::size_t n_faces) {
+  return std::clamp<std::size_t>(n_faces / 256, 1024, 4096);
 }
 
 }  // namespace rholm

@@ -12,7 +12,7 @@ namespace rholm {
 double share_of_way(const LocalView& view, const KernelCenter& middle, const Vec3& wanted,
                     const Context& context) {
   const double least = kMargin * middle.value;
-  const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
+  const std::size_t n = view.mesh.n_faces, grain = triangle_grain(n);
   std::vector<double> parts((n + grain - 1) / grain, 1.0);
   parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
     double& part = parts[begin / grain];

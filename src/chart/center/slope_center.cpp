@@ -85,7 +85,7 @@ void add_points(const LocalView& view, std::size_t triangle, const SlopeLine& li
 std::vector<SurfacePoint> sampled_points(const LocalView& view, const SlopeLine& line) {
   // Chosen: this many faces locate the least slope to some hundredths of the way.
   constexpr std::size_t kSampled = 1024;
-  const std::size_t n = view.mesh.n_triangles;
+  const std::size_t n = view.mesh.n_faces;
   const std::size_t step = std::max<std::size_t>(1, n / kSampled);
   std::vector<SurfacePoint> points;
   points.reserve(4 * kSampled);
@@ -123,7 +123,7 @@ class Slope {
       : view_(view), line_(line), context_(context) {}
 
   Rises rises(const Places& places, std::size_t n_places) {
-    const std::size_t n = view_.mesh.n_triangles, grain = triangle_grain(n);
+    const std::size_t n = view_.mesh.n_faces, grain = triangle_grain(n);
     struct Part {
       Rises rises;
       std::vector<std::size_t> large;

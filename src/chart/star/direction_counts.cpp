@@ -19,7 +19,7 @@ constexpr double kPi = std::numbers::pi;
 // Returns front faces minus back faces that the direction meets, or nothing if it meets an edge.
 std::optional<int> surplus_at(const LocalView& view, const Vec3& center, const Vec3& direction,
                               const Context& context) {
-  const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
+  const std::size_t n = view.mesh.n_faces, grain = triangle_grain(n);
   struct Part {
     int surplus = 0;
     bool unclear = false;

@@ -15,7 +15,7 @@ std::string describe(const StarReport& report, double diagonal) {
       "face, min d, is {:.3g} ({:.2g} of the diagonal), "
       "min cos gamma {:.3g}, and {} faces turn their backs",
       report.center.x, report.center.y, report.center.z, report.min_d, report.min_d / diagonal,
-      report.min_cos_gamma, report.bad_triangles);
+      report.min_cos_gamma, report.bad_faces);
   if (report.rays > 0) {
     text +=
         fmt::format("; {:.3g} % of {} directions meet the surface more than once, {:.3g} % never",
@@ -33,13 +33,13 @@ void refuse(const Mesh& mesh, const StarReport& report, bool allow_signed) {
   }
   if (allow_signed) return;
   const Inspection shape = inspect(mesh);
-  if (shape.duplicate_triangles > 0) {
+  if (shape.duplicate_faces > 0) {
     throw Error(
         ErrorCode::kNotStarShaped,
         fmt::format("the surface is not star-shaped: {} of its {} faces are duplicates, with "
                     "the same three vertices as others, and directions meet it twice; "
                     "'rholm repair' drops them",
-                    shape.duplicate_triangles, shape.triangles));
+                    shape.duplicate_faces, shape.faces));
   }
   std::string why = "the surface is not star-shaped";
   if (shape.components > 1) {
@@ -73,7 +73,7 @@ StarChart make_star_chart(const Mesh& mesh, std::vector<Edge> edges, const Chart
   StarChart chart;
   chart.edges = std::move(edges);
   chart.report = seen_surface(mesh, options, context);
-  chart.mesh.triangles = mesh.triangles;
+  chart.mesh.faces = mesh.faces;
   chart.mesh.vertices.reserve(mesh.vertices.size());
   for (const Vec3& v : mesh.vertices) chart.mesh.vertices.push_back(v - chart.report.center);
   return chart;

@@ -64,7 +64,7 @@ void add_face(const std::array<Vec3, 3>& corners, const FacePlane& face, FaceFig
 }
 
 FaceFigures check_faces(const LocalView& view, const Vec3& center, const Context& context) {
-  const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
+  const std::size_t n = view.mesh.n_faces, grain = triangle_grain(n);
   const Vec3 local = view.frame.to_local(center);
   // Bound of d_T below which rounding may hide the sign, from any corner of the unit frame, with a
   // factor of 2 as margin. It is at least kNearPlane, the bound that count_meetings() needs.
@@ -94,9 +94,9 @@ Mesh local_copy(const LocalView& view) {
   for (std::size_t i = 0; i < view.mesh.n_vertices; ++i) {
     local.vertices.push_back(view.frame.to_local(view.mesh.vertex(i)));
   }
-  local.triangles.reserve(view.mesh.n_triangles);
-  for (std::size_t t = 0; t < view.mesh.n_triangles; ++t) {
-    local.triangles.push_back(view.mesh.triangle(t));
+  local.faces.reserve(view.mesh.n_faces);
+  for (std::size_t t = 0; t < view.mesh.n_faces; ++t) {
+    local.faces.push_back(view.mesh.triangle(t));
   }
   return local;
 }
@@ -151,7 +151,7 @@ StarReport check_star(const LocalView& view, const Vec3& center, int rays, const
   report.center = center;
   report.min_d = figures.min_d / view.frame.scale;
   report.min_cos_gamma = figures.min_cos_gamma;
-  report.bad_triangles = figures.bad;
+  report.bad_faces = figures.bad;
   report.star_shaped = figures.bad == 0 && surplus_of(view, center, context) == 1;
   report.rays = std::max(0, rays);
   if (report.rays > 0) try_directions(view, center, figures.low, context, report);

@@ -136,7 +136,7 @@ void follow_neighbours(const Site& site, Blend& blend) {
       std::array<Vec3, kPatchDegrees> sum{};
       double count = 0;
       for (const std::uint32_t t : site.local.triangles_at(i)) {
-        for (const std::uint32_t v : site.local.triangles[t]) {
+        for (const std::uint32_t v : site.local.faces[t]) {
           if (!(site.weights[v] > 0) || !(blend.weight_sums[blend.row[v]] > 0)) continue;
           const Vec3* const moves = &blend.moves[blend.row[v] * kPatchDegrees];
           const Vec3 apart = site.local.points[v] - site.local.points[i];

@@ -38,11 +38,11 @@ class Gatherer {
  public:
   explicit Gatherer(const LocalMesh& local)
       : local_(local), begin_(1, 0), seen_(local.points.size(), 0) {
-    next_to_.reserve(3 * local.triangles.size());
+    next_to_.reserve(3 * local.faces.size());
     for (std::uint32_t i = 0; i < local.points.size(); ++i) {
       seen_[i] = ++mark_;
       for (const std::uint32_t t : local.triangles_at(i)) {
-        for (const std::uint32_t v : local.triangles[t]) {
+        for (const std::uint32_t v : local.faces[t]) {
           if (seen_[v] == mark_) continue;
           seen_[v] = mark_;
           next_to_.push_back(v);

@@ -35,7 +35,7 @@ Rim make_rim(const Site& site, const Blend& blend) {
     bool all = true, any = site.ignored[i] != 0;
     const std::size_t first = rim.neighbours.size();
     for (const std::uint32_t t : site.local.triangles_at(i)) {
-      for (const std::uint32_t v : site.local.triangles[t]) {
+      for (const std::uint32_t v : site.local.faces[t]) {
         if (v == i) continue;
         rim.neighbours.push_back(v);
         all = all && known(v);

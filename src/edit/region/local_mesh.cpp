@@ -81,18 +81,18 @@ LocalMesh cut_out(const Mesh& mesh, const Bounds& box) {
   std::vector<std::uint8_t> in(mesh.vertices.size());
   for (std::size_t i = 0; i < in.size(); ++i) in[i] = inside(box, mesh.vertices[i]) ? 1 : 0;
   std::vector<std::uint32_t> corners;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     if ((in[t[0]] | in[t[1]] | in[t[2]]) != 0) corners.insert(corners.end(), t.begin(), t.end());
   }
   LocalMesh local;
   number_points(mesh, corners, local);
   for (std::size_t i = 0; i < corners.size(); i += 3) {
     const Triangle t = {corners[i], corners[i + 1], corners[i + 2]};
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) local.triangles.push_back(t);
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) local.faces.push_back(t);
   }
-  local.stars = make_vertex_stars(local.points.size(), local.triangles);
+  local.stars = make_vertex_stars(local.points.size(), local.faces);
   local.areas.assign(local.points.size(), 0);
-  for (const Triangle& t : local.triangles) {
+  for (const Triangle& t : local.faces) {
     const double area = norm(cross(local.points[t[1]] - local.points[t[0]],
                                    local.points[t[2]] - local.points[t[0]])) /
                         2;
@@ -103,7 +103,7 @@ LocalMesh cut_out(const Mesh& mesh, const Bounds& box) {
 }
 
 std::vector<Vec3> point_normals(const LocalMesh& local, std::span<const Vec3> positions) {
-  std::vector<Vec3> normals = area_normals(positions, local.triangles);
+  std::vector<Vec3> normals = area_normals(positions, local.faces);
   for (Vec3& n : normals) n = normalized(n);
   return normals;
 }
@@ -111,7 +111,7 @@ std::vector<Vec3> point_normals(const LocalMesh& local, std::span<const Vec3> po
 void update_normals(Mesh& mesh, std::span<const std::uint32_t> vertices) {
   const NormalAttributes normals = normal_attributes(mesh);
   if (!normals) return;
-  const std::vector<Vec3> sums = area_normals(mesh.vertices, mesh.triangles);
+  const std::vector<Vec3> sums = area_normals(mesh.vertices, mesh.faces);
   for (const std::uint32_t v : vertices) normals.set(v, normalized(sums[v]));
 }
 
@@ -152,7 +152,7 @@ void march(const LocalMesh& local, double limit, std::vector<double>& distance) 
     if (done[v] != 0 || d > distance[v]) continue;
     done[v] = 1;
     for (const std::uint32_t t : local.triangles_at(v)) {
-      const Triangle& corners = local.triangles[t];
+      const Triangle& corners = local.faces[t];
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t c = corners[k], other = corners[(k + 1) % 3] == v
                                                         ? corners[(k + 2) % 3]

@@ -16,7 +16,7 @@ namespace rholm {
 // that a seam of the file is no seam of the surface.
 struct LocalMesh {
   std::vector<Vec3> points;
-  std::vector<Triangle> triangles;     // triangles of points; none with a repeated corner
+  std::vector<Triangle> faces;         // triangles of points; none with a repeated corner
   std::vector<Vec3> normals;           // unit, weighted by area; zero where there is no area
   std::vector<double> areas;           // a third of the area of the triangles around each point
   VertexStars stars;                   // triangles around each point

@@ -25,7 +25,7 @@ Key key_of(std::uint32_t a, std::uint32_t b) {
 // different sizes, which splitting makes, do not tilt the normals.
 std::vector<Vec3> vertex_normals(const Mesh& mesh) {
   std::vector<Vec3> normals(mesh.vertices.size());
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3& at = mesh.vertices[t[k]];
       const Vec3 a = mesh.vertices[t[(k + 1) % 3]] - at, b = mesh.vertices[t[(k + 2) % 3]] - at;
@@ -39,7 +39,7 @@ std::vector<Vec3> vertex_normals(const Mesh& mesh) {
 
 std::vector<Key> long_edges(const Mesh& mesh, const std::vector<double>& weights, double length) {
   std::vector<Key> edges;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
       if (a == b || !(std::max(weights[a], weights[b]) > 0)) continue;
@@ -107,7 +107,7 @@ void split(const Triangle& t, const std::array<std::uint32_t, 3>& m, const Mesh&
 // triangle is larger than the equilateral one, and there are two triangles per vertex.
 void check_size(const Mesh& mesh, const std::vector<double>& weights, double length) {
   double area = 0;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     if (!(std::max({weights[t[0]], weights[t[1]], weights[t[2]]}) > 0)) continue;
     const Vec3& a = mesh.vertices[t[0]];
     area += norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) / 2;
@@ -128,8 +128,8 @@ void refine(Mesh& mesh, std::vector<double>& weights, double length) {
     const std::vector<Vec3> normals = vertex_normals(mesh);
     for (const Key edge : edges) add_middle(normals, edge, mesh, weights);
     std::vector<Triangle> triangles;
-    triangles.reserve(mesh.triangles.size() + 2 * edges.size());
-    for (const Triangle& t : mesh.triangles) {
+    triangles.reserve(mesh.faces.size() + 2 * edges.size());
+    for (const Triangle& t : mesh.faces) {
       std::array<std::uint32_t, 3> middles;
       for (std::size_t k = 0; k < 3; ++k) {
         const Key key = key_of(t[k], t[(k + 1) % 3]);
@@ -141,7 +141,7 @@ void refine(Mesh& mesh, std::vector<double>& weights, double length) {
       }
       split(t, middles, mesh, triangles);
     }
-    mesh.triangles = std::move(triangles);
+    mesh.faces = std::move(triangles);
   }
 }
 

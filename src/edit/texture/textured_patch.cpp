@@ -25,7 +25,7 @@ constexpr double kSamplesPerEdge = 2;
 
 std::vector<double> areas_of(const LocalMesh& local, std::span<const Vec3> positions) {
   std::vector<double> areas(positions.size(), 0);
-  for (const Triangle& t : local.triangles) {
+  for (const Triangle& t : local.faces) {
     const double area =
         norm(cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]])) / 6;
     for (const std::uint32_t v : t) areas[v] += area;
@@ -81,7 +81,7 @@ void check_seen(const TexturedPatch& textured, const std::vector<std::uint32_t>&
 // Computes slopes at the corners as means over the adjacent triangles.
 void find_slopes(const TexturedPatch& textured, std::vector<DetailCorner>& corners) {
   std::vector<double> areas(corners.size(), 0);
-  for (const Triangle& t : textured.local.triangles) {
+  for (const Triangle& t : textured.local.faces) {
     const DetailCorner &a = corners[t[0]], &b = corners[t[1]], &c = corners[t[2]];
     const double ux = b.at.p - a.at.p, uy = b.at.q - a.at.q, uh = b.height - a.height;
     const double vx = c.at.p - a.at.p, vy = c.at.q - a.at.q, vh = c.height - a.height;
@@ -113,7 +113,7 @@ Place2 PatchChart::operator()(const Vec3& x) const {
 double region_radius(const Mesh& mesh, std::span<const Region> regions) {
   const std::vector<double> weights = region_weights(mesh, regions, 0);
   double area = 0;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const Vec3& a = mesh.vertices[t[0]];
     const double whole = norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) / 2;
     area += whole * (weights[t[0]] + weights[t[1]] + weights[t[2]]) / 3;
@@ -179,7 +179,7 @@ DetailMap detail_of(const TexturedPatch& textured) {
   }
   find_slopes(textured, corners);
   double edges = 0, count = 0, reach = 0;
-  for (const Triangle& t : local.triangles) {
+  for (const Triangle& t : local.faces) {
     if (textured.row[t[0]] == kNoRow || textured.row[t[1]] == kNoRow) continue;
     const Place2 &a = corners[t[0]].at, &b = corners[t[1]].at;
     edges += std::hypot(a.p - b.p, a.q - b.q);
@@ -188,7 +188,7 @@ DetailMap detail_of(const TexturedPatch& textured) {
   }
   const double step = count > 0 && edges > 0 ? edges / count / kSamplesPerEdge : 0.1;
   DetailMap map = empty_map(std::clamp(reach, 0.1, kReach), step);
-  for (const Triangle& t : local.triangles) {
+  for (const Triangle& t : local.faces) {
     if (textured.whole(t)) draw({corners[t[0]], corners[t[1]], corners[t[2]]}, map);
   }
   return map;

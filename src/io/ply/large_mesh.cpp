@@ -31,7 +31,7 @@ std::vector<std::string> write_mapped(const MappedMesh& mesh, const TriangleRang
                                       const ShapeWriteOptions& options, const Context& context) {
   const ShapeView shape{.points = vertices_of(mesh),
                         .normals = {},
-                        .triangles = triangles,
+                        .faces = triangles,
                         .attributes = {mesh.scalars().begin(), mesh.scalars().end()},
                         .is_mesh = true};
   shape.points.visit([&](std::size_t, const Vec3& p) {
@@ -74,7 +74,7 @@ std::vector<std::string> attribute_warnings(const MappedMesh& mesh) {
 
 bool has_triangles_only(const MappedMesh& mesh, const Context& context) {
   constexpr std::size_t kFaces = std::size_t{1} << 20;  // chosen: 13 MB
-  const std::size_t all = mesh.view().n_triangles;
+  const std::size_t all = mesh.view().n_faces;
   for (std::size_t first = 0; first < all; first += kFaces) {
     const std::size_t n = std::min(kFaces, all - first);
     report_progress(context, "faces", static_cast<double>(first) / static_cast<double>(all));
@@ -85,11 +85,10 @@ bool has_triangles_only(const MappedMesh& mesh, const Context& context) {
 }
 
 MeshInPlace in_place(const MappedMesh& mesh) {
-  return {
-      .mesh = mesh.view(),
-      .release_vertices = [&mesh](std::size_t first,
-                                  std::size_t n) { release_vertices(mesh, first, n); },
-      .release_triangles = [&mesh](std::size_t first, std::size_t n) { mesh.release(first, n); }};
+  return {.mesh = mesh.view(),
+          .release_vertices = [&mesh](std::size_t first,
+                                      std::size_t n) { release_vertices(mesh, first, n); },
+          .release_faces = [&mesh](std::size_t first, std::size_t n) { mesh.release(first, n); }};
 }
 
 std::vector<std::string> write_shape(const MappedMesh& mesh, const std::filesystem::path& path,
@@ -131,7 +130,7 @@ MeshSurvey survey_mesh(const MappedMesh& mesh, const Context& context) {
   if (!has_triangles_only(mesh, context)) refuse_face();
   const VertexRange range = vertex_range(view, context);
   std::uint32_t largest = 0;
-  for (std::size_t t = 0; t < view.n_triangles; ++t) {
+  for (std::size_t t = 0; t < view.n_faces; ++t) {
     const Triangle corners = view.triangle(t);
     largest = std::max({largest, corners[0], corners[1], corners[2]});
   }

@@ -113,9 +113,9 @@ std::optional<Rows> rows_in(const ShapeSource& source) {
                        .n_vertices = vertex.count,
                        .vertex_stride = row->stride,
                        .coordinate = row->coordinate,
-                       .triangles = body + vertex.count * row->stride + 1,
-                       .n_triangles = 0,
-                       .triangle_stride = kFaceBytes},
+                       .faces = body + vertex.count * row->stride + 1,
+                       .n_faces = 0,
+                       .face_stride = kFaceBytes},
               .scalars = scalars_of(vertex, *row, body),
               .n_faces = face.count,
               .face_bytes = left - vertex.count * row->stride};
@@ -145,7 +145,7 @@ MappedMesh::~MappedMesh() {
 }
 
 bool MappedMesh::counts_are_three(std::size_t first, std::size_t n) const {
-  const auto* at = reinterpret_cast<const std::uint8_t*>(view_.triangles) - 1 + first * kFaceBytes;
+  const auto* at = reinterpret_cast<const std::uint8_t*>(view_.faces) - 1 + first * kFaceBytes;
   unsigned bad = 0;
   for (; n >= kRound; n -= kRound, at += kRound * kFaceBytes) {
     std::uint8_t different = 0;
@@ -160,7 +160,7 @@ bool MappedMesh::counts_are_three(std::size_t first, std::size_t n) const {
 
 void MappedMesh::release(std::size_t first, std::size_t n) const {
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  const auto faces = static_cast<std::size_t>(view_.triangles - static_cast<std::byte*>(map_)) - 1;
+  const auto faces = static_cast<std::size_t>(view_.faces - static_cast<std::byte*>(map_)) - 1;
   // Releases whole pages. The first page is included, because all data before `first` are done. The
   // last page is included only if it ends the file.
   const std::size_t begin = (faces + first * kFaceBytes) / page * page;
@@ -204,7 +204,7 @@ std::optional<MappedMesh> map_mesh(const std::filesystem::path& path, const Cont
   const bool fits =
       rows->face_bytes % kFaceBytes == 0 && rows->face_bytes / kFaceBytes == rows->n_faces;
   if (!fits) return {};
-  rows->mesh.view_.n_triangles = rows->n_faces;
+  rows->mesh.view_.n_faces = rows->n_faces;
   return std::move(rows->mesh);
 }
 

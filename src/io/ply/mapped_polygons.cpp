@@ -86,7 +86,7 @@ class FaceRelease {
 // Returns true if the faces fill the bytes and their indices are in range.
 bool MappedPolygons::survey(std::size_t bytes) {
   const MeshView& view = vertices_.view();
-  const std::byte* const faces = view.triangles - 1;
+  const std::byte* const faces = view.faces - 1;
   Corners corners;
   FaceRelease release(vertices_);
   CancelPoll poll;
@@ -109,7 +109,7 @@ bool MappedPolygons::survey(std::size_t bytes) {
 }
 
 void MappedPolygons::visit(const std::function<void(const Triangle&)>& visit) const {
-  const std::byte* const faces = vertices_.view().triangles - 1;
+  const std::byte* const faces = vertices_.view().faces - 1;
   Corners corners;
   Cutter cutter(vertices_.view());
   FaceRelease release(vertices_);

@@ -45,7 +45,7 @@ std::vector<std::byte> ply_triangles(std::span<const WideTriangle> triangles);
 struct PlyPart {
   std::uint64_t first_vertex = 0, first_triangle = 0;
   Mesh vertices = {};  // without triangles
-  std::vector<WideTriangle> triangles = {};
+  std::vector<WideTriangle> faces = {};
 };
 
 // A file that exists after commit(). put() writes parts in any order, also in other processes.

@@ -103,7 +103,7 @@ ShapeFile read_body(const ShapeSource& source, const PlyHeader& header) {
   if (has_faces) {
     std::vector<Triangle> triangles = faces.list.finish(vertices.positions, warnings);
     file.shape = Mesh{.vertices = std::move(vertices.positions),
-                      .triangles = std::move(triangles),
+                      .faces = std::move(triangles),
                       .attributes = std::move(vertices.attributes)};
   } else {
     file.shape = PointCloud{.points = std::move(vertices.positions),

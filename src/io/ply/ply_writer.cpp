@@ -92,7 +92,7 @@ std::vector<OutputColumn> columns_of(const ShapeView& shape) {
 }
 
 struct Counts {
-  std::uint64_t vertices = 0, triangles = 0;
+  std::uint64_t vertices = 0, faces = 0;
   bool is_mesh = false;
   bool wide_indices() const {
     return vertices > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
@@ -113,7 +113,7 @@ void put_header(const Counts& counts, const std::vector<OutputColumn>& columns, 
   }
   if (counts.is_mesh) {
     out.text("element face ");
-    out.number(counts.triangles, '\n');
+    out.number(counts.faces, '\n');
     out.text(counts.wide_indices() ? "property list uchar uint vertex_indices\n"
                                    : "property list uchar int vertex_indices\n");
   }
@@ -234,13 +234,13 @@ void put_text_triangles(const TriangleRange& triangles, OutputBuffer& out) {
 std::vector<std::string> format_ply(const ShapeView& shape, const ShapeWriting& how,
                                     OutputBuffer& out) {
   const std::vector<OutputColumn> columns = columns_of(shape);
-  put_header({shape.points.size(), shape.triangles.size(), shape.is_mesh}, columns, how.ascii, out);
+  put_header({shape.points.size(), shape.faces.size(), shape.is_mesh}, columns, how.ascii, out);
   if (how.ascii) {
     put_text_rows(columns, shape.points, out);
-    put_text_triangles(shape.triangles, out);
+    put_text_triangles(shape.faces, out);
   } else {
     put_binary_rows(columns, shape.points, out);
-    put_binary_triangles(shape.triangles, out);
+    put_binary_triangles(shape.faces, out);
   }
   return {};
 }
@@ -334,7 +334,7 @@ void PlyParts::put(const std::filesystem::path& file, const PlyLayout& layout,
                    const PlyPart& part) {
   SpillFile out(file, SpillFile::Mode::kInPlace);
   out.write_at(layout.vertex(part.first_vertex), ply_vertices(part.vertices));
-  out.write_at(layout.triangle(part.first_triangle), ply_triangles(part.triangles));
+  out.write_at(layout.triangle(part.first_triangle), ply_triangles(part.faces));
   out.close();
 }
 

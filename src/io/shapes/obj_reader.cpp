@@ -50,7 +50,7 @@ class CornerData {
     for (const auto& [vertex, index] : std::exchange(ahead_, {})) assign(vertex, index, n, values);
     index_.resize(n, kNone);
     const auto has_none = [&](std::uint32_t corner) { return index_[corner] == kNone; };
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.faces) {
       if (std::any_of(t.begin(), t.end(), has_none)) conflict_ = true;
     }
     std::vector<Value> result;
@@ -309,7 +309,7 @@ class ObjReader {
         fail_at_line(source_.name, *not_finite_, "a coordinate is not a finite number");
       }
       Mesh mesh;
-      mesh.triangles = faces_.finish(vertices_, file.warnings);
+      mesh.faces = faces_.finish(vertices_, file.warnings);
       mesh.vertices = std::move(vertices_);
       mesh.attributes = std::move(attributes);
       add_corner_attributes(mesh, file.warnings);

@@ -58,7 +58,7 @@ std::vector<std::string> format_obj(const ShapeView& shape, const ShapeWriting&,
       put_vector(normals[i], '\n', out);
     });
   }
-  shape.triangles.visit([&](std::size_t, const Triangle& t) {
+  shape.faces.visit([&](std::size_t, const Triangle& t) {
     out.text("f");
     for (const std::uint32_t corner : t) {
       put_corner(corner, texture.has_value(), !normals.empty(), out);

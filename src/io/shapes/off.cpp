@@ -223,7 +223,7 @@ class OffReader {
     file.encoding = "ascii";
     if (n_faces_ > 0) {
       Mesh mesh;
-      mesh.triangles = faces_.finish(vertices_, warnings_);
+      mesh.faces = faces_.finish(vertices_, warnings_);
       mesh.vertices = std::move(vertices_);
       mesh.attributes = std::move(attributes);
       file.shape = std::move(mesh);
@@ -307,7 +307,7 @@ std::vector<std::string> format_off(const ShapeView& shape, const ShapeWriting&,
   if (!normals.empty()) out.text("N");
   out.text("OFF\n");
   out.number(shape.points.size(), ' ');
-  out.number(shape.triangles.size(), ' ');
+  out.number(shape.faces.size(), ' ');
   out.text("0\n");
   shape.points.visit([&](std::size_t i, const Vec3& point) {
     put_vector(point, normals.empty() && colors.empty() ? '\n' : ' ', out);
@@ -317,7 +317,7 @@ std::vector<std::string> format_off(const ShapeView& shape, const ShapeWriting&,
     }
     out.rows(1);
   });
-  shape.triangles.visit([&](std::size_t, const Triangle& t) {
+  shape.faces.visit([&](std::size_t, const Triangle& t) {
     out.text("3 ");
     out.number(t[0], ' ');
     out.number(t[1], ' ');

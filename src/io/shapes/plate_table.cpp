@@ -84,7 +84,7 @@ class PlateReader {
     }
     read_plates(static_cast<std::size_t>(n_plates));
     ShapeFile file;
-    Mesh mesh{.vertices = {}, .triangles = triangles(), .attributes = {}};
+    Mesh mesh{.vertices = {}, .faces = triangles(), .attributes = {}};
     mesh.vertices = std::move(vertices_);
     file.shape = std::move(mesh);
     file.format = ShapeFormat::kXyz;

@@ -247,12 +247,12 @@ std::vector<std::string> format_shape(const ShapeView& shape, ShapeFormat format
   }
   if (!line.info.points && !shape.is_mesh) {
     throw Error(ErrorCode::kUnsupported, how.name + ": " + title +
-                                             " holds triangles, not points; write " +
+                                             " holds faces, not points; write " +
                                              titles_of(&ShapeFormatInfo::points));
   }
-  if (!line.info.faces && shape.triangles.size() > 0) {
+  if (!line.info.faces && shape.faces.size() > 0) {
     throw Error(ErrorCode::kUnsupported, how.name + ": " + title +
-                                             " holds points, not triangles; write " +
+                                             " holds points, not faces; write " +
                                              titles_of(&ShapeFormatInfo::faces));
   }
   return line.write(shape, how, out);
@@ -262,7 +262,7 @@ std::vector<std::string> write_view(const ShapeView& shape, const std::filesyste
                                     const ShapeWriteOptions& options, const Context& context) {
   const ShapeFormat format = written_format(path, options);
   AtomicFile file(path, context);
-  OutputBuffer out(&file, shape.points.size() + shape.triangles.size(), context);
+  OutputBuffer out(&file, shape.points.size() + shape.faces.size(), context);
   std::vector<std::string> warnings =
       format_shape(shape, format, {options.ascii, path.string()}, out);
   out.flush();

@@ -63,7 +63,7 @@ std::vector<std::string> attributes_left_out(std::span<const Attribute> attribut
 ShapeView shape_view_of(const Mesh& mesh) {
   return {.points = PointRange(mesh.vertices),
           .normals = {},
-          .triangles = TriangleRange(mesh.triangles),
+          .faces = TriangleRange(mesh.faces),
           .attributes = scalar_ranges(mesh.attributes),
           .is_mesh = true};
 }
@@ -71,7 +71,7 @@ ShapeView shape_view_of(const Mesh& mesh) {
 ShapeView shape_view_of(const PointCloud& cloud) {
   return {.points = PointRange(cloud.points),
           .normals = cloud.normals,
-          .triangles = {},
+          .faces = {},
           .attributes = scalar_ranges(cloud.attributes),
           .is_mesh = false};
 }

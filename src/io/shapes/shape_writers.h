@@ -32,7 +32,7 @@ class RowRange {
   RowRange(const MeshView& mesh, ReleaseRows release)
       : mesh_(&mesh),
         release_(std::move(release)),
-        size_(kPoints ? mesh.n_vertices : mesh.n_triangles) {}
+        size_(kPoints ? mesh.n_vertices : mesh.n_faces) {}
   // n rows that `walk` passes to its callback in order, each time they are visited.
   using Walk = std::function<void(const std::function<void(const T&)>& visit)>;
   RowRange(std::size_t n, Walk walk) : walk_(std::move(walk)), size_(n) {}
@@ -110,7 +110,7 @@ class ScalarRange {
 struct ShapeView {
   PointRange points;
   std::span<const Vec3> normals;  // for points; a mesh has normals as attributes
-  TriangleRange triangles;
+  TriangleRange faces;
   std::vector<ScalarRange> attributes;
   bool is_mesh = false;
 };

@@ -69,9 +69,9 @@ bool may_be_binary(std::span<const char> bytes) {
 // Makes a mesh whose facets each have three vertices of their own: 0 1 2, 3 4 5, ...
 Mesh soup(std::vector<Vec3> vertices) {
   Mesh mesh;
-  mesh.triangles.reserve(vertices.size() / 3);
+  mesh.faces.reserve(vertices.size() / 3);
   for (std::uint32_t i = 0; i + 2 < vertices.size(); i += 3) {
-    mesh.triangles.push_back({i, i + 1, i + 2});
+    mesh.faces.push_back({i, i + 1, i + 2});
   }
   mesh.vertices = std::move(vertices);
   return mesh;

@@ -123,9 +123,9 @@ std::vector<std::string> put_binary(const ShapeView& shape, OutputBuffer& out) {
   header.resize(80, ' ');
   out.text(header);
   char* count = out.room(4);
-  store_little_endian(count, static_cast<std::uint32_t>(shape.triangles.size()));
+  store_little_endian(count, static_cast<std::uint32_t>(shape.faces.size()));
   out.advance(count + 4);
-  shape.triangles.visit([&](std::size_t, const Triangle& t) {
+  shape.faces.visit([&](std::size_t, const Triangle& t) {
     constexpr std::size_t kFacet = 50;
     char* to = out.room(kFacet);
     put_floats(facet_normal(shape, t), to);
@@ -149,7 +149,7 @@ void put_float_text(const Vec3& v, OutputBuffer& out) {
 
 void put_ascii(const ShapeView& shape, OutputBuffer& out) {
   out.text("solid rholm\n");
-  shape.triangles.visit([&](std::size_t, const Triangle& t) {
+  shape.faces.visit([&](std::size_t, const Triangle& t) {
     out.text("facet normal ");
     put_float_text(facet_normal(shape, t), out);
     out.text("outer loop\n");
@@ -168,9 +168,9 @@ void put_ascii(const ShapeView& shape, OutputBuffer& out) {
 std::vector<std::string> format_stl(const ShapeView& shape, const ShapeWriting& how,
                                     OutputBuffer& out) {
   if (!how.ascii) check_range(shape, how.name);
-  if (shape.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
+  if (shape.faces.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorCode::kUnsupported, how.name + ": STL holds at most 4294967295 facets, not " +
-                                             std::to_string(shape.triangles.size()));
+                                             std::to_string(shape.faces.size()));
   }
   if (!how.ascii) return put_binary(shape, out);
   put_ascii(shape, out);

@@ -39,8 +39,8 @@ SampleLevels samples_of(const Mesh& surface, const Context& context) {
   const AreaSamples area = sample_by_area(surface, kSamples, 1);
   std::vector<Vec3> normals;
   normals.reserve(area.points.size());
-  for (const std::uint32_t triangle : area.triangles) {
-    const Triangle& t = surface.triangles[triangle];
+  for (const std::uint32_t triangle : area.faces) {
+    const Triangle& t = surface.faces[triangle];
     const Vec3& a = surface.vertices[t[0]];
     normals.push_back(normalized(cross(surface.vertices[t[1]] - a, surface.vertices[t[2]] - a)));
   }
@@ -98,11 +98,11 @@ Mesh level_surface(const Atlas& level, const Mesh& whole, const AtlasSurfaceOpti
   Mesh best;
   std::size_t least = std::numeric_limits<std::size_t>::max();  // wrong handles
   for (std::size_t i = 0; i < std::size(kBands) && least > 0; ++i) {
-    if (i > 1 && least > kFewHandles && !best.triangles.empty()) break;
+    if (i > 1 && least > kFewHandles && !best.faces.empty()) break;
     Atlas other = level;
     other.band *= kBands[i];
     Mesh surface = extract_atlas(other, options, context).mesh;
-    if (surface.triangles.empty()) continue;
+    if (surface.faces.empty()) continue;
     const std::size_t wrong = n_wrong_handles(topology_of(inspect(surface)), wanted);
     if (wrong < least) least = wrong, best = std::move(surface);
   }

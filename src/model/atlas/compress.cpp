@@ -208,8 +208,8 @@ std::optional<Topology> topology_of_solid(const Inspection& found) {
 void check_oriented_alike(const Inspection& found) {
   if (found.oriented) return;
   throw Error(ErrorCode::kInvalidInput,
-              fmt::format("{} edges have two triangles that face opposite sides: an atlas needs "
-                          "triangles that are oriented alike; 'rholm repair' turns them",
+              fmt::format("{} edges have two faces of opposite orientation: an atlas needs "
+                          "faces that are oriented alike; 'rholm repair' turns them",
                           found.misoriented_edges));
 }
 
@@ -326,7 +326,7 @@ Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
   Mesh surface;
   if (options.degree && *options.degree < highest_degree(atlas)) {
     const Mesh whole = extract_atlas(atlas, own, context).mesh;
-    if (!whole.triangles.empty()) {
+    if (!whole.faces.empty()) {
       const AtlasLevel level = LevelMaker(atlas, whole, context).usable_at(*options.degree);
       const bool as_it_needs = !options.simplify && options.step == 0 && level.lost > 0;
       if (as_it_needs) wanted.simplify = SimplifyOptions{.max_error = kLevelError * level.lost};
@@ -335,7 +335,7 @@ Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
   } else {
     surface = extract_atlas(atlas, wanted, context).mesh;
   }
-  if (surface.triangles.empty()) {
+  if (surface.faces.empty()) {
     throw Error(
         ErrorCode::kInvalidInput,
         fmt::format("a grid with steps of {:.3g} finds no surface of a model with a diagonal of "

@@ -26,13 +26,13 @@ AreaSamples outer_of(const OuterSurface& surface, std::size_t n, std::size_t& in
   inverted = 0;
   if (!surface.closed) return all;
   const std::vector<int> winding =
-      outer_winding({surface.mesh, all.points, all.triangles}, surface.scene, context);
+      outer_winding({surface.mesh, all.points, all.faces}, surface.scene, context);
   AreaSamples outer;
   for (std::size_t i = 0; i < n; ++i) {
     inverted += winding[i] < 0;
     if (winding[i] > 0) continue;
     outer.points.push_back(all.points[i]);
-    outer.triangles.push_back(all.triangles[i]);
+    outer.faces.push_back(all.faces[i]);
   }
   return outer;
 }
@@ -41,7 +41,7 @@ AreaSamples outer_of(const OuterSurface& surface, std::size_t n, std::size_t& in
 double gap_of(const OuterSurface& surface, const AreaSamples& on, double thin,
               const Context& context) {
   std::vector<double> gaps =
-      sheet_gaps({surface.mesh, on.points, on.triangles}, surface.scene, context);
+      sheet_gaps({surface.mesh, on.points, on.faces}, surface.scene, context);
   const auto at =
       gaps.begin() + static_cast<std::ptrdiff_t>(thin * static_cast<double>(gaps.size() - 1));
   std::nth_element(gaps.begin(), at, gaps.end());
@@ -74,8 +74,8 @@ OrientedPoints outer_samples(const OuterSurface& surface, std::size_t n, const C
   AreaSamples outer = outer_of(surface, n, inverted, context);
   OrientedPoints samples;
   samples.points = std::move(outer.points);
-  for (const std::uint32_t t : outer.triangles) {
-    const Triangle& triangle = surface.mesh.triangles[t];
+  for (const std::uint32_t t : outer.faces) {
+    const Triangle& triangle = surface.mesh.faces[t];
     samples.normals.push_back(
         normalized(face_normal(scaled_corners(surface.mesh, triangle, 1)).twice_area));
   }

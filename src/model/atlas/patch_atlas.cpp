@@ -212,7 +212,7 @@ PatchAtlas make_all(const std::vector<Vec3>& points, const std::vector<Vec3>& no
                             "a grid with such steps needs more memory than allowed",
                             model.atlas.spacing / model.atlas.diagonal));
   }
-  if (made.surface.triangles.empty()) {
+  if (made.surface.faces.empty()) {
     throw Error(
         ErrorCode::kInvalidInput,
         fmt::format("caps of degree {} leave no surface: take another degree", options.degree));
@@ -247,13 +247,13 @@ class PictureMaker {
         for (const std::uint32_t i : t) {
           mesh_.vertices.push_back(place(middle + kApart * (points[i] - middle)));
         }
-        mesh_.triangles.push_back({first, first + 1, first + 2});
+        mesh_.faces.push_back({first, first + 1, first + 2});
       }
     } else {
       const auto first = static_cast<std::uint32_t>(before);
       for (const Vec3& p : points) mesh_.vertices.push_back(place(p));
       for (const Triangle& t : triangles) {
-        mesh_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+        mesh_.faces.push_back({first + t[0], first + t[1], first + t[2]});
       }
     }
     patch_of_.insert(patch_of_.end(), mesh_.vertices.size() - before,
@@ -306,7 +306,7 @@ PatchPicture patch_picture(const Mesh& mesh, PatchView view, const PatchAtlasOpt
   validate(mesh);
   check_span(bounds(mesh.vertices).diagonal());
   const Mesh welded = outward(mesh).welded.mesh;
-  return picture_of(welded.vertices, area_normals(welded.vertices, welded.triangles), view, options,
+  return picture_of(welded.vertices, area_normals(welded.vertices, welded.faces), view, options,
                     context);
 }
 
@@ -324,7 +324,7 @@ PatchAtlas patch_atlas(const Mesh& mesh, const PatchAtlasOptions& options, const
   check_span(bounds(mesh.vertices).diagonal());
   const Mesh welded = outward(mesh).welded.mesh;
   PatchAtlas made =
-      make_all(welded.vertices, area_normals(welded.vertices, welded.triangles), options, context);
+      make_all(welded.vertices, area_normals(welded.vertices, welded.faces), options, context);
   made.model.errors = measure(welded, made.surface, 100000, context);
   return made;
 }

@@ -26,8 +26,8 @@ StarReport star_report(const MeshPassResult& pass, const Vec3& center) {
   report.center = center;
   report.min_d = pass.min_d;
   report.min_cos_gamma = pass.min_cos_gamma;
-  report.bad_triangles = pass.bad_triangles;
-  report.star_shaped = pass.bad_triangles == 0;
+  report.bad_faces = pass.bad_faces;
+  report.star_shaped = pass.bad_faces == 0;
   report.once_share = report.star_shaped ? 1 : 0;
   return report;
 }
@@ -40,7 +40,7 @@ bool may_fold(const ExpandOptions& options) {
 std::optional<NotInPlace> fault_in(const MeshPassResult& pass, const ExpandOptions& options) {
   if (!pass.closed) return NotInPlace::kNotClosed;
   if (!(pass.volume > 0)) return NotInPlace::kInsideOut;
-  if (pass.bad_triangles > 0 && !may_fold(options)) return NotInPlace::kFolded;
+  if (pass.bad_faces > 0 && !may_fold(options)) return NotInPlace::kFolded;
   return std::nullopt;
 }
 
@@ -92,7 +92,7 @@ class Expand {
     const TransformTarget first = problem ? first_pilot(*problem, *options_.tolerance)
                                           : TransformTarget{options_.degree, options_.precision};
     MeshPassResult pass = timed(expanded_.times, "transform", [&] { return pass_to(first); });
-    const bool star_shaped = prepared_ ? seen_->star_shaped : pass.bad_triangles == 0;
+    const bool star_shaped = prepared_ ? seen_->star_shaped : pass.bad_faces == 0;
     if (!prepared_) {
       if (const std::optional<NotInPlace> fault = fault_in(pass, options_)) return *fault;
       // If all faces turn outwards, all directions are covered equally often: a second sheet may
@@ -188,7 +188,7 @@ class Expand {
   void finish_star() {
     Expansion& expansion = transform().expansion;
     expansion.norm_squared = norms().radius_squared;
-    const bool paired = mesh_.n_triangles <= kMostPredicted;
+    const bool paired = mesh_.n_faces <= kMostPredicted;
     if (paired) {
       expansion.tail_strength = timed(transform().times, "norms",
                                       [&] { return tail_strength(mesh_, center(), context_); });
@@ -213,8 +213,8 @@ class Expand {
   void set_counts() {
     expanded_.diagonal = diagonal_of(mesh_, context_);
     expanded_.vertices = mesh_.n_vertices;
-    expanded_.faces = mesh_.n_triangles;
-    expanded_.edges = mesh_.n_triangles / 2 * 3;
+    expanded_.faces = mesh_.n_faces;
+    expanded_.edges = mesh_.n_faces / 2 * 3;
   }
 
   const MeshView& mesh_;
@@ -252,7 +252,7 @@ Expanded expand_by_chart(PreparedMesh& mesh, const ExpandOptions& options, const
   });
   expanded.star = chart.report;
   expanded.vertices = chart.mesh.vertices.size();
-  expanded.faces = chart.mesh.triangles.size();
+  expanded.faces = chart.mesh.faces.size();
   expanded.edges = chart.edges.size();
   timed(expanded.times, "transform", [&] {
     if (options.tolerance) {
@@ -279,7 +279,7 @@ std::variant<Expanded, NotInPlace> expand_in_place(const MeshView& mesh,
   if (options.tolerance) check(*options.tolerance);
   if (!uses_mesh_pass(transform_options(options)) || options.weld_tolerance != 0)
     return NotInPlace::kOptions;
-  if (mesh.n_triangles == 0) return NotInPlace::kUnusable;
+  if (mesh.n_faces == 0) return NotInPlace::kUnusable;
   try {
     return Expand(mesh, options, hooks, context).run();
   } catch (const Error& error) {

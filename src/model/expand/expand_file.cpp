@@ -37,7 +37,7 @@ Expanded expand_prepared(const Mesh& mesh, const ExpandOptions& options, const C
   expanded.times.merge(times);
   expanded.diagonal = bounds(mesh.vertices).diagonal();
   expanded.merged_vertices = prepared.shape.welded.merged_vertices;
-  expanded.collapsed_triangles = prepared.shape.welded.collapsed_triangles;
+  expanded.collapsed_faces = prepared.shape.welded.collapsed_faces;
   expanded.flipped = prepared.shape.flipped;
   return expanded;
 }

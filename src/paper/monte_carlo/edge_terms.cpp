@@ -240,7 +240,7 @@ FieldEdges field_edges(const StarGeometry& geometry) {
   for (std::size_t t = 0; t < geometry.faces.size(); ++t) {
     sides.push_back(add_faces(geometry.corners(t), geometry.faces[t], field));
   }
-  const std::vector<Triangle>& triangles = geometry.chart->mesh.triangles;
+  const std::vector<Triangle>& triangles = geometry.chart->mesh.faces;
   for (const Edge& edge : geometry.chart->edges) {
     const Vec3 &a = geometry.vertices[edge.a], &b = geometry.vertices[edge.b];
     const int left = sides[edge.left][side_of(triangles[edge.left], edge.a, edge.b)];

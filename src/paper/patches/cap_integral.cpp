@@ -50,7 +50,7 @@ void check(const CapFrame& frame, const CapIntegralOptions& options) {
 Corners corners_of(const CapFrame& frame, const PatchMesh& patch, std::size_t t) {
   Corners corners;
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint32_t v = patch.triangles[t][k];
+    const std::uint32_t v = patch.faces[t][k];
     if (v >= patch.points.size()) {
       throw Error(ErrorCode::kInvalidInput, "triangle " + std::to_string(t) + " has the corner " +
                                                 std::to_string(v) + " of " +
@@ -70,7 +70,7 @@ Corners corners_of(const CapFrame& frame, const PatchMesh& patch, std::size_t t)
 
 std::vector<Face> faces_of(const CapFrame& frame, const PatchMesh& patch) {
   std::vector<Face> faces;
-  for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < patch.faces.size(); ++t) {
     Face face{.corners = corners_of(frame, patch, t)};
     const auto& [a, b, c] = face.corners;
     face.density = dot(a, cross(b - a, c - a)) / 2;

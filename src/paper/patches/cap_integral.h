@@ -27,7 +27,7 @@ CapFrame patch_frame(const PatchSphere& seen, std::span<const Vec3> points, doub
 // Triangles in space, counter-clockwise as seen from outside; the centre is on their inner side.
 struct PatchMesh {
   std::span<const Vec3> points;
-  std::span<const Triangle> triangles;
+  std::span<const Triangle> faces;
 };
 
 struct CapIntegralOptions {

@@ -14,9 +14,9 @@
 #include "reconstruct/points/reconstruct_rules.h"
 #include "reconstruct/points/tile_points.h"
 #include "rholm/error.h"
+#include "shape/points/isolated_points.h"
 #include "shape/points/local_shape.h"
 #include "shape/points/normals.h"
-#include "shape/points/strays.h"
 
 namespace rholm {
 namespace {
@@ -49,7 +49,7 @@ void TileCloud::add_costs_of_normals() {
 
 void TileCloud::prepare() {
   sort();
-  if (!options_.keep_outliers) remove_strays();
+  if (!options_.keep_outliers) remove_isolated_points();
   count_points();
   if (given_) look_at_shape();
   if (!given_) orient();
@@ -122,7 +122,7 @@ TileScene TileCloud::take_only() {
 void TileCloud::find_survey(std::uint64_t points_per_tile) {
   if (read_survey(store_)) return;
   Survey found = rholm::survey(
-      source_, {.points_per_tile = points_per_tile, .drop_far_strays = !options_.keep_outliers},
+      source_, {.points_per_tile = points_per_tile, .drop_far_isolated = !options_.keep_outliers},
       stages_.context());
   if (found.points <= points_per_tile) release(found.sample);  // the only tile is not cut
   write_survey(found, store_);
@@ -133,8 +133,8 @@ void TileCloud::sort() {
                [&] { distribute(source_, survey_, plan_, store_, {}, stages_.context()); });
   source_.finish();
   stages_.each("sort", n_, [&](std::size_t tile) { sort_points(store_, tile); });
-  report_.points = survey_.points + survey_.not_finite + survey_.dropped + survey_.far_strays;
-  report_.outliers = survey_.far_strays;
+  report_.points = survey_.points + survey_.not_finite + survey_.dropped + survey_.far_isolated;
+  report_.outliers = survey_.far_isolated;
   // Spacings are needed for the width of halos.
   spacings_.assign(n_, 0.0);
   if (n_ > 1) spacings_ = spacings_of_sample(survey_, plan_, survey_.n_different);
@@ -164,21 +164,21 @@ void TileCloud::count_points() {
 
 // The only tile is loaded anew for each look. The scene of the last look is kept, and two scenes
 // are never in memory at the same time.
-void TileCloud::remove_strays() {
-  const int times = n_ == 1 ? kStrayPasses : 1, looks = kStrayPasses / times;
+void TileCloud::remove_isolated_points() {
+  const int times = n_ == 1 ? kIsolatedPasses : 1, looks = kIsolatedPasses / times;
   for (int time = 0; time < times; ++time) {
-    TileRemoval strays(store_, plan_, "strays-" + std::to_string(time));
-    stages_.each("strays", n_, [&](std::size_t tile) {
-      if (strays.has_found(tile)) return;
+    TileRemoval isolated(store_, plan_, "isolated-" + std::to_string(time));
+    stages_.each("isolated points", n_, [&](std::size_t tile) {
+      if (isolated.has_found(tile)) return;
       const bool asked = keeps_scenes_ && given_;  // signs of given normals need neighbours
-      strays.put(tile, find_tile_strays(*load(tile), looks, stages_.context(),
-                                        asked ? &neighbors_[tile] : nullptr));
+      isolated.put(tile, find_isolated_in_tile(*load(tile), looks, stages_.context(),
+                                               asked ? &neighbors_[tile] : nullptr));
     });
-    const std::uint64_t n_strays = strays.count();
-    if (n_strays > 0) forget_scenes();  // before copies of all points are made
-    stages_.each("strays", n_, [&](std::size_t tile) { strays.remove(tile); });
-    if (n_strays == 0) return;
-    report_.outliers += n_strays;
+    const std::uint64_t n_isolated = isolated.count();
+    if (n_isolated > 0) forget_scenes();  // before copies of all points are made
+    stages_.each("isolated points", n_, [&](std::size_t tile) { isolated.remove(tile); });
+    if (n_isolated == 0) return;
+    report_.outliers += n_isolated;
   }
 }
 

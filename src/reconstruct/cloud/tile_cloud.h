@@ -66,7 +66,7 @@ class TileCloud {
   void add_costs_of_normals();
   void find_survey(std::uint64_t points_per_tile);
   void sort();
-  void remove_strays();
+  void remove_isolated_points();
   void look_at_shape();
   void orient();
   void mend();

@@ -8,9 +8,9 @@
 #include "reconstruct/normals/tile_normals.h"
 #include "reconstruct/points/tile_points.h"
 #include "rholm/error.h"
+#include "shape/points/isolated_points.h"
 #include "shape/points/point_tree.h"
 #include "shape/points/sampling_gaps.h"
-#include "shape/points/strays.h"
 
 namespace rholm {
 
@@ -77,9 +77,9 @@ void TileRemoval::remove(std::size_t tile) {
   store_.remove(found(tile));
 }
 
-std::vector<std::uint8_t> find_tile_strays(const TileScene& scene, int looks,
-                                           const Context& context,
-                                           std::vector<std::uint32_t>* neighbors) {
+std::vector<std::uint8_t> find_isolated_in_tile(const TileScene& scene, int looks,
+                                                const Context& context,
+                                                std::vector<std::uint32_t>* neighbors) {
   std::vector<std::uint8_t> flags(scene.n_own, 0);
   if (scene.points.empty()) return flags;
   const auto flag = [&](std::uint32_t i) {
@@ -87,7 +87,7 @@ std::vector<std::uint8_t> find_tile_strays(const TileScene& scene, int looks,
     if (given < scene.n_own) flags[given] = 1;
   };
   std::vector<std::uint8_t> found =
-      find_strays(*scene.tree, scene.points, scene.gaps, context, neighbors);
+      find_isolated_points(*scene.tree, scene.points, scene.gaps, context, neighbors);
   std::vector<std::uint32_t> left(found.size());  // of the scene, after each look
   std::iota(left.begin(), left.end(), 0U);
   for (int pass = 1;; ++pass) {
@@ -104,7 +104,7 @@ std::vector<std::uint8_t> find_tile_strays(const TileScene& scene, int looks,
       if (!scene.normals.empty()) normals.push_back(scene.normals[rest[k]]);
     }
     const SamplingGaps gaps = find_gaps(tree, points, normals, context);
-    const std::vector<std::uint8_t> seen = find_strays(tree, points, gaps, context);
+    const std::vector<std::uint8_t> seen = find_isolated_points(tree, points, gaps, context);
     found.assign(rest.size(), 0);
     for (std::size_t k = 0; k < seen.size(); ++k) found[tree.order()[k]] = seen[k];
     left = std::move(rest);

@@ -41,10 +41,10 @@ class TileRemoval {
 };
 
 // Returns one flag per own point: 1 where the point is far from all others, alone or in a small
-// group (find_strays()). Each of the `looks` leaves out the points that earlier looks have found.
-// `neighbors`, if it is given, gets graph_neighbors() of all points of the scene.
-std::vector<std::uint8_t> find_tile_strays(const TileScene& scene, int looks,
-                                           const Context& context,
-                                           std::vector<std::uint32_t>* neighbors);
+// group (find_isolated_points()). Each of the `looks` leaves out the points that earlier looks have
+// found. `neighbors`, if it is given, gets graph_neighbors() of all points of the scene.
+std::vector<std::uint8_t> find_isolated_in_tile(const TileScene& scene, int looks,
+                                                const Context& context,
+                                                std::vector<std::uint32_t>* neighbors);
 
 }  // namespace rholm

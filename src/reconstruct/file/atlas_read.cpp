@@ -184,10 +184,10 @@ class AtlasReader {
     if (!hdf5::find_attribute(file_, group, layout::kSimplify)) return std::nullopt;
     const auto stops = numbers(group, layout::kSimplify, layout::kSimplifyNumbers, -1);
     if (stops[0] < 0 || stops[1] < 0 || stops[1] > 1) {
-      refuse(fmt::format("it is simplified to {} triangles and a share of {}: the file is damaged",
+      refuse(fmt::format("it is simplified to {} faces and a share of {}: the file is damaged",
                          stops[0], stops[1]));
     }
-    SimplifyOptions simplify{.triangles = static_cast<std::size_t>(std::min(stops[0], 1e18)),
+    SimplifyOptions simplify{.faces = static_cast<std::size_t>(std::min(stops[0], 1e18)),
                              .share = stops[1]};
     if (stops[2] >= 0) simplify.max_error = stops[2];
     return simplify;

@@ -96,7 +96,7 @@ void write_rules(Writer& writer, Writer::Object group, const Atlas& atlas,
   if (rules.simplify) {
     const SimplifyOptions& s = *rules.simplify;
     const std::array<double, layout::kSimplifyNumbers> stops = {
-        static_cast<double>(s.triangles), s.share, std::isinf(s.max_error) ? -1 : s.max_error};
+        static_cast<double>(s.faces), s.share, std::isinf(s.max_error) ? -1 : s.max_error};
     writer.write_attribute(group, layout::kSimplify, stops);
   }
   writer.write_attribute(group, layout::kTiles, rules.tiles ? 1 : 0);

@@ -160,10 +160,10 @@ class TightPart {
     changed.vertices.resize(n);
     std::iota(changed.vertices.begin(), changed.vertices.end(), 0U);
     changed.vertices.resize(changed.mesh.vertices.size(), GatheredPart::kNew);
-    for (std::size_t t = 0; t < changed.mesh.triangles.size(); ++t) {
-      changed.tiles.push_back(t < mesh().triangles.size()
+    for (std::size_t t = 0; t < changed.mesh.faces.size(); ++t) {
+      changed.tiles.push_back(t < mesh().faces.size()
                                   ? part_.tile_of_triangle(t)
-                                  : part_.name(original(changed.mesh.triangles[t][0])).tile);
+                                  : part_.name(original(changed.mesh.faces[t][0])).tile);
     }
     part_.replace(changed);
   }
@@ -187,8 +187,8 @@ class TightPart {
   std::vector<std::uint8_t> near_triangles(const TileMesh& part) const {
     const std::vector<std::uint8_t> is_near = near_vertices(part.mesh);
     std::vector<std::uint8_t> chosen;
-    chosen.reserve(part.mesh.triangles.size());
-    for (const Triangle& c : part.mesh.triangles) {
+    chosen.reserve(part.mesh.faces.size());
+    for (const Triangle& c : part.mesh.faces) {
       chosen.push_back(is_near[c[0]] & is_near[c[1]] & is_near[c[2]]);
     }
     return chosen;
@@ -217,7 +217,7 @@ class TightPart {
                  std::uint32_t& n_pieces) const {
     const TileMesh part = surface_.mesh(tile);
     const std::vector<std::uint8_t> is_near = near_vertices(part.mesh);
-    const std::vector<Triangle>& triangles = part.mesh.triangles;
+    const std::vector<Triangle>& triangles = part.mesh.faces;
     const std::size_t n = part.mesh.vertices.size();
     const auto is_in_rest = [&](const Triangle& c) {
       return (is_near[c[0]] & is_near[c[1]] & is_near[c[2]]) == 0;

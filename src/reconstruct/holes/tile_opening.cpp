@@ -41,7 +41,7 @@ void TileOpening::find(std::size_t tile) {
   const std::vector<double>& support = *support_of(mesh);
   const auto n = static_cast<std::uint32_t>(support.size());
   DisjointSets sets(n);
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
       if (support[a] <= 0 && support[b] <= 0) sets.unite(a, b);
@@ -58,7 +58,7 @@ void TileOpening::find(std::size_t tile) {
     }
     of_vertex[v] = whole;
   }
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     for (const std::uint32_t v : t) {
       if (of_vertex[v] != kNone) areas[of_vertex[v]] += area_of(mesh, t) / 3;
     }
@@ -127,7 +127,7 @@ void TileOpening::cut(double least_area, const Context& context) {
     if (is_kept_[tile].empty()) continue;
     const TileMesh part = surface_.mesh(tile);
     const std::vector<double> values = support(tile, part);
-    for (const Triangle& t : part.mesh.triangles) {
+    for (const Triangle& t : part.mesh.faces) {
       const std::size_t n = n_within(values, t);
       if (n == 0 || n == 3) continue;
       for (const std::uint32_t v : t) centers.push_back(part.mesh.vertices[v]);
@@ -140,7 +140,7 @@ void TileOpening::cut(double least_area, const Context& context) {
     parallel_for(places.size(), 8192, context, {}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) is_near[v] = near.has(places[v]) ? 1 : 0;
     });
-    for (const Triangle& t : mesh.mesh.triangles) {
+    for (const Triangle& t : mesh.mesh.faces) {
       chosen.push_back(is_near[t[0]] & is_near[t[1]] & is_near[t[2]]);
     }
     return chosen;
@@ -149,14 +149,14 @@ void TileOpening::cut(double least_area, const Context& context) {
   GatheredPart::Changed changed{
       .mesh = std::move(trimmed.mesh), .vertices = std::move(trimmed.vertices), .tiles = {}};
   changed.vertices.resize(changed.mesh.vertices.size(), GatheredPart::kNew);
-  for (const std::uint32_t t : trimmed.triangles) {
+  for (const std::uint32_t t : trimmed.faces) {
     changed.tiles.push_back(part.tile_of_triangle(t));
   }
   part.replace(changed, [&](std::size_t tile, const TileMesh& mesh) {
     std::vector<std::uint8_t> gone;
     const std::vector<double> values = support(tile, mesh);
-    gone.reserve(mesh.mesh.triangles.size());
-    for (const Triangle& t : mesh.mesh.triangles) gone.push_back(n_within(values, t) == 0 ? 1 : 0);
+    gone.reserve(mesh.mesh.faces.size());
+    for (const Triangle& t : mesh.mesh.faces) gone.push_back(n_within(values, t) == 0 ? 1 : 0);
     return gone;
   });
   surface_.end_round(0);

@@ -77,7 +77,7 @@ ConfidenceAreas add_confidence(const OrderedPoints& all, Mesh& mesh, const Conte
       thin[v] = own.apart < kHalf ? 1 : 0;
     }
   });
-  for (const auto& t : mesh.triangles) {
+  for (const auto& t : mesh.faces) {
     const double third = norm(cross(mesh.vertices[t[1]] - mesh.vertices[t[0]],
                                     mesh.vertices[t[2]] - mesh.vertices[t[0]])) /
                          6;

@@ -29,7 +29,7 @@ Attribute confidence_of(const TileScene& scene) {
 
 void TileOutput::write(const TileParts& parts, const TileParts::Whole& whole,
                        const std::filesystem::path& output) const {
-  const PlyLayout layout(whole.vertices, whole.triangles, attributes());
+  const PlyLayout layout(whole.vertices, whole.faces, attributes());
   std::optional<PlyParts> file;
   stages_.once("write", [&] {
     file.emplace(
@@ -55,7 +55,7 @@ void TileOutput::write(const TileParts& parts, const TileParts::Whole& whole,
       file->append(ply_vertices(part(tile).vertices));
     }
     for (std::size_t tile = 0; path.empty() && tile < n_tiles_; ++tile) {
-      file->append(ply_triangles(parts.part(tile).triangles));
+      file->append(ply_triangles(parts.part(tile).faces));
     }
     file->commit();
     store_.remove("output");
@@ -68,7 +68,7 @@ Mesh TileOutput::collect(const TileParts& parts, const TileParts::Whole& whole) 
                 fmt::format("a mesh in memory cannot have {} vertices", whole.vertices));
   }
   Mesh mesh;
-  mesh.vertices.resize(whole.vertices), mesh.triangles.resize(whole.triangles);
+  mesh.vertices.resize(whole.vertices), mesh.faces.resize(whole.faces);
   mesh.attributes = attributes();
   for (Attribute& attribute : mesh.attributes) attribute.values.resize(whole.vertices);
   stages_.each("write", n_tiles_, [&](std::size_t tile) {
@@ -81,8 +81,8 @@ Mesh TileOutput::collect(const TileParts& parts, const TileParts::Whole& whole) 
       const std::vector<double>& values = part.vertices.attributes[k].values;
       std::copy(values.begin(), values.end(), mesh.attributes[k].values.begin() + at);
     }
-    std::transform(part.triangles.begin(), part.triangles.end(),
-                   mesh.triangles.begin() + static_cast<std::ptrdiff_t>(part.first_triangle),
+    std::transform(part.faces.begin(), part.faces.end(),
+                   mesh.faces.begin() + static_cast<std::ptrdiff_t>(part.first_triangle),
                    [](const WideTriangle& t) -> Triangle {
                      return {static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
                              static_cast<std::uint32_t>(t[2])};

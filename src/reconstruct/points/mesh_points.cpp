@@ -8,7 +8,7 @@ namespace rholm {
 
 PointCloud points_of_mesh(Mesh mesh) {
   PointCloud cloud;
-  cloud.normals = area_normals(mesh.vertices, mesh.triangles);
+  cloud.normals = area_normals(mesh.vertices, mesh.faces);
   std::erase_if(mesh.attributes, [](const Attribute& a) {
     return a.name == "nx" || a.name == "ny" || a.name == "nz";
   });

@@ -12,9 +12,9 @@
 #include "base/parallel.h"
 #include "base/refuse.h"
 #include "reconstruct/points/point_sample.h"
+#include "shape/points/isolated_points.h"
 #include "shape/points/scan_poses.h"
 #include "shape/points/sensors.h"
-#include "shape/points/strays.h"
 
 namespace rholm {
 namespace {

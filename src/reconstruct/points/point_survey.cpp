@@ -73,7 +73,7 @@ bool reaches_beyond(const FarBall& ball, const Bounds& box) {
 
 // Section of the survey's piece whose size does not depend on the number of points.
 struct SurveyHead {
-  std::uint64_t points, not_finite, far_strays, dropped;
+  std::uint64_t points, not_finite, far_isolated, dropped;
   FarBall ball;
   Bounds bounds;
   double n_different;
@@ -112,7 +112,7 @@ Survey survey(PointSource& source, const SurveyOptions& options, const Context& 
   result.sample = sample.take(sample_size(tally.points, options));
   result.n_different = sample.n_different();
   result.bounds = {.min = tally.low, .max = tally.high};
-  if (options.drop_far_strays) result.ball = find_far_ball(result.sample);
+  if (options.drop_far_isolated) result.ball = find_far_ball(result.sample);
   if (reaches_beyond(result.ball, result.bounds)) {
     tally = Tally();
     for_each_piece(source, context,
@@ -125,7 +125,7 @@ Survey survey(PointSource& source, const SurveyOptions& options, const Context& 
   result.points = tally.points;
   result.not_finite = tally.not_finite;
   result.dropped = source.dropped();
-  result.far_strays = tally.far;
+  result.far_isolated = tally.far;
   result.layout.normals = tally.normals;
   return result;
 }
@@ -133,7 +133,7 @@ Survey survey(PointSource& source, const SurveyOptions& options, const Context& 
 void write_survey(const Survey& survey, PieceStore& store) {
   const SurveyHead head{.points = survey.points,
                         .not_finite = survey.not_finite,
-                        .far_strays = survey.far_strays,
+                        .far_isolated = survey.far_isolated,
                         .dropped = survey.dropped,
                         .ball = survey.ball,
                         .bounds = survey.bounds,
@@ -153,7 +153,7 @@ std::optional<Survey> read_survey(const PieceStore& store) {
   const SurveyHead head = piece.values<SurveyHead>(0).front();
   return Survey{.points = head.points,
                 .not_finite = head.not_finite,
-                .far_strays = head.far_strays,
+                .far_isolated = head.far_isolated,
                 .dropped = head.dropped,
                 .ball = head.ball,
                 .bounds = head.bounds,

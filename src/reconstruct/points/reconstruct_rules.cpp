@@ -26,12 +26,12 @@ constexpr double kSmallest = 1e-12, kLargest = 1e12;
 
 }  // namespace
 
-bool are_suspicious(double n, double strays, double wrong) {
-  return strays > kSuspicious * n || wrong > kSuspiciousNormals * n;
+bool are_suspicious(double n, double isolated, double wrong) {
+  return isolated > kSuspicious * n || wrong > kSuspiciousNormals * n;
 }
 
-std::size_t most_outliers(double strays, double wrong) {
-  return static_cast<std::size_t>(strays + kMoreWrong * wrong);
+std::size_t most_outliers(double isolated, double wrong) {
+  return static_cast<std::size_t>(isolated + kMoreWrong * wrong);
 }
 
 std::size_t least_group(std::size_t n) {

@@ -36,11 +36,11 @@ inline constexpr std::size_t kFewestPoints = 16;
 // Each search for outliers near the surface sees what the one before has left (method 7.4).
 inline constexpr int kOutlierPasses = 3;
 
-// Returns true if some of n points near the surface may be outliers. Either `strays` points were
+// Returns true if some of n points near the surface may be outliers. Either `isolated` points were
 // far from all others, or about `wrong` given normals contradict the normals around them.
-bool are_suspicious(double n, double strays, double wrong);
+bool are_suspicious(double n, double isolated, double wrong);
 // Returns the largest number of outliers; more are features that the points hardly show.
-std::size_t most_outliers(double strays, double wrong);
+std::size_t most_outliers(double isolated, double wrong);
 // Returns the least size of a group of points that is not taken for outliers.
 std::size_t least_group(std::size_t n);
 

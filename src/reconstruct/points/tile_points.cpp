@@ -55,11 +55,11 @@ void distribute(PointSource& source, const Survey& survey, const TilePlan& plan,
     ask_cancel();
     report_progress(context, "distribute", source.part_read());
   }
-  if (kept != survey.points || not_finite != survey.not_finite || far != survey.far_strays) {
+  if (kept != survey.points || not_finite != survey.not_finite || far != survey.far_isolated) {
     refuse(fmt::format(
         "the points have changed while they were read: there were {}, and there are "
         "{}",
-        survey.points + survey.not_finite + survey.far_strays, kept + not_finite + far));
+        survey.points + survey.not_finite + survey.far_isolated, kept + not_finite + far));
   }
   appender.finish();
   const std::vector<std::byte> layout = layout_bytes(survey.layout);

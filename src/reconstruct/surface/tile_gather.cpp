@@ -53,7 +53,7 @@ void resize(Mesh& mesh, std::size_t n) {
 
 // Changed triangles of one tile.
 struct GatheredPart::NewTriangles {
-  std::vector<std::array<Corner, 3>> triangles;
+  std::vector<std::array<Corner, 3>> faces;
   std::vector<std::uint32_t> vertices;  // new ones that are the tile's own, of the changed mesh
 };
 
@@ -94,8 +94,8 @@ void GatheredPart::gather(const ChooseTile& choose_tile, const Choose& choose, L
     if (all.attributes.empty() && !mesh.vertices.empty()) {
       for (const Attribute& a : mesh.attributes) all.attributes.push_back({a.name, a.type, {}});
     }
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      Triangle c = mesh.triangles[t];
+    for (std::uint32_t t = 0; t < mesh.faces.size(); ++t) {
+      Triangle c = mesh.faces[t];
       if (chosen[t] == 0) {
         is_left[c[0]] = is_left[c[1]] = is_left[c[2]] = true;
         continue;
@@ -131,7 +131,7 @@ void GatheredPart::gather(const ChooseTile& choose_tile, const Choose& choose, L
     index[v] = static_cast<std::uint32_t>(names_.size() - 1);
   }
   for (const Triangle& c : corners) {
-    mesh_.triangles.push_back({index[c[0]], index[c[1]], index[c[2]]});
+    mesh_.faces.push_back({index[c[0]], index[c[1]], index[c[2]]});
   }
 }
 
@@ -171,13 +171,13 @@ std::vector<std::uint8_t> GatheredPart::changed_tiles(const Changed& changed) co
   std::partial_sum(next.begin(), next.end(), next.begin());
   const std::vector<std::size_t> end(next.begin() + 1, next.end());
   std::vector<std::uint8_t> differs(end_ - first_, 0);
-  for (std::size_t t = 0; t < changed.mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < changed.mesh.faces.size(); ++t) {
     const std::size_t tile = changed.tiles[t] - first_;
     if (next[tile] == end[tile]) {
       differs[tile] = 1;
       continue;
     }
-    const Triangle &now = changed.mesh.triangles[t], &before = mesh_.triangles[next[tile]++];
+    const Triangle &now = changed.mesh.faces[t], &before = mesh_.faces[next[tile]++];
     for (std::size_t k = 0; k < 3; ++k) {
       if (is_new[now[k]] != 0 || changed.vertices[now[k]] != before[k]) differs[tile] = 1;
     }
@@ -192,9 +192,9 @@ void GatheredPart::replace(const Changed& changed, const Choose& drop) {
   // New vertices belong to the tile of their first triangle.
   std::vector<NewTriangles> fresh(end_ - first_);
   std::vector<std::uint32_t> owner(changed.mesh.vertices.size(), kNone), place(owner);
-  for (std::size_t t = 0; t < changed.mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < changed.mesh.faces.size(); ++t) {
     const std::uint32_t tile = changed.tiles[t];
-    for (const std::uint32_t v : changed.mesh.triangles[t]) {
+    for (const std::uint32_t v : changed.mesh.faces[t]) {
       if (changed.vertices[v] != kNew || owner[v] != kNone) continue;
       owner[v] = tile;
       std::vector<std::uint32_t>& own = fresh[tile - first_].vertices;
@@ -212,13 +212,13 @@ void GatheredPart::replace(const Changed& changed, const Choose& drop) {
     if (changed.vertices[v] != kNew) return names_[changed.vertices[v]];
     return {owner[v], n_own[owner[v] - first_] + place[v]};
   };
-  for (std::size_t t = 0; t < changed.mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < changed.mesh.faces.size(); ++t) {
     std::array<Corner, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = changed.mesh.triangles[t][k];
+      const std::uint32_t v = changed.mesh.faces[t][k];
       corners[k] = {name_of(v), v};
     }
-    fresh[changed.tiles[t] - first_].triangles.push_back(corners);
+    fresh[changed.tiles[t] - first_].faces.push_back(corners);
   }
   const std::vector<std::uint8_t> differs = changed_tiles(changed);
   for (std::size_t tile = first_; tile < end_; ++tile) {
@@ -235,7 +235,7 @@ void GatheredPart::rewrite(std::size_t tile, const Changed& changed, const NewTr
   TileMesh part = surface_.mesh(tile);
   Mesh& mesh = part.mesh;
   const std::size_t n_before = part.n_own;
-  std::vector<std::uint8_t> stays(mesh.triangles.size(), 1);
+  std::vector<std::uint8_t> stays(mesh.faces.size(), 1);
   for (const TriangleOfTile& t : triangles_) {
     if (t.tile == tile) stays[t.triangle] = 0;
   }
@@ -255,13 +255,13 @@ void GatheredPart::rewrite(std::size_t tile, const Changed& changed, const NewTr
   std::vector<std::array<VertexOfTile, 3>> corners;
   for (std::size_t t = 0; t < stays.size(); ++t) {
     if (stays[t] == 0) continue;
-    const Triangle& c = mesh.triangles[t];
+    const Triangle& c = mesh.faces[t];
     corners.push_back({names[c[0]], names[c[1]], names[c[2]]});
     for (const VertexOfTile& name : corners.back()) {
       if (name.tile != tile) used[name] = known.at(name);
     }
   }
-  for (const auto& triangle : fresh.triangles) {
+  for (const auto& triangle : fresh.faces) {
     corners.push_back({triangle[0].name, triangle[1].name, triangle[2].name});
     for (const Corner& corner : triangle) {
       const VertexOfTile& name = corner.name;
@@ -299,7 +299,7 @@ void GatheredPart::rewrite(std::size_t tile, const Changed& changed, const NewTr
       const auto at = number.find(names[i]);
       if (at != number.end()) filled[at->second] = part.filled[i];
     }
-    for (const auto& triangle : fresh.triangles) {
+    for (const auto& triangle : fresh.faces) {
       for (const Corner& corner : triangle) {
         if (corner.name.tile == tile || changed.vertices[corner.vertex] != kNew) continue;
         filled[number.at(corner.name)] = changed.new_are_filled ? 1 : 0;
@@ -307,11 +307,11 @@ void GatheredPart::rewrite(std::size_t tile, const Changed& changed, const NewTr
     }
     part.filled = std::move(filled);
   }
-  mesh.triangles.clear();
+  mesh.faces.clear();
   for (const auto& c : corners) {
     Triangle t;
     for (std::size_t k = 0; k < 3; ++k) t[k] = c[k].tile == tile ? c[k].vertex : number.at(c[k]);
-    mesh.triangles.push_back(t);
+    mesh.faces.push_back(t);
   }
   surface_.write_mesh(tile, part);
 }

@@ -21,7 +21,7 @@ std::vector<Foreign> foreign_vertices(const ExtractedSurface& surface, const Blo
                                       std::size_t n_own_blocks) {
   const std::uint32_t n_own = surface.first_vertex[n_own_blocks];
   std::vector<std::uint8_t> used(surface.mesh.vertices.size() - n_own, 0);
-  for (const Triangle& t : surface.mesh.triangles) {
+  for (const Triangle& t : surface.mesh.faces) {
     for (const std::uint32_t v : t) {
       if (v >= n_own) used[v - n_own] = 1;
     }
@@ -68,7 +68,7 @@ TileMesh tile_mesh(ExtractedSurface surface, const BlockGrid& grid, std::size_t 
     moved[foreign[i].vertex - result.n_own] = static_cast<std::uint32_t>(result.n_own + i);
     result.foreign.push_back(foreign[i].key);
   }
-  for (Triangle& t : result.mesh.triangles) {
+  for (Triangle& t : result.mesh.faces) {
     for (std::uint32_t& v : t) {
       if (v >= result.n_own) v = moved[v - result.n_own];
     }

@@ -21,7 +21,7 @@ std::vector<std::uint32_t> number_components(const Mesh& mesh, const Context& co
   SharedSets sets = connected_vertices(mesh, context);
   std::vector<std::uint32_t> of_root(mesh.vertices.size(), kNone);
   std::uint32_t n = 0;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     std::uint32_t& component = of_root[sets.find(t[0])];
     if (component == kNone) component = n++;
   }
@@ -43,7 +43,7 @@ std::map<std::uint32_t, Vec3> sums_without_normal(TileMesh& part, std::size_t fi
     has_none[v] = 1;
   }
   if (sums.empty()) return sums;
-  for (const Triangle& t : part.mesh.triangles) {
+  for (const Triangle& t : part.mesh.faces) {
     if ((has_none[t[0]] | has_none[t[1]] | has_none[t[2]]) == 0) continue;
     const Vec3& a = part.mesh.vertices[t[0]];
     const Vec3 area_vector = cross(part.mesh.vertices[t[1]] - a, part.mesh.vertices[t[2]] - a);
@@ -96,7 +96,7 @@ void TileParts::find(std::size_t tile, const Context& context) {
   const std::vector<std::uint32_t> component = number_components(mesh, context);
   Links links;
   const Vec3& origin = surface_.frame().origin;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const std::uint32_t which = component[t[0]];
     if (which >= links.components.size()) links.components.resize(which + 1);
     Component& own = links.components[which];
@@ -109,7 +109,7 @@ void TileParts::find(std::size_t tile, const Context& context) {
     own.size.volume += dot(a, cross(b, c)) / 6;
     const auto guessed = [&](std::uint32_t v) { return part.filled[v] != 0; };
     if (!part.filled.empty() && std::any_of(t.begin(), t.end(), guessed)) own.guessed += area;
-    ++own.triangles;
+    ++own.faces;
   }
   links.vertices.assign(links.components.size(), 0);
   for (std::size_t v = 0; v < part.n_own; ++v) {
@@ -234,7 +234,7 @@ TileParts::Whole TileParts::join(double least_share) {
       whole.area_vector += part.size.area_vector;
       whole.area += part.size.area, whole.closed_area += part.guessed;
       whole.volume += part.size.volume;
-      whole.triangles += part.triangles;
+      whole.faces += part.faces;
       vertices += all[tile].vertices[c];
     }
     for (auto it = orphans.lower_bound({static_cast<std::uint32_t>(tile), 0});
@@ -243,7 +243,7 @@ TileParts::Whole TileParts::join(double least_share) {
     }
     vertices += adopted_[tile].size();
     whole.vertices += vertices;
-    first_vertex_.push_back(whole.vertices), first_triangle_.push_back(whole.triangles);
+    first_vertex_.push_back(whole.vertices), first_triangle_.push_back(whole.faces);
   }
   return whole;
 }
@@ -282,7 +282,7 @@ TileMesh TileParts::kept_mesh(std::size_t tile) const {
   TileMesh part = surface_.mesh(tile);
   complete_normals(tile, part);
   const std::vector<std::uint32_t> component = components_of_vertices(tile);
-  std::erase_if(part.mesh.triangles,
+  std::erase_if(part.mesh.faces,
                 [&](const Triangle& t) { return stays_[tile][component[t[0]]] == 0; });
   return part;
 }
@@ -309,10 +309,10 @@ PlyPart TileParts::part(std::size_t tile) const {
       std::all_of(stays_[tile].begin(), stays_[tile].end(), [](char stays) { return stays != 0; });
   const std::vector<std::uint32_t> component =
       all ? std::vector<std::uint32_t>{} : components_of_vertices(tile);
-  part.triangles.reserve(whole.mesh.triangles.size());
-  for (const Triangle& t : whole.mesh.triangles) {
+  part.faces.reserve(whole.mesh.faces.size());
+  for (const Triangle& t : whole.mesh.faces) {
     if (!all && stays_[tile][component[t[0]]] == 0) continue;
-    part.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    part.faces.push_back({number[t[0]], number[t[1]], number[t[2]]});
   }
   part.vertices.vertices = std::move(whole.mesh.vertices);
   part.vertices.attributes = std::move(whole.mesh.attributes);

@@ -31,7 +31,7 @@ class TileParts {
   // drop_small_components() would keep.
   struct Whole {
     std::size_t components = 0, dropped = 0;
-    std::uint64_t vertices = 0, triangles = 0;  // that stay
+    std::uint64_t vertices = 0, faces = 0;  // that stay
     Vec3 area_vector = {};
     double area = 0, closed_area = 0, volume = 0;  // that stay; closed_area: beside filled nodes
   };
@@ -48,7 +48,7 @@ class TileParts {
   struct Component {
     ComponentSize size;
     double guessed = 0;  // area
-    std::uint64_t triangles = 0;
+    std::uint64_t faces = 0;
   };
   struct Links {
     std::vector<std::uint32_t> shared, foreign;  // components, in the order of TileMesh's lists

@@ -54,7 +54,7 @@ TileMesh with_triangles(const TileMesh& before, std::vector<Triangle> triangles)
       if (v >= part.n_own) v = moved[v - part.n_own];
     }
   }
-  part.mesh.triangles = std::move(triangles);
+  part.mesh.faces = std::move(triangles);
   for (const std::uint32_t v : kept) part.mesh.vertices.push_back(before.mesh.vertices[v]);
   for (const Attribute& attribute : before.mesh.attributes) {
     Attribute own{attribute.name, attribute.type, {}};
@@ -70,10 +70,10 @@ double triangles_at(const std::vector<SimplifiedPart::Step>& curve, double cost)
       std::upper_bound(curve.begin(), curve.end(), cost,
                        [](double c, const SimplifiedPart::Step& step) { return c < step.cost; });
   const SimplifiedPart::Step& low = after == curve.begin() ? curve.front() : *(after - 1);
-  const auto least = static_cast<double>(low.triangles);
+  const auto least = static_cast<double>(low.faces);
   if (after == curve.end() || after == curve.begin()) return least;
   const double part = (cost - low.cost) / (after->cost - low.cost);
-  return least + part * (static_cast<double>(after->triangles) - least);
+  return least + part * (static_cast<double>(after->faces) - least);
 }
 
 }  // namespace
@@ -82,8 +82,8 @@ TileSimplify::TileSimplify(PieceStore& store, TileSurface& surface, const TilePa
                            std::size_t n_tiles, const TileSimplifyOptions& options)
     : store_(store), surface_(surface), parts_(parts), n_tiles_(n_tiles), options_(options) {
   const auto share =
-      static_cast<std::uint64_t>(options.stops.share * static_cast<double>(options.triangles));
-  most_ = std::max<std::uint64_t>(options.stops.triangles, share);
+      static_cast<std::uint64_t>(options.stops.share * static_cast<double>(options.faces));
+  most_ = std::max<std::uint64_t>(options.stops.faces, share);
   find_shared(1);
 }
 
@@ -110,7 +110,7 @@ bool TileSimplify::is_shared(const Name& name) const {
 
 SimplifyPart TileSimplify::whole_part(std::size_t tile, const TileMesh& mesh) const {
   SimplifyPart part{.points = mesh.mesh.vertices,
-                    .triangles = mesh.mesh.triangles,
+                    .faces = mesh.mesh.faces,
                     .kinds = std::vector<PartVertex>(mesh.mesh.vertices.size(), PartVertex::kFree),
                     .quadrics = {},
                     .unit = options_.step};
@@ -125,12 +125,12 @@ bool TileSimplify::has_curve(std::size_t tile) const { return store_.has(name_of
 
 void TileSimplify::find_curve(std::size_t tile, const Context& context) {
   const TileMesh mesh = parts_.kept_mesh(tile);
-  const auto n = static_cast<double>(mesh.mesh.triangles.size());
-  const double share = n * static_cast<double>(most_) / static_cast<double>(options_.triangles);
+  const auto n = static_cast<double>(mesh.mesh.faces.size());
+  const double share = n * static_cast<double>(most_) / static_cast<double>(options_.faces);
   SimplifiedPart found =
       simplify_part(whole_part(tile, mesh), static_cast<std::size_t>(kLeastOfShare * share),
                     options_.stops.max_error, without_progress(context));
-  found.steps.insert(found.steps.begin(), {0, mesh.mesh.triangles.size()});
+  found.steps.insert(found.steps.begin(), {0, mesh.mesh.faces.size()});
   const std::span<const std::byte> sections[] = {bytes_of(found.steps)};
   store_.write(name_of("curve", tile), sections);
 }
@@ -149,7 +149,7 @@ void TileSimplify::choose() {
   // Locked vertices stay now and are too many, with two triangles each. A line of them is thinned
   // later, by the root of the surface's thinning.
   const double thinned =
-      std::sqrt(static_cast<double>(most_) / static_cast<double>(options_.triangles));
+      std::sqrt(static_cast<double>(most_) / static_cast<double>(options_.faces));
   const double wanted = static_cast<double>(most_) +
                         2 * static_cast<double>(shared_.size()) * std::max(0.0, 1 - thinned);
   const auto sum_at = [&](double cost) {
@@ -209,12 +209,12 @@ void TileSimplify::simplify(std::size_t tile, const Context& context) {
                                        options_.stops.max_error, without_progress(context));
   // Keeps the planes of the vertices in strips, by their names in the mesh before.
   TileMesh chosen = before;
-  chosen.mesh.triangles = found.triangles;
+  chosen.mesh.faces = found.faces;
   const std::vector<std::uint8_t> is_near = near_shared(tile, chosen);
   std::vector<std::uint8_t> used(before.mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < is_near.size(); ++t) {
     if (is_near[t] == 0) continue;
-    for (const std::uint32_t v : found.triangles[t]) used[v] = 1;
+    for (const std::uint32_t v : found.faces[t]) used[v] = 1;
   }
   const std::vector<Name> names = surface_.names(tile, before);
   Planes planes;
@@ -222,7 +222,7 @@ void TileSimplify::simplify(std::size_t tile, const Context& context) {
     const std::uint32_t v = found.vertices[i];
     if (used[v] != 0) planes.emplace_back(names[v], found.quadrics[i]);
   }
-  TileMesh after = with_triangles(before, std::move(found.triangles));
+  TileMesh after = with_triangles(before, std::move(found.faces));
   surface_.write_mesh(tile, after);
   write_planes(0, tile, planes, found.error);
 }
@@ -238,14 +238,14 @@ std::vector<std::uint8_t> TileSimplify::near_shared(std::size_t tile, const Tile
     return std::min({ring[t[0]], ring[t[1]], ring[t[2]]});
   };
   for (std::uint8_t r = 0; r + 1U < kRings; ++r) {
-    for (const Triangle& t : mesh.mesh.triangles) {
+    for (const Triangle& t : mesh.mesh.faces) {
       if (least(t) != r) continue;
       for (const std::uint32_t v : t) ring[v] = std::min<std::uint8_t>(ring[v], r + 1);
     }
   }
   std::vector<std::uint8_t> chosen;
-  chosen.reserve(mesh.mesh.triangles.size());
-  for (const Triangle& t : mesh.mesh.triangles) chosen.push_back(least(t) < kRings ? 1 : 0);
+  chosen.reserve(mesh.mesh.faces.size());
+  for (const Triangle& t : mesh.mesh.faces) chosen.push_back(least(t) < kRings ? 1 : 0);
   return chosen;
 }
 
@@ -284,7 +284,7 @@ TileSimplify::Planes TileSimplify::read_planes(std::size_t level, std::size_t fi
 
 std::uint64_t TileSimplify::count_triangles() const {
   std::uint64_t n = 0;
-  for (std::size_t tile = 0; tile < n_tiles_; ++tile) n += surface_.n_triangles(tile);
+  for (std::size_t tile = 0; tile < n_tiles_; ++tile) n += surface_.n_faces(tile);
   return n;
 }
 
@@ -295,9 +295,9 @@ void TileSimplify::join(std::size_t group, const Context& context) {
     return near_shared(tile, mesh);
   });
   const Mesh& mesh = strips.mesh();
-  const std::size_t n = mesh.vertices.size(), n_triangles = mesh.triangles.size();
+  const std::size_t n = mesh.vertices.size(), n_faces = mesh.faces.size();
   SimplifyPart part{.points = mesh.vertices,
-                    .triangles = mesh.triangles,
+                    .faces = mesh.faces,
                     .kinds = std::vector<PartVertex>(n, PartVertex::kFree),
                     .quadrics = std::vector<PlaneQuadric>(n),
                     .unit = options_.step};
@@ -321,7 +321,7 @@ void TileSimplify::join(std::size_t group, const Context& context) {
       is_last ? static_cast<double>(to_go_)
               : static_cast<double>(to_go_) * static_cast<double>(unlocked) /
                     static_cast<double>(std::max<std::size_t>(1, shared_.size())));
-  std::size_t wanted = own < n_triangles ? n_triangles - own : 0;
+  std::size_t wanted = own < n_faces ? n_faces - own : 0;
   if (most_ == 0) wanted = 0;
   const SimplifiedPart found =
       simplify_part(std::move(part), wanted, options_.stops.max_error, without_progress(context));
@@ -341,9 +341,9 @@ void TileSimplify::join(std::size_t group, const Context& context) {
     }
   }
   changed.vertices = found.vertices;
-  for (std::size_t t = 0; t < found.triangles.size(); ++t) {
-    const Triangle& c = found.triangles[t];
-    changed.mesh.triangles.push_back({place[c[0]], place[c[1]], place[c[2]]});
+  for (std::size_t t = 0; t < found.faces.size(); ++t) {
+    const Triangle& c = found.faces[t];
+    changed.mesh.faces.push_back({place[c[0]], place[c[1]], place[c[2]]});
     changed.tiles.push_back(strips.tile_of_triangle(found.origins[t]));
   }
   strips.replace(changed);

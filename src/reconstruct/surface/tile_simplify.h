@@ -24,10 +24,10 @@
 namespace rholm {
 
 struct TileSimplifyOptions {
-  SimplifyOptions stops = {};   // at least one is set
-  std::uint64_t triangles = 0;  // number of triangles of the given surface
-  double step = 1;              // of the grid
-  std::size_t group = 64;       // tiles whose strips are in memory at a time
+  SimplifyOptions stops = {};  // at least one is set
+  std::uint64_t faces = 0;     // number of triangles of the given surface
+  double step = 1;             // of the grid
+  std::size_t group = 64;      // tiles whose strips are in memory at a time
 };
 
 class TileSimplify {

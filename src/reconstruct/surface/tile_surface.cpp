@@ -306,7 +306,7 @@ void TileSurface::write_mesh(std::size_t tile, TileMesh& part) {
       bytes_of(part.foreign),
       bytes_of(part.mesh.vertices),
       bytes_of(normals),
-      bytes_of(part.mesh.triangles),
+      bytes_of(part.mesh.faces),
       bytes_of(part.filled),
       bytes_of(support != part.mesh.attributes.end() ? support->values : none)};
   store_.write(name, sections);
@@ -365,7 +365,7 @@ TileMesh TileSurface::mesh(std::size_t tile) const {
   part.foreign = piece.values<VertexKey>(2);
   part.mesh.vertices = piece.values<Vec3>(3);
   const std::vector<float> normals = piece.values<float>(4);
-  part.mesh.triangles = piece.values<Triangle>(5);
+  part.mesh.faces = piece.values<Triangle>(5);
   part.filled = piece.values<std::uint8_t>(6);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     static constexpr const char* kNames[] = {"nx", "ny", "nz"};
@@ -387,7 +387,7 @@ std::size_t TileSurface::n_own(std::size_t tile) const {
   return store_.open(mesh_name(tile)).values<std::uint64_t>(0).at(0);
 }
 
-std::uint64_t TileSurface::n_triangles(std::size_t tile) const {
+std::uint64_t TileSurface::n_faces(std::size_t tile) const {
   return store_.open(mesh_name(tile)).size(5) / sizeof(Triangle);
 }
 

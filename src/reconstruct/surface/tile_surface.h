@@ -69,7 +69,7 @@ class TileSurface {
   TileMesh extract(std::size_t tile, bool support, const Context& context);
   TileMesh mesh(std::size_t tile) const;
   std::size_t n_own(std::size_t tile) const;
-  std::uint64_t n_triangles(std::size_t tile) const;
+  std::uint64_t n_faces(std::size_t tile) const;
   // Meshes written between these two replace earlier ones, which are read until then:
   // "mesh-ROUND/TILE". Returns the result if a run before has done it all; then write nothing.
   std::optional<std::uint64_t> begin_round(const std::string& round);

@@ -179,7 +179,7 @@ std::string degrees_section(const AtlasData& data) {
   };
   for (const DrawnLevel& level : data.levels) {
     Row row{{std::to_string(level.degree), html::count(level.coefficients),
-             html::count(level.mesh.triangles.size())},
+             html::count(level.mesh.faces.size())},
             &level == &data.levels.back()};
     if (level.comparison) {
       row.cells.push_back(cell(level.comparison->a_to_b.rms));
@@ -255,7 +255,7 @@ std::vector<DrawnLevel> make_levels(const AtlasModel& model, const Mesh* shape,
   const LevelMaker maker(model.atlas, whole, context);
   std::vector<DrawnLevel> levels;
   const auto add = [&](int degree, Mesh mesh) {
-    if (mesh.triangles.empty()) return;  // with a low degree no surface may be left
+    if (mesh.faces.empty()) return;  // with a low degree no surface may be left
     DrawnLevel level{degree, coefficients_up_to(model.atlas, degree), std::move(mesh), {}};
     if (shape != nullptr) {
       level.comparison = compare(*shape, level.mesh, {.samples = kSamples}, context);

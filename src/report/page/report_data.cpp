@@ -67,8 +67,8 @@ DegreeRow row_of(int degree, const Expansion& expansion, const Data& data,
 
 void check(const Mesh* shape, const ReportOptions& options) {
   check_fields(options);
-  if (shape != nullptr && shape->triangles.empty()) {
-    throw Error(ErrorCode::kInvalidInput, "the shape has no triangle: there is nothing to draw");
+  if (shape != nullptr && shape->faces.empty()) {
+    throw Error(ErrorCode::kInvalidInput, "the shape has no face: there is nothing to draw");
   }
 }
 

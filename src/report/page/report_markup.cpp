@@ -208,7 +208,7 @@ std::string size_text(double bytes) {
 
 double bytes_of(const Mesh& mesh) {
   return 24.0 * static_cast<double>(mesh.vertices.size()) +
-         12.0 * static_cast<double>(mesh.triangles.size());
+         12.0 * static_cast<double>(mesh.faces.size());
 }
 
 std::string with_unit(const std::string& heading, const std::string& unit) {

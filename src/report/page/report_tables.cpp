@@ -180,7 +180,7 @@ std::string figure_table(const Expansion& expansion, const Data& data) {
   if (data.shape) {
     const Inspection& shape = data.shape->inspection;
     rows.push_back({{"vertices", html::count(shape.vertices), kDash}});
-    rows.push_back({{"faces", html::count(shape.triangles), kDash}});
+    rows.push_back({{"faces", html::count(shape.faces), kDash}});
   }
   if (data.diagonal > 0) {
     rows.push_back({{with_unit("diagonal <i>d</i> of the bounding box", unit),

@@ -48,14 +48,14 @@ std::string meta_of(const Expansion& expansion, const std::string& title, const 
 
 void add_mesh(const Mesh& mesh, NamedArrays& arrays) {
   arrays.add("positions", floats_of(mesh.vertices), {mesh.vertices.size(), 3});
-  arrays.add("triangles", indices_of(mesh.triangles), {mesh.triangles.size(), 3});
+  arrays.add("triangles", indices_of(mesh.faces), {mesh.faces.size(), 3});
 }
 
 void add_shape(const Mesh& shape, const Context& context, NamedArrays& arrays) {
-  if (shape.triangles.size() <= kMostFacesViewed) return add_mesh(shape, arrays);
-  const Mesh simple = simplify(shape, {.triangles = kMostFacesViewed}, context).mesh;
+  if (shape.faces.size() <= kMostFacesViewed) return add_mesh(shape, arrays);
+  const Mesh simple = simplify(shape, {.faces = kMostFacesViewed}, context).mesh;
   // A mesh that cannot be simplified enough is left out.
-  if (simple.triangles.size() <= 2 * kMostFacesViewed) add_mesh(simple, arrays);
+  if (simple.faces.size() <= 2 * kMostFacesViewed) add_mesh(simple, arrays);
 }
 
 // Compares without regard to case; `small` is in lower case.

@@ -72,8 +72,8 @@ const std::vector<Vec3>& places(const Panel& panel) {
 
 void check_shape(const Panel& panel) {
   if (panel.points == nullptr) {
-    if (panel.mesh == nullptr || panel.mesh->triangles.empty()) {
-      refuse("a panel needs a mesh with at least 1 triangle, or points");
+    if (panel.mesh == nullptr || panel.mesh->faces.empty()) {
+      refuse("a panel needs a mesh with at least 1 face, or points");
     }
     return validate(*panel.mesh);
   }
@@ -175,7 +175,7 @@ std::vector<Vec3> vertex_normals(const Mesh& mesh) {
 Subject make_subject(const Panel& panel, double scale, const Context& context) {
   Subject subject;
   subject.mesh.vertices = places(panel);
-  if (panel.mesh != nullptr) subject.mesh.triangles = panel.mesh->triangles;
+  if (panel.mesh != nullptr) subject.mesh.faces = panel.mesh->faces;
   const Bounds box = bounds(subject.mesh.vertices);
   const UnitFrame frame = {scale * (0.5 * box.min) + scale * (0.5 * box.max), scale};
   for (Vec3& vertex : subject.mesh.vertices) {

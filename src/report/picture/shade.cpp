@@ -81,7 +81,7 @@ Place place_on_ball(const Subject& subject, const Ray& ray, const RayHit& hit) {
 
 // Returns the place where the ray meets a face.
 Place place_on_face(const Subject& subject, const Ray& ray, const RayHit& hit) {
-  const Triangle& t = subject.mesh.triangles[hit.triangle];
+  const Triangle& t = subject.mesh.faces[hit.triangle];
   const double weights[3] = {1.0 - hit.u - hit.v, hit.u, hit.v};
   const auto mix = [&](const std::vector<Vec3>& of) {
     return weights[0] * of[t[0]] + weights[1] * of[t[1]] + weights[2] * of[t[2]];
@@ -126,8 +126,8 @@ void look_ahead(const Subject& subject, std::span<const RayHit> hits, std::size_
   // Chosen: some 400 ns of work, more than memory takes. A miss has the first triangle.
   constexpr std::size_t kCorners = 8, kIndices = 2 * kCorners;
   if (k + kIndices >= hits.size() || subject.ball_radius > 0) return;
-  hwy::Prefetch(&subject.mesh.triangles[hits[k + kIndices].triangle]);
-  for (const std::uint32_t corner : subject.mesh.triangles[hits[k + kCorners].triangle]) {
+  hwy::Prefetch(&subject.mesh.faces[hits[k + kIndices].triangle]);
+  for (const std::uint32_t corner : subject.mesh.faces[hits[k + kCorners].triangle]) {
     hwy::Prefetch(&subject.mesh.vertices[corner]);
     if (!subject.normals.empty()) hwy::Prefetch(&subject.normals[corner]);
   }

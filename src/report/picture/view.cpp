@@ -58,10 +58,10 @@ PlanePoint View::project(const Vec3& p) const {
 }
 
 PlaneBox projected_box(const View& view, const Mesh& mesh) {
-  if (mesh.triangles.empty()) return {};
+  if (mesh.faces.empty()) return {};
   std::vector<bool> is_corner(mesh.vertices.size());
   CancelPoll poll;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     poll();
     for (const std::uint32_t corner : t) is_corner[corner] = true;
   }

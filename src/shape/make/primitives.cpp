@@ -48,44 +48,41 @@ Mesh icosahedron() {
   Mesh mesh;
   mesh.vertices = {{-a, b, 0},  {a, b, 0},  {-a, -b, 0}, {a, -b, 0}, {0, -a, b},  {0, a, b},
                    {0, -a, -b}, {0, a, -b}, {b, 0, -a},  {b, 0, a},  {-b, 0, -a}, {-b, 0, a}};
-  mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
-                    {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                    {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
-                    {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+  mesh.faces = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   return mesh;
 }
 
 // Splits each triangle into four; the midpoint of every edge moves to the unit sphere. New vertices
 // are numbered in the order of the edges.
 Mesh subdivide_on_sphere(const Mesh& mesh) {
-  const HalfEdges edges = sort_half_edges(mesh.vertices.size(), mesh.triangles);
+  const HalfEdges edges = sort_half_edges(mesh.vertices.size(), mesh.faces);
   Mesh fine;
   fine.vertices = mesh.vertices;
   fine.vertices.reserve(mesh.vertices.size() + edges.sorted.size() / 2);
-  std::vector<std::uint32_t> middle(3 *
-                                    mesh.triangles.size());  // per corner: of the edge it begins
+  std::vector<std::uint32_t> middle(3 * mesh.faces.size());  // per corner: of the edge it begins
   edges.for_each_edge([&](std::uint32_t smaller, std::span<const HalfEdge> group) {
     for (const HalfEdge& half_edge : group) {
       middle[half_edge.corner()] = static_cast<std::uint32_t>(fine.vertices.size());
     }
     fine.vertices.push_back(normalized(mesh.vertices[smaller] + mesh.vertices[group[0].larger()]));
   });
-  fine.triangles.reserve(4 * mesh.triangles.size());
+  fine.faces.reserve(4 * mesh.faces.size());
   CancelPoll poll;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
     poll();
-    const auto [a, b, c] = mesh.triangles[t];
+    const auto [a, b, c] = mesh.faces[t];
     const std::uint32_t ab = middle[3 * t], bc = middle[3 * t + 1], ca = middle[3 * t + 2];
-    fine.triangles.insert(fine.triangles.end(),
-                          {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+    fine.faces.insert(fine.faces.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
   }
   return fine;
 }
 
 // Adds the two triangles of the square a b c d, counter-clockwise.
 void add_square(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-  mesh.triangles.push_back({a, b, c});
-  mesh.triangles.push_back({a, c, d});
+  mesh.faces.push_back({a, b, c});
+  mesh.faces.push_back({a, c, d});
 }
 
 // Adds the face of a box on which axis `k` has its largest value (side 1) or smallest
@@ -167,14 +164,14 @@ Mesh latitude_longitude_sphere(int n_theta, int n_phi) {
     return static_cast<std::uint32_t>(1 + i * n_phi + j % n_phi);
   };
   const auto south = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
-  for (int j = 0; j < n_phi; ++j) mesh.triangles.push_back({0, index(0, j), index(0, j + 1)});
+  for (int j = 0; j < n_phi; ++j) mesh.faces.push_back({0, index(0, j), index(0, j + 1)});
   for (int i = 0; i + 1 < n_theta; ++i) {
     for (int j = 0; j < n_phi; ++j) {
       add_square(mesh, index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1));
     }
   }
   for (int j = 0; j < n_phi; ++j) {
-    mesh.triangles.push_back({south, index(n_theta - 1, j + 1), index(n_theta - 1, j)});
+    mesh.faces.push_back({south, index(n_theta - 1, j + 1), index(n_theta - 1, j)});
   }
   return mesh;
 }

@@ -80,7 +80,7 @@ Vec3 on_spiral(std::size_t i, std::size_t n) {
 
 double mean_square_distance(const SampledSurface& surface) {
   double sum = 0;
-  for (std::size_t t = 0; t < surface.mesh().triangles.size(); ++t) {
+  for (std::size_t t = 0; t < surface.mesh().faces.size(); ++t) {
     const auto [a, b, c] = surface.corners(t);
     const Vec3 from = (a + b + c) / 3 - surface.middle();
     sum += norm(surface.twice_area(t)) / 2 * dot(from, from);
@@ -94,7 +94,7 @@ Scans::Scans(const SampledSurface& surface, const SampleOptions& options)
     local_.vertices.push_back(surface.frame().to_local(vertex));
     radius_ = std::max(radius_, norm(local_.vertices.back() - surface.middle()));
   }
-  local_.triangles = surface.mesh().triangles;
+  local_.faces = surface.mesh().faces;
   scene_.emplace(local_);
   // Shifts contribute half of the mean square, 3 s^2, and turns the other half, 2 s^2 |x|^2.
   const double half = 0.5 * std::pow(options.misalignment * surface.diagonal(), 2);
@@ -346,8 +346,8 @@ PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options, const 
   const SampledSurface surface(mesh, options.density_ratio);
   if (!surface.has_area()) {
     throw Error(ErrorCode::kInvalidInput,
-                "a surface of area 0 (" + std::to_string(mesh.triangles.size()) +
-                    " triangles) cannot be sampled; give a mesh with a triangle of positive area");
+                "a surface of area 0 (" + std::to_string(mesh.faces.size()) +
+                    " faces) cannot be sampled; give a mesh with a face of positive area");
   }
   const std::vector<Vec3> holes = hole_centers(surface, options);
   const double hole_radius = options.hole_radius * surface.diagonal();
@@ -376,7 +376,7 @@ PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options, const 
       }
       cloud.points[k] = surface.frame().to_shape(place.point);
       if (options.normals) cloud.normals[k] = place.normal;
-      const Triangle& t = mesh.triangles[place.triangle];
+      const Triangle& t = mesh.faces[place.triangle];
       for (std::size_t a = 0; a < given.size(); ++a) {
         cloud.attributes[a].values[k] = value_at(*given[a], t, place);
       }

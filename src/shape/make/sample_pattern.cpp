@@ -130,7 +130,7 @@ std::vector<SurfacePlace> PlaneCutter::places(const Plane& plane, double step,
                                               RandomStream& random) const {
   std::vector<Segment> segments;
   CancelPoll poll;
-  for (std::size_t t = 0; t < surface_.mesh().triangles.size(); ++t) {
+  for (std::size_t t = 0; t < surface_.mesh().faces.size(); ++t) {
     poll();
     const auto corners = surface_.corners(t);
     std::array<double, 3> height;
@@ -142,8 +142,8 @@ std::vector<SurfacePlace> PlaneCutter::places(const Plane& plane, double step,
     for (int k = 0; k < 3; ++k) {
       const int l = (k + 1) % 3;
       if ((height[k] >= 0) == (height[l] >= 0)) continue;
-      const std::uint64_t a = vertex_[surface_.mesh().triangles[t][k]],
-                          b = vertex_[surface_.mesh().triangles[t][l]];
+      const std::uint64_t a = vertex_[surface_.mesh().faces[t][k]],
+                          b = vertex_[surface_.mesh().faces[t][l]];
       End& end = segment.ends[n++];
       end.edge = std::min(a, b) << 32 | std::max(a, b);
       end.weights[k] = height[l] / (height[l] - height[k]);
@@ -188,7 +188,7 @@ constexpr double kOnAxis = 1e-3;
 template <typename F>
 double integrate(const SampledSurface& surface, const F& f) {
   double sum = 0;
-  for (std::size_t t = 0; t < surface.mesh().triangles.size(); ++t) {
+  for (std::size_t t = 0; t < surface.mesh().faces.size(); ++t) {
     const Vec3 twice = surface.twice_area(t);
     const double area = norm(twice) / 2;
     if (area > 0) sum += area * f(t, twice / (2 * area));
@@ -354,7 +354,7 @@ std::vector<SurfacePlace> grids(const SampledSurface& surface, const SampleOptio
       std::sqrt(seen / (static_cast<double>(options.points) * options.pattern_ratio));
   RandomStream random(options.seed, kOffsetStream);
   const std::array<double, 2> offset{random.uniform(), random.uniform()};
-  const std::size_t n = surface.mesh().triangles.size();
+  const std::size_t n = surface.mesh().faces.size();
   constexpr std::size_t kGrain = 1024;
   std::vector<std::vector<SurfacePlace>> found((n + kGrain - 1) / kGrain);
   parallel_for(n, kGrain, context, {.name = "sample"}, [&](std::size_t begin, std::size_t end) {

@@ -49,9 +49,9 @@ SampledSurface::SampledSurface(const Mesh& mesh, double density_ratio) : mesh_(m
   const Vec3 axis = along_x ? Vec3{1, 0, 0} : size_.y >= size_.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   falloff_ = std::log(density_ratio) / dot(size_, axis) * axis;
   CompensatedSum sum;
-  sums_.reserve(mesh.triangles.size());
+  sums_.reserve(mesh.faces.size());
   CancelPoll poll;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
     poll();
     sum.add(norm(twice_area(t)));
     sums_.push_back(sum.value());
@@ -59,14 +59,13 @@ SampledSurface::SampledSurface(const Mesh& mesh, double density_ratio) : mesh_(m
 }
 
 std::array<Vec3, 3> SampledSurface::corners(std::size_t triangle) const {
-  const Triangle& t = mesh_.triangles[triangle];
+  const Triangle& t = mesh_.faces[triangle];
   return {frame_.to_local(mesh_.vertices[t[0]]), frame_.to_local(mesh_.vertices[t[1]]),
           frame_.to_local(mesh_.vertices[t[2]])};
 }
 
 Vec3 SampledSurface::twice_area(std::size_t triangle) const {
-  const FaceNormal face =
-      face_normal(scaled_corners(mesh_, mesh_.triangles[triangle], frame_.scale));
+  const FaceNormal face = face_normal(scaled_corners(mesh_, mesh_.faces[triangle], frame_.scale));
   return face.degenerate ? Vec3{} : face.twice_area;
 }
 

@@ -71,8 +71,8 @@ void hand_back(const OrientScene& scene, const OrientSigns& signs, const OrientO
     report.computed += !had || !options.keep_directions;
     report.flipped += had && dot(old[i], normal) < 0;
     report.undetermined += normal == Vec3{};
-    report.outliers += scene.stray[i];
-    confidence[i] = scene.stray[i] != 0 ? 0.0 : confidence_of(signs.agreement[place]);
+    report.outliers += scene.isolated[i];
+    confidence[i] = scene.isolated[i] != 0 ? 0.0 : confidence_of(signs.agreement[place]);
     report.mean_confidence += confidence[i] / static_cast<double>(n);
     unsure += confidence[i] < 0.5;
   }

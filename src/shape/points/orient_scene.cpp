@@ -8,7 +8,7 @@
 #include "base/refuse.h"
 #include "rholm/error.h"
 #include "shape/on_line.h"
-#include "shape/points/strays.h"
+#include "shape/points/isolated_points.h"
 #include "shape/topology/identical.h"
 
 namespace rholm {
@@ -37,10 +37,10 @@ void put_in_order(const PointCloud& cloud, const std::vector<std::uint32_t>& kep
 }
 
 // Returns the bounding box of the points that are not isolated.
-Bounds bounds_of_kept(const PointCloud& cloud, const std::vector<std::uint8_t>& stray) {
+Bounds bounds_of_kept(const PointCloud& cloud, const std::vector<std::uint8_t>& isolated) {
   std::vector<Vec3> kept;
-  for (std::size_t i = 0; i < stray.size(); ++i) {
-    if (stray[i] == 0) kept.push_back(cloud.points[i]);
+  for (std::size_t i = 0; i < isolated.size(); ++i) {
+    if (isolated[i] == 0) kept.push_back(cloud.points[i]);
   }
   return bounds(kept);
 }
@@ -54,7 +54,7 @@ void find_taken(const PointCloud& cloud, const std::vector<std::uint32_t>& first
     scene.duplicates += first[i] != i;
     if (first[i] != i) {
       scene.taken[i] = scene.taken[first[i]];
-    } else if (scene.stray[i] != 0) {
+    } else if (scene.isolated[i] != 0) {
       scene.tree->nearest(scene.frame.to_local(cloud.points[i]), 1, near);
       scene.taken[i] = near[0].index;
     }
@@ -68,17 +68,17 @@ void refuse_line(std::size_t n_points) {
          " points lie on one line, where there are no normals; give points of a surface");
 }
 
-OrientScene make_orient_scene(const PointCloud& cloud, bool leave_out_strays,
+OrientScene make_orient_scene(const PointCloud& cloud, bool leave_out_isolated,
                               const Context& context) {
   const std::vector<std::uint32_t> first = first_identical(cloud.points);
   OrientScene scene;
-  scene.stray.assign(first.size(), 0);
-  if (leave_out_strays) scene.stray = find_far_strays(cloud.points);
-  scene.frame = unit_frame(bounds_of_kept(cloud, scene.stray));
+  scene.isolated.assign(first.size(), 0);
+  if (leave_out_isolated) scene.isolated = find_far_isolated_points(cloud.points);
+  scene.frame = unit_frame(bounds_of_kept(cloud, scene.isolated));
   const auto kept = [&] {
     std::vector<std::uint32_t> result;
     for (std::uint32_t i = 0; i < first.size(); ++i) {
-      if (first[i] == i && scene.stray[i] == 0) result.push_back(i);
+      if (first[i] == i && scene.isolated[i] == 0) result.push_back(i);
     }
     return result;
   };
@@ -90,15 +90,15 @@ OrientScene make_orient_scene(const PointCloud& cloud, bool leave_out_strays,
                     " different places have no plane; at least 3 places are needed");
   }
   put_in_order(cloud, distinct, scene, context);
-  for (int pass = 0; leave_out_strays && pass < kStrayPasses; ++pass) {
-    const auto flags = find_strays(*scene.tree, scene.points, scene.gaps, context);
+  for (int pass = 0; leave_out_isolated && pass < kIsolatedPasses; ++pass) {
+    const auto flags = find_isolated_points(*scene.tree, scene.points, scene.gaps, context);
     const auto n = static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1));
     if (n == 0 || flags.size() - n < kFewest) break;
-    for (std::size_t i = 0; i < flags.size(); ++i) scene.stray[scene.place[i]] |= flags[i];
+    for (std::size_t i = 0; i < flags.size(); ++i) scene.isolated[scene.place[i]] |= flags[i];
     put_in_order(cloud, kept(), scene, context);
   }
   // Every point at the place of an isolated point is isolated too.
-  for (std::uint32_t i = 0; i < first.size(); ++i) scene.stray[i] = scene.stray[first[i]];
+  for (std::uint32_t i = 0; i < first.size(); ++i) scene.isolated[i] = scene.isolated[first[i]];
   find_taken(cloud, first, scene);
   return scene;
 }

@@ -23,12 +23,12 @@ struct OrientScene {
   // Scene point whose normal each input point takes: its own, the one of the first point at its
   // place, or for an isolated point the nearest one.
   std::vector<std::uint32_t> taken = {};
-  std::vector<std::uint8_t> stray = {};  // isolated points; per input point
-  std::size_t duplicates = 0;            // number of input points at the place of an earlier one
+  std::vector<std::uint8_t> isolated = {};  // isolated points; per input point
+  std::size_t duplicates = 0;               // number of input points at the place of an earlier one
 };
 
 // Builds the scene, optionally without isolated points. Throws InvalidInput for points on a line.
-OrientScene make_orient_scene(const PointCloud& cloud, bool leave_out_strays,
+OrientScene make_orient_scene(const PointCloud& cloud, bool leave_out_isolated,
                               const Context& context);
 
 [[noreturn]] void refuse_line(std::size_t n_points);

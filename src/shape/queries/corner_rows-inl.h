@@ -44,7 +44,7 @@ HWY_INLINE Vector3 Cross(const Vector3& a, const Vector3& b) {
 }
 
 // Returns the row of a vertex. The index of corner k is at `indices + triangle *
-// mesh.triangle_stride`, where indices = mesh.triangles + 4 k.
+// mesh.face_stride`, where indices = mesh.faces + 4 k.
 HWY_INLINE const std::byte* Row(const MeshView& mesh, const std::byte* index) {
   std::uint32_t i;
   std::memcpy(&i, index, sizeof i);
@@ -59,9 +59,9 @@ HWY_INLINE std::uint32_t LookAhead(const MeshView& mesh, std::size_t begin, std:
   if (begin == end) return 0;
   using Four [[gnu::vector_size(16)]] = std::uint32_t;
   Four largest = {}, corners = {};
-  const std::size_t stride = mesh.triangle_stride, vertex_stride = mesh.vertex_stride;
+  const std::size_t stride = mesh.face_stride, vertex_stride = mesh.vertex_stride;
   const std::byte* const vertices = mesh.vertices;
-  const std::byte* at = mesh.triangles + begin * stride;
+  const std::byte* at = mesh.faces + begin * stride;
   // Loads 16 bytes per triangle, except for the last one, behind which the memory may end.
   for (const std::byte* const last = at + (end - 1 - begin) * stride; at != last; at += stride) {
     std::memcpy(&corners, at, 16);
@@ -80,7 +80,7 @@ HWY_INLINE Vector3 LoadFew(D d, const MeshView& mesh, const std::byte* indices, 
   alignas(64) double rows[3][hn::MaxLanes(d)];
   for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
     T row[3];
-    std::memcpy(row, Row(mesh, indices + std::min(i, n - 1) * mesh.triangle_stride), sizeof row);
+    std::memcpy(row, Row(mesh, indices + std::min(i, n - 1) * mesh.face_stride), sizeof row);
     for (std::size_t k = 0; k < 3; ++k) rows[k][i] = row[k];
   }
   return {hn::Load(d, rows[0]), hn::Load(d, rows[1]), hn::Load(d, rows[2])};
@@ -96,7 +96,7 @@ HWY_INLINE FloatRows LoadFewRows(const MeshView& mesh, const std::byte* indices,
   alignas(64) float rows[3][hn::MaxLanes(DF())];
   for (std::size_t i = 0; i < hn::MaxLanes(DF()); ++i) {
     float row[3];
-    std::memcpy(row, Row(mesh, indices + std::min(i, n - 1) * mesh.triangle_stride), sizeof row);
+    std::memcpy(row, Row(mesh, indices + std::min(i, n - 1) * mesh.face_stride), sizeof row);
     for (std::size_t k = 0; k < 3; ++k) rows[k][i] = row[k];
   }
   return {hn::Load(df, rows[0]), hn::Load(df, rows[1]), hn::Load(df, rows[2])};
@@ -126,8 +126,7 @@ constexpr bool kWholeVectors = true;
 HWY_INLINE auto LoadRows(const MeshView& mesh, const std::byte* indices, std::size_t i, float) {
   const hn::FixedTag<float, 4> d4;
   const auto load = [&](std::size_t j) HWY_ATTR {
-    return hn::LoadU(d4,
-                     reinterpret_cast<const float*>(Row(mesh, indices + j * mesh.triangle_stride)));
+    return hn::LoadU(d4, reinterpret_cast<const float*>(Row(mesh, indices + j * mesh.face_stride)));
   };
 #if HWY_MAX_BYTES >= 64
   return hn::Combine(hn::FixedTag<float, 8>(), load(i + 4), load(i));
@@ -153,8 +152,7 @@ HWY_INLINE auto LoadManyRows(const MeshView& mesh, const std::byte* indices, std
   const hn::FixedTag<float, 4> d4;
   const hn::FixedTag<float, 8> d8;
   const auto load = [&](std::size_t j) HWY_ATTR {
-    return hn::LoadU(d4,
-                     reinterpret_cast<const float*>(Row(mesh, indices + j * mesh.triangle_stride)));
+    return hn::LoadU(d4, reinterpret_cast<const float*>(Row(mesh, indices + j * mesh.face_stride)));
   };
 #if HWY_MAX_BYTES >= 64
   return hn::Combine(DF(), hn::Combine(d8, load(i + 12), load(i + 8)),
@@ -180,7 +178,7 @@ HWY_INLINE void LoadFour(const MeshView& mesh, const std::byte* indices,
   const hn::FixedTag<double, 2> d2;
   const hn::FixedTag<double, 4> d4;
   const auto row = [&](std::size_t j) HWY_ATTR {  // x y y z
-    const auto* at = reinterpret_cast<const double*>(Row(mesh, indices + j * mesh.triangle_stride));
+    const auto* at = reinterpret_cast<const double*>(Row(mesh, indices + j * mesh.face_stride));
     return hn::Combine(d4, hn::LoadU(d2, at + 1), hn::LoadU(d2, at));
   };
   const auto row0 = row(0), row1 = row(1), row2 = row(2), row3 = row(3);
@@ -198,7 +196,7 @@ HWY_INLINE Vector3 LoadWhole(D d, const MeshView& mesh, const std::byte* indices
   LoadFour(mesh, indices, first);
 #if HWY_MAX_BYTES >= 64
   hn::Vec<hn::FixedTag<double, 4>> second[3];
-  LoadFour(mesh, indices + 4 * mesh.triangle_stride, second);
+  LoadFour(mesh, indices + 4 * mesh.face_stride, second);
   return {hn::Combine(d, second[0], first[0]), hn::Combine(d, second[1], first[1]),
           hn::Combine(d, second[2], first[2])};
 #else

@@ -167,8 +167,8 @@ Mesh faces_near(const MeshView& mesh, const Vec3& origin, double scale, const Ba
       placed[i] = grid.place(scale * (mesh.vertex(i) - origin));
     }
   });
-  std::vector<std::vector<Vec3>> parts((mesh.n_triangles + kGrain - 1) / kGrain);
-  parallel_for(mesh.n_triangles, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::vector<Vec3>> parts((mesh.n_faces + kGrain - 1) / kGrain);
+  parallel_for(mesh.n_faces, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     std::vector<Vec3>& corners = parts[begin / kGrain];
     for (std::size_t t = begin; t < end; ++t) {
       const Triangle v = mesh.triangle(t);
@@ -179,9 +179,9 @@ Mesh faces_near(const MeshView& mesh, const Vec3& origin, double scale, const Ba
   for (const std::vector<Vec3>& corners : parts) {
     found.vertices.insert(found.vertices.end(), corners.begin(), corners.end());
   }
-  found.triangles.reserve(found.vertices.size() / 3);
+  found.faces.reserve(found.vertices.size() / 3);
   for (std::uint32_t i = 0; i < found.vertices.size(); i += 3) {
-    found.triangles.push_back({i, i + 1, i + 2});
+    found.faces.push_back({i, i + 1, i + 2});
   }
   return found;
 }

@@ -95,7 +95,7 @@ Geometry RayScene::Impl::make_triangles() const {
                               3 * sizeof(float), mesh.vertices.size()));
   auto* indices = static_cast<std::uint32_t*>(
       rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(std::uint32_t), mesh.triangles.size()));
+                              3 * sizeof(std::uint32_t), mesh.faces.size()));
   if (positions == nullptr || indices == nullptr) throw std::bad_alloc();
   CancelPoll poll;
   for (const Vec3& vertex : mesh.vertices) {
@@ -103,7 +103,7 @@ Geometry RayScene::Impl::make_triangles() const {
     const Vec3 q = frame.to_local(vertex);
     for (const double x : {q.x, q.y, q.z}) *positions++ = static_cast<float>(x);
   }
-  for (const Triangle& triangle : mesh.triangles) {
+  for (const Triangle& triangle : mesh.faces) {
     poll();
     indices = std::copy(triangle.begin(), triangle.end(), indices);
   }
@@ -130,7 +130,7 @@ Geometry RayScene::Impl::make_balls() const {
 void RayScene::Impl::build(int threads) {
   scene.reset(rtcNewScene(device.get()));
   const bool balls = ball_radius > 0;
-  if (balls ? !mesh.vertices.empty() : !mesh.triangles.empty()) {
+  if (balls ? !mesh.vertices.empty() : !mesh.faces.empty()) {
     const Geometry geometry = balls ? make_balls() : make_triangles();
     rtcSetGeometryBuildQuality(geometry.get(), quality);
     rtcCommitGeometry(geometry.get());
@@ -239,13 +239,13 @@ void for_packets(std::span<const Ray> rays, const UnitFrame& frame, const Trace&
 
 struct AllHitsContext {
   RTCIntersectContext base;
-  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> faces;
 };
 
 // Stores the triangle and rejects the hit, so that the ray continues.
 void note_triangle(const RTCFilterFunctionNArguments* args) {
   auto& all = *reinterpret_cast<AllHitsContext*>(args->context);
-  all.triangles.push_back(reinterpret_cast<const RTCHit*>(args->hit)->primID);
+  all.faces.push_back(reinterpret_cast<const RTCHit*>(args->hit)->primID);
   args->valid[0] = 0;
 }
 
@@ -310,7 +310,7 @@ std::vector<std::uint32_t> RayScene::triangles_met(const Vec3& origin,
   rtcInitIntersectContext(&context.base);
   context.base.filter = note_triangle;
   rtcIntersect1(impl_->scene.get(), &context.base, &query);
-  return std::move(context.triangles);
+  return std::move(context.faces);
 }
 
 }  // namespace rholm

@@ -25,7 +25,7 @@ std::vector<RayCrossing> RayScene::crossings(const Vec3& origin, const Vec3& dir
   const Vec3 q = frame_.to_local(origin);
   std::vector<RayCrossing> crossings;
   for (const std::uint32_t triangle : triangles_met(origin, direction)) {
-    const auto& [a, b, c] = mesh_.triangles[triangle];
+    const auto& [a, b, c] = mesh_.faces[triangle];
     const std::vector<Vec3>& vertices = mesh_.vertices;
     const double t = plane_distance(
         {frame_.to_local(vertices[a]), frame_.to_local(vertices[b]), frame_.to_local(vertices[c])},

@@ -183,8 +183,8 @@ void walk(const TriangleTreeNodes& tree, const BoxRay& ray, Span& span, const Vi
 Mesh points_of(const Mesh& mesh) {
   Mesh points;
   points.vertices = mesh.vertices;
-  points.triangles.reserve(mesh.vertices.size());
-  for (std::uint32_t k = 0; k < mesh.vertices.size(); ++k) points.triangles.push_back({k, k, k});
+  points.faces.reserve(mesh.vertices.size());
+  for (std::uint32_t k = 0; k < mesh.vertices.size(); ++k) points.faces.push_back({k, k, k});
   return points;
 }
 
@@ -201,7 +201,7 @@ struct RayScene::Impl {
       : mesh(m), frame(f), radius(ball_radius * f.scale) {
     if (ball_radius > 0) centers = points_of(m);
     const Mesh& held = ball_radius > 0 ? centers : mesh;
-    if (!held.triangles.empty())
+    if (!held.faces.empty())
       tree.emplace(held, frame, PortionNumbers{}, Context{.threads = threads});
   }
 
@@ -214,11 +214,11 @@ struct RayScene::Impl {
     const auto try_one = [&](std::uint32_t k) {
       const std::optional<Hit> hit =
           radius > 0 ? meet_ball(q, direction, frame.to_local(mesh.vertices[k]), radius, span)
-                     : ray.meet(corners(mesh.triangles[k]), span);
+                     : ray.meet(corners(mesh.faces[k]), span);
       if (hit) take(k, *hit);
     };
     if (!(std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}) < kFarthest)) {
-      const std::size_t n = radius > 0 ? mesh.vertices.size() : mesh.triangles.size();
+      const std::size_t n = radius > 0 ? mesh.vertices.size() : mesh.faces.size();
       for (std::uint32_t k = 0; k < n; ++k) try_one(k);
       return;
     }

@@ -22,13 +22,13 @@ constexpr std::uint64_t kVotes = 3;
 
 // Returns the unit normal, or zero for a triangle without area.
 Vec3 normal_of(const Mesh& mesh, std::uint32_t triangle) {
-  return normalized(face_normal(scaled_corners(mesh, mesh.triangles[triangle], 1)).twice_area);
+  return normalized(face_normal(scaled_corners(mesh, mesh.faces[triangle], 1)).twice_area);
 }
 
 template <class Visit>
 void for_each_point(const PointsOnMesh& on, const Context& context, const Visit& visit) {
   parallel_for(on.points.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) visit(i, normal_of(on.mesh, on.triangles[i]));
+    for (std::size_t i = begin; i < end; ++i) visit(i, normal_of(on.mesh, on.faces[i]));
   });
 }
 
@@ -43,7 +43,7 @@ std::vector<double> sheet_gaps(const PointsOnMesh& on, const RayScene& scene,
     for (const double side : {-1.0, 1.0}) {
       const Vec3 ahead = side * normal;
       for (const RayCrossing& met : scene.crossings(on.points[i] - back * ahead, ahead)) {
-        if (met.triangle == on.triangles[i]) continue;
+        if (met.triangle == on.faces[i]) continue;
         if (!(dot(normal_of(on.mesh, met.triangle), normal) < 0)) continue;
         gaps[i] = std::min(gaps[i], std::abs(met.distance - back));
         break;
@@ -67,7 +67,7 @@ std::vector<int> outer_winding(const PointsOnMesh& on, const RayScene& scene,
       // The direction is within 60 degrees of the normal, and in no plane that meshes often have.
       const Vec3 ahead = normalized(normal + 0.5 * Vec3{draw(0), draw(1), draw(2)});
       for (const RayCrossing& met : scene.crossings(on.points[i] + back * normal, ahead)) {
-        if (met.triangle == on.triangles[i]) continue;
+        if (met.triangle == on.faces[i]) continue;
         const double out = dot(normal_of(on.mesh, met.triangle), ahead);
         votes[k] += out > 0 ? 1 : out < 0 ? -1 : 0;
       }

@@ -15,7 +15,7 @@ namespace rholm {
 struct PointsOnMesh {
   const Mesh& mesh;
   std::span<const Vec3> points;
-  std::span<const std::uint32_t> triangles;
+  std::span<const std::uint32_t> faces;
 };
 
 // Returns the distance from each point, along its triangle's normal to either side, to the nearest

@@ -27,7 +27,7 @@ class Keys {
  public:
   Keys(const MeshView& mesh, TriangleKey key, const Context& context)
       : mesh_(mesh), by_vertex_(key == TriangleKey::kVertex) {
-    const int bits = static_cast<int>(std::bit_width(std::max<std::size_t>(mesh.n_triangles, 2)));
+    const int bits = static_cast<int>(std::bit_width(std::max<std::size_t>(mesh.n_faces, 2)));
     bits_ = std::min(by_vertex_ ? bits : bits + kEmptyBits, kMostBits);
     if (!by_vertex_) place_vertices(context);
   }
@@ -85,16 +85,16 @@ class Sorter {
         keys_(mesh, key, context),
         low_bits_((keys_.bits() + 1) / 2),
         buckets_(std::size_t{1} << (keys_.bits() - low_bits_)),
-        part_(std::max(kPart, (mesh.n_triangles + kMostParts - 1) / kMostParts)),
-        parts_((mesh.n_triangles + part_ - 1) / part_),
-        digits_(mesh.n_triangles),
+        part_(std::max(kPart, (mesh.n_faces + kMostParts - 1) / kMostParts)),
+        parts_((mesh.n_faces + part_ - 1) / part_),
+        digits_(mesh.n_faces),
         next_(parts_ * buckets_),
         begin_(buckets_ + 1),
         corners_(result.corners.data()) {}
 
   // Stores the digits of each triangle, and counts each digit in each part.
   void count(const TriangleVisit& before, const TriangleVisit& after, const Context& context) {
-    parallel_for(mesh_.n_triangles, part_, context, {}, [&](std::size_t begin, std::size_t end) {
+    parallel_for(mesh_.n_faces, part_, context, {}, [&](std::size_t begin, std::size_t end) {
       std::size_t* const counts = next_.data() + begin / part_ * buckets_;
       for (std::size_t first = begin; first < end; first += kVisit) {
         const std::size_t n = std::min(kVisit, end - first);
@@ -119,7 +119,7 @@ class Sorter {
   }
 
   void fill_buckets(const TriangleVisit& after, const Context& context) {
-    parallel_for(mesh_.n_triangles, part_, context, {}, [&](std::size_t begin, std::size_t end) {
+    parallel_for(mesh_.n_faces, part_, context, {}, [&](std::size_t begin, std::size_t end) {
       std::size_t* const next = next_.data() + begin / part_ * buckets_;
       for (std::size_t first = begin; first < end; first += kVisit) {
         const std::size_t n = std::min(kVisit, end - first);
@@ -179,14 +179,14 @@ class Sorter {
 OrderedTriangles order_triangles(const MeshView& mesh, TriangleKey key, const TriangleVisit& before,
                                  const TriangleVisit& after, const Context& context) {
   OrderedTriangles result;
-  result.corners = AlignedArray<std::uint32_t>(3 * mesh.n_triangles);
+  result.corners = AlignedArray<std::uint32_t>(3 * mesh.n_faces);
   Sorter sorter(mesh, key, context, result);
   sorter.count(before, after, context);
   sorter.fill_buckets(after, context);
   sorter.sort_buckets(context);
   result.view = mesh;
-  result.view.triangles = reinterpret_cast<const std::byte*>(result.corners.data());
-  result.view.triangle_stride = sizeof(Triangle);
+  result.view.faces = reinterpret_cast<const std::byte*>(result.corners.data());
+  result.view.face_stride = sizeof(Triangle);
   return result;
 }
 

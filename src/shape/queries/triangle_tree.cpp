@@ -142,18 +142,18 @@ TriangleTree::TriangleTree(const Mesh& mesh, const Context& context)
 TriangleTree::TriangleTree(const Mesh& portion, const UnitFrame& whole,
                            const PortionNumbers& numbers, const Context& context)
     : mesh_(portion), frame_(whole), numbers_(numbers) {
-  if (portion.triangles.empty()) return;
+  if (portion.faces.empty()) return;
   sort_triangles(context);
   build(context);
 }
 
 // Sorts triangles so that each node has triangles that are near each other.
 void TriangleTree::sort_triangles(const Context& context) {
-  AlignedArray<Middle> middles(mesh_.triangles.size());
+  AlignedArray<Middle> middles(mesh_.faces.size());
   parallel_for(middles.size(), kManyTriangles, context, {},
                [&](std::size_t begin, std::size_t end) {
                  for (std::size_t t = begin; t < end; ++t) {
-                   const auto [a, b, c] = scaled_corners(mesh_, mesh_.triangles[t], frame_.scale);
+                   const auto [a, b, c] = scaled_corners(mesh_, mesh_.faces[t], frame_.scale);
                    const Vec3 x = (a + b + c) / 3.0 - frame_.center;
                    middles[t] = {{fixed_point(x.x), fixed_point(x.y), fixed_point(x.z)},
                                  static_cast<std::uint32_t>(t)};
@@ -199,7 +199,7 @@ FloatBox TriangleTree::make_leaf(std::size_t leaf, PlaneGroup& planes) const {
   FloatBox box;
   alignas(32) std::array<TreeRows3, 3> corners;
   for (std::size_t k = 0; k < kTreeWidth; ++k) {
-    const Triangle& t = mesh_.triangles[order_[kTreeWidth * leaf + k]];
+    const Triangle& t = mesh_.faces[order_[kTreeWidth * leaf + k]];
     for (int corner = 0; corner < 3; ++corner) {
       const Vec3 q = frame_.to_local(mesh_.vertices[t[corner]]);
       const std::array<double, 3> row = {q.x, q.y, q.z};
@@ -274,7 +274,7 @@ double box_distance2(const Vec3& p, const std::array<Vec3, 3>& c) {
 void take_if_nearer(std::uint32_t triangle, ClosestSearch& search) {
   // Corners are in the order of indices, so that an edge gives the same bits for both of its
   // triangles, and ties are exact.
-  const auto [a, b, c] = search.mesh.triangles[triangle];
+  const auto [a, b, c] = search.mesh.faces[triangle];
   const std::uint32_t first = std::min({a, b, c}), last = std::max({a, b, c});
   const auto corner = [&](std::uint32_t vertex) {
     return search.frame.to_local(search.mesh.vertices[vertex]);
@@ -308,7 +308,7 @@ float try_triangle(void* data, std::size_t leaf, std::size_t k) {
 double search_all(ClosestSearch& search, const TriangleTreeNodes& nodes, const Vec3& point) {
   const Vec3 q = search.frame.to_local(point);
   if (!(largest_component(q) < kFarthest)) {
-    const auto n = static_cast<std::uint32_t>(search.mesh.triangles.size());
+    const auto n = static_cast<std::uint32_t>(search.mesh.faces.size());
     for (std::uint32_t t = 0; t < n; ++t) take_if_nearer(t, search);
     const Vec3 offset = point - search.frame.to_shape(search.best);
     return std::hypot(offset.x, offset.y, offset.z);
@@ -326,7 +326,7 @@ bool may_be_closer(const Bounds& box, const UnitFrame& whole, const Vec3& point,
 }
 
 bool TriangleTree::improve(const Vec3& point, double at_most, ClosestSoFar& so_far) const {
-  if (mesh_.triangles.empty()) return false;
+  if (mesh_.faces.empty()) return false;
   ClosestSearch search(mesh_, frame_, order_, numbers_, point, at_most, so_far);
   const double distance = search_all(search, nodes_, point);
   if (search.found) so_far = {search.best2, search.number, distance};
@@ -334,11 +334,11 @@ bool TriangleTree::improve(const Vec3& point, double at_most, ClosestSoFar& so_f
 }
 
 ClosestPoint TriangleTree::closest_within(const Vec3& point, double at_most) const {
-  if (mesh_.triangles.empty() || !is_finite(point)) {
+  if (mesh_.faces.empty() || !is_finite(point)) {
     throw Error(ErrorCode::kInvalidInput,
-                "a closest point needs a mesh with at least 1 triangle and finite coordinates; "
+                "a closest point needs a mesh with at least 1 face and finite coordinates; "
                 "this mesh has " +
-                    std::to_string(mesh_.triangles.size()) + " triangles");
+                    std::to_string(mesh_.faces.size()) + " faces");
   }
   ClosestSearch search(mesh_, frame_, order_, numbers_, point, at_most, {});
   const double distance = search_all(search, nodes_, point);

@@ -36,15 +36,15 @@ HWY_INLINE void ForVectors(const MeshView& mesh, std::size_t begin, std::size_t 
     const std::uint32_t largest = next_largest;
     if (largest >= mesh.n_vertices) validate(mesh);  // throws with the index
     next_largest = LookAhead(mesh, block_end, std::min(end, block_end + kBlock));
-    const std::byte* at = mesh.triangles + t * mesh.triangle_stride;
+    const std::byte* at = mesh.faces + t * mesh.face_stride;
     // Rows of floats are read with 4 bytes more, so the last row is excluded.
     if (kWholeVectors && (sizeof(T) == 8 || largest + 1 < mesh.n_vertices)) {
-      for (; t + lanes <= block_end; t += lanes, at += lanes * mesh.triangle_stride) {
+      for (; t + lanes <= block_end; t += lanes, at += lanes * mesh.face_stride) {
         look(LoadWhole(d, mesh, at, T()), LoadWhole(d, mesh, at + 4, T()),
              LoadWhole(d, mesh, at + 8, T()), t, lanes);
       }
     }
-    for (; t < block_end; t += lanes, at += lanes * mesh.triangle_stride) {
+    for (; t < block_end; t += lanes, at += lanes * mesh.face_stride) {
       const std::size_t n = std::min(lanes, block_end - t);
       look(LoadFew<T>(d, mesh, at, n), LoadFew<T>(d, mesh, at + 4, n),
            LoadFew<T>(d, mesh, at + 8, n), t, n);

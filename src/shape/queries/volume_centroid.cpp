@@ -67,8 +67,8 @@ HWY_EXPORT(SumSolid);
 
 Vec3 volume_centroid(const MeshView& mesh, const UnitFrame& frame, const Context& context) {
   constexpr std::size_t kGrain = 8192;  // chosen: some 50 us
-  std::vector<std::array<double, 5>> parts((mesh.n_triangles + kGrain - 1) / kGrain);
-  parallel_for(mesh.n_triangles, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::array<double, 5>> parts((mesh.n_faces + kGrain - 1) / kGrain);
+  parallel_for(mesh.n_faces, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     HWY_DYNAMIC_DISPATCH(SumSolid)(mesh, frame, begin, end, parts[begin / kGrain]);
   });
   double volumes = 0, moduli = 0;

@@ -67,15 +67,15 @@ class Triangulator {
     if (!(part(0, n_ - 1).weight.bend < std::numeric_limits<double>::infinity())) {
       return std::nullopt;
     }
-    HoleTriangles hole{.triangles = {}, .area = part(0, n_ - 1).weight.area};
+    HoleTriangles hole{.faces = {}, .area = part(0, n_ - 1).weight.area};
     std::vector<std::array<std::size_t, 2>> open = {{0, n_ - 1}};
     while (!open.empty()) {
       const auto [i, j] = open.back();
       open.pop_back();
       if (j == i + 1) continue;
       const std::size_t m = part(i, j).apex;
-      hole.triangles.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(m),
-                                static_cast<std::uint32_t>(j)});
+      hole.faces.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(m),
+                            static_cast<std::uint32_t>(j)});
       open.push_back({i, m});
       open.push_back({m, j});
     }
@@ -129,7 +129,7 @@ namespace {
 constexpr double kLargestCover = 0.75;
 
 Vec3 unit_normal_of(const Mesh& mesh, std::uint32_t t) {
-  const Triangle& c = mesh.triangles[t];
+  const Triangle& c = mesh.faces[t];
   const Vec3& a = mesh.vertices[c[0]];
   return normalized(cross(mesh.vertices[c[1]] - a, mesh.vertices[c[2]] - a));
 }
@@ -149,7 +149,7 @@ std::vector<Border> find_borders(const Mesh& mesh, const Parts& parts,
     return mates[h] == kNoMate && !one_sided[parts.part[h / 3]];
   };
   for (std::uint32_t h = 0; h < mates.size(); ++h) {
-    if (is_border(h)) from[start_of(mesh.triangles, h)] = h;
+    if (is_border(h)) from[start_of(mesh.faces, h)] = h;
   }
   std::vector<Border> borders;
   std::vector<char> seen(mates.size(), 0);
@@ -160,7 +160,7 @@ std::vector<Border> find_borders(const Mesh& mesh, const Parts& parts,
     while (at != kNoMate && !seen[at]) {
       seen[at] = 1;
       border.push_back(at);
-      at = from[end_of(mesh.triangles, at)];
+      at = from[end_of(mesh.faces, at)];
     }
     if (at == h) borders.push_back(std::move(border));
   }
@@ -178,7 +178,7 @@ Rim rim_of(const Mesh& mesh, const Border& border) {
   Rim rim;
   const std::size_t n = border.size();
   for (std::size_t i = 0; i < n; ++i) {
-    rim.vertices.push_back(start_of(mesh.triangles, border[n - 1 - i]));
+    rim.vertices.push_back(start_of(mesh.faces, border[n - 1 - i]));
     rim.at.push_back(mesh.vertices[rim.vertices.back()]);
     rim.beyond.push_back(unit_normal_of(mesh, border[(2 * n - 2 - i) % n] / 3));
   }
@@ -196,7 +196,7 @@ std::vector<Pair> edges_within(const Mesh& mesh, const VertexStars& stars, const
   std::vector<Pair> edges;
   for (std::uint32_t i = 0; i < rim.vertices.size(); ++i) {
     for (const std::uint32_t t : stars.of(rim.vertices[i])) {
-      for (const std::uint32_t v : mesh.triangles[t]) {
+      for (const std::uint32_t v : mesh.faces[t]) {
         const auto found = std::lower_bound(place.begin(), place.end(), Pair{v, 0});
         if (found != place.end() && found->first == v && i < found->second) {
           edges.emplace_back(i, found->second);
@@ -217,8 +217,8 @@ HoleTriangles fan(const Rim& rim, Mesh& mesh) {
   std::vector<Vec3> at = rim.at;
   at.push_back(middle);
   for (std::uint32_t i = 0; i < n; ++i) {
-    hole.triangles.push_back({i, (i + 1) % n, n});
-    hole.area += area_of(at, hole.triangles.back());
+    hole.faces.push_back({i, (i + 1) % n, n});
+    hole.area += area_of(at, hole.faces.back());
   }
   mesh.vertices.push_back(middle);
   for (Attribute& attribute : mesh.attributes) {
@@ -242,10 +242,10 @@ class Closer {
   Closer(const Parts& parts, Mesh& mesh, RepairReport& report)
       : mesh_(mesh),
         report_(report),
-        stars_(make_vertex_stars(mesh.vertices.size(), mesh.triangles)),
+        stars_(make_vertex_stars(mesh.vertices.size(), mesh.faces)),
         areas_(parts.n, 0.0) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      areas_[parts.part[t]] += area_of(mesh.vertices, mesh.triangles[t]);
+    for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
+      areas_[parts.part[t]] += area_of(mesh.vertices, mesh.faces[t]);
     }
   }
 
@@ -265,15 +265,15 @@ class Closer {
       return;
     }
     if (around) rim.vertices.push_back(static_cast<std::uint32_t>(mesh_.vertices.size() - 1));
-    for (const Triangle& t : hole->triangles) {
+    for (const Triangle& t : hole->faces) {
       const Triangle corners = {rim.vertices[t[0]], rim.vertices[t[1]], rim.vertices[t[2]]};
       for (int k = 0; k < 3; ++k) {
         new_edges_.insert(std::minmax(corners[k], corners[(k + 1) % 3]));
       }
-      mesh_.triangles.push_back(corners);
+      mesh_.faces.push_back(corners);
     }
     ++report_.closed_holes;
-    report_.hole_triangles += hole->triangles.size();
+    report_.hole_faces += hole->faces.size();
   }
 
  private:

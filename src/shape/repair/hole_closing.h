@@ -15,7 +15,7 @@
 namespace rholm {
 
 struct HoleTriangles {
-  std::vector<Triangle> triangles;  // indices of rim vertices
+  std::vector<Triangle> faces;  // indices of rim vertices
   double area = 0;
 };
 

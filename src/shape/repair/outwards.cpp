@@ -12,7 +12,7 @@ namespace {
 
 // A closed part; its triangles are in mesh order.
 struct Solid {
-  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> faces;
   Bounds box;
   double volume = 0;
   bool closed = true;
@@ -23,24 +23,24 @@ std::vector<Solid> find_solids(const Mesh& mesh, const Parts& parts,
                                const std::vector<std::uint32_t>& mates) {
   std::vector<Solid> solids(parts.n);
   CancelPoll poll;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::uint32_t t = 0; t < mesh.faces.size(); ++t) {
     poll();
     Solid& solid = solids[parts.part[t]];
-    const Triangle& corners = mesh.triangles[t];
+    const Triangle& corners = mesh.faces[t];
     const Vec3 first = mesh.vertices[corners[0]];
-    if (solid.triangles.empty()) solid.box = {.min = first, .max = first};
-    solid.triangles.push_back(t);
+    if (solid.faces.empty()) solid.box = {.min = first, .max = first};
+    solid.faces.push_back(t);
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t h = 3 * t + static_cast<std::uint32_t>(k);
       // Half-edges with the same start belong to a one-sided part.
       solid.closed = solid.closed && mates[h] != kNoMate &&
-                     start_of(mesh.triangles, h) != start_of(mesh.triangles, mates[h]);
+                     start_of(mesh.faces, h) != start_of(mesh.faces, mates[h]);
       const Vec3& p = mesh.vertices[corners[k]];
       Bounds& box = solid.box;
       box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
       box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
     }
-    const Vec3 origin = mesh.vertices[mesh.triangles[solid.triangles[0]][0]];
+    const Vec3 origin = mesh.vertices[mesh.faces[solid.faces[0]][0]];
     const Vec3 a = first - origin, b = mesh.vertices[corners[1]] - origin;
     solid.volume += dot(a, cross(b, mesh.vertices[corners[2]] - origin)) / 6;
   }
@@ -66,9 +66,9 @@ bool is_inside(const RayScene& scene, const Vec3& point) {
 // that solids that cross each other do not count.
 bool is_within(const RayScene& scene, const Mesh& mesh, const Solid& solid) {
   constexpr std::size_t kCorners = 5;  // chosen
-  const std::size_t n = solid.triangles.size();
+  const std::size_t n = solid.faces.size();
   for (std::size_t i = 0; i < std::min(kCorners, n); ++i) {
-    const Triangle& t = mesh.triangles[solid.triangles[i * n / std::min(kCorners, n)]];
+    const Triangle& t = mesh.faces[solid.faces[i * n / std::min(kCorners, n)]];
     if (!is_inside(scene, mesh.vertices[t[0]])) return false;
   }
   return true;
@@ -76,10 +76,10 @@ bool is_within(const RayScene& scene, const Mesh& mesh, const Solid& solid) {
 
 Mesh mesh_of(const Mesh& mesh, const Solid& solid) {
   Mesh part;
-  for (const std::uint32_t t : solid.triangles) {
+  for (const std::uint32_t t : solid.faces) {
     const auto first = static_cast<std::uint32_t>(part.vertices.size());
-    for (const std::uint32_t v : mesh.triangles[t]) part.vertices.push_back(mesh.vertices[v]);
-    part.triangles.push_back({first, first + 1, first + 2});
+    for (const std::uint32_t v : mesh.faces[t]) part.vertices.push_back(mesh.vertices[v]);
+    part.faces.push_back({first, first + 1, first + 2});
   }
   return part;
 }
@@ -120,7 +120,7 @@ void turn_outwards(const Mesh& mesh, const Parts& parts, const std::vector<std::
     report.cavities += inwards;
     if ((solid.volume < 0) == inwards) continue;
     ++report.inside_out_parts;
-    for (const std::uint32_t t : solid.triangles) turned[t] = 1 - turned[t];
+    for (const std::uint32_t t : solid.faces) turned[t] = 1 - turned[t];
   }
 }
 

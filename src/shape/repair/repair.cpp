@@ -77,8 +77,7 @@ class Repairer {
   }
 
   Repaired result() {
-    report_.flipped_triangles =
-        static_cast<std::size_t>(std::count(turned_.begin(), turned_.end(), 1));
+    report_.flipped_faces = static_cast<std::size_t>(std::count(turned_.begin(), turned_.end(), 1));
     turn_normals();
     for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
       const bool stayed = v < local_.size() && mesh_.vertices[v] == local_[v];
@@ -106,7 +105,7 @@ class Repairer {
     DisjointSets same(mesh_.vertices.size());
     bool found = false;
     CancelPoll poll;
-    for (const Triangle& t : mesh_.triangles) {
+    for (const Triangle& t : mesh_.faces) {
       poll();
       if (!is_thin(scaled_corners(mesh_, t, 1), error_)) continue;
       for (int k = 0; k < 3; ++k) {
@@ -117,19 +116,19 @@ class Repairer {
       }
     }
     if (!found) return false;
-    for (Triangle& t : mesh_.triangles) {
+    for (Triangle& t : mesh_.faces) {
       for (std::uint32_t& v : t) v = same.find(v);
     }
-    report_.degenerate_triangles += std::erase_if(mesh_.triangles, has_repeated_corner);
+    report_.degenerate_faces += std::erase_if(mesh_.faces, has_repeated_corner);
     return true;
   }
 
   void drop_duplicates() {
     std::vector<std::pair<Triangle, std::uint32_t>> sorted;
     CancelPoll poll;
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (std::uint32_t t = 0; t < mesh_.faces.size(); ++t) {
       poll();
-      Triangle corners = mesh_.triangles[t];
+      Triangle corners = mesh_.faces[t];
       std::sort(corners.begin(), corners.end());
       sorted.emplace_back(corners, t);
     }
@@ -137,44 +136,44 @@ class Repairer {
       poll();
       return a < b;
     });
-    std::vector<char> again(mesh_.triangles.size(), 0);
+    std::vector<char> again(mesh_.faces.size(), 0);
     for (std::size_t i = 1; i < sorted.size(); ++i) {
       again[sorted[i].second] = sorted[i].first == sorted[i - 1].first;
     }
-    report_.duplicate_triangles = drop(again);
+    report_.duplicate_faces = drop(again);
   }
 
   void join() {
-    const Junctions found = join_junctions(mesh_.vertices, error_, mesh_.triangles);
-    report_.degenerate_triangles += found.thin;
+    const Junctions found = join_junctions(mesh_.vertices, error_, mesh_.faces);
+    report_.degenerate_faces += found.thin;
     report_.junctions = found.joined;
   }
 
   std::size_t drop(const std::vector<char>& gone) {
     std::size_t kept = 0;
-    const std::size_t n = mesh_.triangles.size();
+    const std::size_t n = mesh_.faces.size();
     for (std::size_t t = 0; t < n; ++t) {
       if (gone[t]) continue;
       if (!turned_.empty()) turned_[kept] = turned_[t];
-      mesh_.triangles[kept++] = mesh_.triangles[t];
+      mesh_.faces[kept++] = mesh_.faces[t];
     }
-    mesh_.triangles.resize(kept);
+    mesh_.faces.resize(kept);
     if (!turned_.empty()) turned_.resize(kept);
     return n - kept;
   }
 
   void find_all_mates() {
-    mates_ = find_mates_at_all_edges(mesh_.vertices, mesh_.triangles);
-    parts_ = find_parts(mesh_.triangles.size(), mates_);
+    mates_ = find_mates_at_all_edges(mesh_.vertices, mesh_.faces);
+    parts_ = find_parts(mesh_.faces.size(), mates_);
   }
 
   // Orients across edges of two triangles first; edges of more triangles need the result.
   void orient() {
-    mates_ = find_mates(mesh_.vertices.size(), mesh_.triangles);
-    parts_ = find_parts(mesh_.triangles.size(), mates_);
-    turned_ = orient_alike(mesh_.vertices, parts_, mesh_.triangles, mates_).flipped;
+    mates_ = find_mates(mesh_.vertices.size(), mesh_.faces);
+    parts_ = find_parts(mesh_.faces.size(), mates_);
+    turned_ = orient_alike(mesh_.vertices, parts_, mesh_.faces, mates_).flipped;
     find_all_mates();
-    const Orienting second = orient_alike(mesh_.vertices, parts_, mesh_.triangles, mates_);
+    const Orienting second = orient_alike(mesh_.vertices, parts_, mesh_.faces, mates_);
     for (std::size_t t = 0; t < turned_.size(); ++t) turned_[t] ^= second.flipped[t];
     one_sided_ = second.one_sided;
     report_.one_sided_parts =
@@ -183,7 +182,7 @@ class Repairer {
 
   void separate() {
     const std::vector<std::uint32_t> copies =
-        separate_fans(mesh_.vertices.size(), mates_, mesh_.triangles);
+        separate_fans(mesh_.vertices.size(), mates_, mesh_.faces);
     if (copies.empty()) return;
     report_.split_vertices = copies.size();
     const std::size_t n = mesh_.vertices.size();
@@ -201,7 +200,7 @@ class Repairer {
     const double apart = std::max(kApart * diagonal_, kApartSingle * largest_);
     std::vector<Vec3> sums(moves.size());
     std::vector<double> counts(moves.size(), 0);
-    for (const Triangle& t : mesh_.triangles) {
+    for (const Triangle& t : mesh_.faces) {
       for (int k = 0; k < 3; ++k) {
         if (!moves[t[k]]) continue;
         sums[t[k]] += mesh_.vertices[t[(k + 1) % 3]] + mesh_.vertices[t[(k + 2) % 3]];
@@ -216,11 +215,10 @@ class Repairer {
   }
 
   void swap_thin() {
-    std::vector<char> gone(mesh_.triangles.size(), 0);
-    const std::size_t removed =
-        swap_thin_faces(mesh_.vertices, error_, mesh_.triangles, mates_, &gone);
+    std::vector<char> gone(mesh_.faces.size(), 0);
+    const std::size_t removed = swap_thin_faces(mesh_.vertices, error_, mesh_.faces, mates_, &gone);
     if (removed == 0) return;
-    report_.degenerate_triangles += removed;
+    report_.degenerate_faces += removed;
     drop(gone);
     find_all_mates();
     one_sided_.assign(parts_.n, 0);
@@ -230,21 +228,21 @@ class Repairer {
   // Orients again after swaps, which keep the mates valid; parts may have new numbers.
   void orient_again() {
     Parts parts = parts_;
-    const Orienting again = orient_alike(mesh_.vertices, parts, mesh_.triangles, mates_);
+    const Orienting again = orient_alike(mesh_.vertices, parts, mesh_.faces, mates_);
     for (std::size_t t = 0; t < turned_.size(); ++t) turned_[t] ^= again.flipped[t];
     one_sided_ = again.one_sided;
   }
 
   void close() {
     close_holes(parts_, one_sided_, mates_, options_.max_hole, mesh_, report_);
-    turned_.resize(mesh_.triangles.size(), 0);
+    turned_.resize(mesh_.faces.size(), 0);
     find_all_mates();
   }
 
   void turn() {
-    std::vector<char> wrong(mesh_.triangles.size(), 0);
+    std::vector<char> wrong(mesh_.faces.size(), 0);
     turn_outwards(mesh_, parts_, mates_, wrong, report_, context_);
-    flip_marked(wrong, mesh_.triangles, mates_);
+    flip_marked(wrong, mesh_.faces, mates_);
     for (std::size_t t = 0; t < wrong.size(); ++t) turned_[t] ^= wrong[t];
   }
 
@@ -252,10 +250,10 @@ class Repairer {
   void turn_normals() {
     const NormalAttributes normals = normal_attributes(mesh_);
     if (!normals) return;
-    const std::vector<Vec3> faces = area_normals(mesh_.vertices, mesh_.triangles);
+    const std::vector<Vec3> faces = area_normals(mesh_.vertices, mesh_.faces);
     std::vector<char> at_turned(mesh_.vertices.size(), 0);
     for (std::size_t t = 0; t < turned_.size(); ++t) {
-      for (const std::uint32_t v : mesh_.triangles[t]) at_turned[v] |= turned_[t];
+      for (const std::uint32_t v : mesh_.faces[t]) at_turned[v] |= turned_[t];
     }
     for (std::size_t v = 0; v < at_turned.size(); ++v) {
       if (at_turned[v] && dot(normals[v], faces[v]) < 0) normals.set(v, -normals[v]);
@@ -289,7 +287,7 @@ Repaired repair(const Mesh& mesh, const RepairOptions& options, const Context& c
   RepairReport& report = result.report;
   report.before = inspect(exact.mesh);
   report.merged_vertices = welded.merged_vertices;
-  report.collapsed_triangles = welded.collapsed_triangles;
+  report.collapsed_faces = welded.collapsed_faces;
   report.isolated_vertices =
       mesh.vertices.size() - exact.merged_vertices - exact.mesh.vertices.size();
   report.after = inspect(result.mesh);

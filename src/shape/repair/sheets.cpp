@@ -82,15 +82,15 @@ std::vector<std::uint32_t> find_mates_at_all_edges(const std::vector<Vec3>& vert
   return mates;
 }
 
-Parts find_parts(std::size_t n_triangles, const std::vector<std::uint32_t>& mates) {
-  DisjointSets sets(n_triangles);
+Parts find_parts(std::size_t n_faces, const std::vector<std::uint32_t>& mates) {
+  DisjointSets sets(n_faces);
   CancelPoll poll;
   for (std::uint32_t h = 0; h < mates.size(); ++h) {
     poll();
     if (mates[h] != kNoMate && h < mates[h]) sets.unite(h / 3, mates[h] / 3);
   }
-  Parts parts{.part = std::vector<std::uint32_t>(n_triangles)};
-  for (std::uint32_t t = 0; t < n_triangles; ++t) {
+  Parts parts{.part = std::vector<std::uint32_t>(n_faces)};
+  for (std::uint32_t t = 0; t < n_faces; ++t) {
     const std::uint32_t first = sets.find(t);
     parts.part[t] = first == t ? static_cast<std::uint32_t>(parts.n++) : parts.part[first];
   }

@@ -22,7 +22,7 @@ struct Parts {
   std::vector<std::uint32_t> part;
   std::size_t n = 0;
 };
-Parts find_parts(std::size_t n_triangles, const std::vector<std::uint32_t>& mates);
+Parts find_parts(std::size_t n_faces, const std::vector<std::uint32_t>& mates);
 
 struct Orienting {
   std::vector<char> flipped;    // per triangle

@@ -166,14 +166,14 @@ std::size_t swap_thin_faces(const std::vector<Vec3>& vertices, const Vec3& error
 std::size_t swap_thin_faces(Mesh& mesh) {
   const double scale = unit_frame(bounds(mesh.vertices)).scale;
   const Vec3 error = scale * coordinate_error(view_of(mesh));
-  const bool found = std::ranges::any_of(mesh.triangles, [&](const Triangle& t) {
+  const bool found = std::ranges::any_of(mesh.faces, [&](const Triangle& t) {
     return is_thin(scaled_corners(mesh, t, scale), error);
   });
   if (!found) return 0;
   std::vector<Vec3> scaled = mesh.vertices;
   for (Vec3& v : scaled) v *= scale;
-  std::vector<std::uint32_t> mates = find_mates(mesh.vertices.size(), mesh.triangles);
-  return swap_thin_faces(scaled, error, mesh.triangles, mates);
+  std::vector<std::uint32_t> mates = find_mates(mesh.vertices.size(), mesh.faces);
+  return swap_thin_faces(scaled, error, mesh.faces, mates);
 }
 
 }  // namespace rholm

@@ -55,7 +55,7 @@ class Simplifier {
       : options_(options),
         context_(context),
         points_(std::move(part.points)),
-        triangles_(std::move(part.triangles)),
+        triangles_(std::move(part.faces)),
         given_(points_.size()),
         kinds_(std::move(part.kinds)),
         quadrics_(std::move(part.quadrics)),
@@ -78,13 +78,13 @@ class Simplifier {
 
   void run() {
     const std::size_t given = triangles_.size();
-    while (triangles_.size() > options_.triangles) {
+    while (triangles_.size() > options_.faces) {
       report_progress(context_, "simplify",
                       static_cast<double>(given - triangles_.size()) /
-                          static_cast<double>(given - options_.triangles));
+                          static_cast<double>(given - options_.faces));
       stars_ = make_vertex_stars(points_.size(), triangles_);
       const std::size_t n = points_.size();
-      const std::size_t wanted = (triangles_.size() - options_.triangles + 1) / 2;
+      const std::size_t wanted = (triangles_.size() - options_.faces + 1) / 2;
       std::size_t cheapest = std::max<std::size_t>(
           1, std::min(static_cast<std::size_t>(kShareOfPass * static_cast<double>(n)),
                       kTriesOfCollapse * wanted));
@@ -97,7 +97,7 @@ class Simplifier {
   }
 
   std::vector<Vec3>& points() { return points_; }
-  std::vector<Triangle>& triangles() { return triangles_; }
+  std::vector<Triangle>& faces() { return triangles_; }
   const std::vector<std::uint32_t>& given() const { return given_; }
   std::vector<std::uint32_t>& origins() { return origins_; }
   std::vector<PlaneQuadric>& quadrics() { return quadrics_; }
@@ -395,11 +395,11 @@ void check(const SimplifyOptions& options) {
   }
   if (!(options.share >= 0 && options.share <= 1)) {
     throw Error(ErrorCode::kInvalidInput,
-                fmt::format("the share of triangles is {}: it must be 0 ... 1", options.share));
+                fmt::format("the share of faces is {}: it must be 0 ... 1", options.share));
   }
-  if (options.triangles == 0 && options.share == 0 && std::isinf(options.max_error)) {
+  if (options.faces == 0 && options.share == 0 && std::isinf(options.max_error)) {
     throw Error(ErrorCode::kInvalidInput,
-                "nothing says where to stop: give a number of triangles, a share of them, or an "
+                "nothing says where to stop: give a number of faces, a share of them, or an "
                 "error");
   }
 }
@@ -422,23 +422,23 @@ Simplification simplify(Mesh mesh, const SimplifyOptions& options, const Context
   validate(mesh);
   check(options);
   const auto share =
-      static_cast<std::size_t>(options.share * static_cast<double>(mesh.triangles.size()));
+      static_cast<std::size_t>(options.share * static_cast<double>(mesh.faces.size()));
   // A power of two scales lengths if their squares would leave the range of a double.
   const double scale = far_scale(bounds(mesh.vertices));
   for (Vec3& v : mesh.vertices) v *= scale;
-  std::erase_if(mesh.triangles, has_repeated_corner);
+  std::erase_if(mesh.faces, has_repeated_corner);
   swap_thin_faces(mesh);
   const Vec3 error = coordinate_error(view_of(mesh));
-  const SimplifyOptions wanted{.triangles = std::max(options.triangles, share),
+  const SimplifyOptions wanted{.faces = std::max(options.faces, share),
                                .max_error = options.max_error * scale};
-  SimplifyPart whole{.points = std::move(mesh.vertices), .triangles = std::move(mesh.triangles)};
+  SimplifyPart whole{.points = std::move(mesh.vertices), .faces = std::move(mesh.faces)};
   Simplifier simplifier(std::move(whole), wanted, context, true, error);
   simplifier.run();
   Simplification result;
   result.error = simplifier.error() / scale;
   result.mesh.vertices = std::move(simplifier.points());
   for (Vec3& v : result.mesh.vertices) v = v / scale;
-  result.mesh.triangles = std::move(simplifier.triangles());
+  result.mesh.faces = std::move(simplifier.faces());
   result.mesh.attributes = std::move(mesh.attributes);
   for (Attribute& attribute : result.mesh.attributes) keep(attribute.values, simplifier.given());
   return result;
@@ -446,16 +446,16 @@ Simplification simplify(Mesh mesh, const SimplifyOptions& options, const Context
 
 SimplifiedPart simplify_part(SimplifyPart part, std::size_t triangles, double max_error,
                              const Context& context) {
-  const SimplifyOptions wanted{.triangles = triangles, .max_error = max_error};
+  const SimplifyOptions wanted{.faces = triangles, .max_error = max_error};
   Simplifier simplifier(std::move(part), wanted, context, false);
   simplifier.run();
-  SimplifiedPart result{.triangles = std::move(simplifier.triangles()),
+  SimplifiedPart result{.faces = std::move(simplifier.faces()),
                         .origins = std::move(simplifier.origins()),
                         .vertices = simplifier.given(),
                         .quadrics = std::move(simplifier.quadrics()),
                         .error = simplifier.error(),
                         .steps = std::move(simplifier.steps())};
-  for (Triangle& t : result.triangles) {
+  for (Triangle& t : result.faces) {
     for (std::uint32_t& v : t) v = result.vertices[v];
   }
   return result;

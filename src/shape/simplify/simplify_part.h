@@ -21,7 +21,7 @@ enum class PartVertex : std::uint8_t {
 
 struct SimplifyPart {
   std::vector<Vec3> points = {};
-  std::vector<Triangle> triangles = {};
+  std::vector<Triangle> faces = {};
   std::vector<PartVertex> kinds = {};  // per vertex
   // Quadric of each vertex, or empty. Where the weight is 0, the triangles around the vertex define
   // the quadric. Lengths are in units.
@@ -30,7 +30,7 @@ struct SimplifyPart {
 };
 
 struct SimplifiedPart {
-  std::vector<Triangle> triangles = {};      // refer to the given vertices
+  std::vector<Triangle> faces = {};          // refer to the given vertices
   std::vector<std::uint32_t> origins = {};   // given triangle that each one was
   std::vector<std::uint32_t> vertices = {};  // remaining given vertices, ascending
   std::vector<PlaneQuadric> quadrics = {};   // of the remaining vertices
@@ -40,7 +40,7 @@ struct SimplifiedPart {
   // same cost are simplified as one surface is.
   struct Step {
     double cost = 0;
-    std::uint64_t triangles = 0;
+    std::uint64_t faces = 0;
   };
   std::vector<Step> steps = {};
 };

@@ -16,7 +16,7 @@ bool is_closed(const MeshView& mesh) {
     places[i] = place_hash(mesh.vertex(i));
   }
   std::uint64_t sum = 0;
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+  for (std::size_t t = 0; t < mesh.n_faces; ++t) {
     poll();
     const Triangle v = mesh.triangle(t);
     for (std::size_t k = 0; k < 3; ++k) {

@@ -59,8 +59,8 @@ std::vector<std::uint32_t> edges_left(const Mesh& mesh, const std::vector<std::u
     poll();
     const std::uint32_t back = mates[c];
     if (up[c / 3] == c || (back != kNoMate && (back < c || up[back / 3] == back))) continue;
-    const std::uint32_t a = joined.find(start_of(mesh.triangles, c));
-    const std::uint32_t b = joined.find(end_of(mesh.triangles, c));
+    const std::uint32_t a = joined.find(start_of(mesh.faces, c));
+    const std::uint32_t b = joined.find(end_of(mesh.faces, c));
     if (a == b) left.push_back(c);
     joined.unite(a, b);
   }
@@ -97,8 +97,8 @@ CutGraph make_cut_graph(const Mesh& mesh, const std::vector<std::uint32_t>& mate
     if (bits == 0) continue;
     graph.edges.push_back({c, bits});
     if (mates[c] != kNoMate) graph.edges.push_back({mates[c], bits});
-    graph.vertices.push_back(start_of(mesh.triangles, c));
-    graph.vertices.push_back(end_of(mesh.triangles, c));
+    graph.vertices.push_back(start_of(mesh.faces, c));
+    graph.vertices.push_back(end_of(mesh.faces, c));
   }
   std::sort(graph.edges.begin(), graph.edges.end(),
             [](const CutGraph::Edge& a, const CutGraph::Edge& b) { return a.corner < b.corner; });

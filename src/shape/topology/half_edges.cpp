@@ -34,7 +34,7 @@ void sort_bucket(HalfEdge* first, HalfEdge* last) {
 HalfEdges sort_half_edges(std::size_t n_vertices, const std::vector<Triangle>& triangles) {
   if (triangles.size() > kMaxTriangles) {
     throw Error(ErrorCode::kUnsupported, "the mesh has " + std::to_string(triangles.size()) +
-                                             " triangles, more than the " +
+                                             " faces, more than the " +
                                              std::to_string(kMaxTriangles) +
                                              " whose edges can be numbered: decimate it first");
   }

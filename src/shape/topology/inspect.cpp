@@ -14,7 +14,7 @@ namespace {
 
 // Returns the corner of a half-edge's triangle that is not on the edge.
 std::uint32_t opposite_corner(const Mesh& mesh, const HalfEdge& half_edge) {
-  return mesh.triangles[half_edge.triangle()][(half_edge.corner() + 2) % 3];
+  return mesh.faces[half_edge.triangle()][(half_edge.corner() + 2) % 3];
 }
 
 // Counts triangles that repeat an earlier one, at the edge of their two smaller vertices.
@@ -43,9 +43,9 @@ CornersOnEdge corners_on_edge(const HalfEdge& half_edge) {
 // Counts edges of each kind. Corners of neighbouring triangles at the same vertex are joined: the
 // resulting sets are the fans of the vertices.
 void inspect_edges(const Mesh& mesh, Inspection& result) {
-  const HalfEdges half_edges = sort_half_edges(mesh.vertices.size(), mesh.triangles);
-  DisjointSets fans(3 * mesh.triangles.size());
-  DisjointSets parts(mesh.triangles.size());
+  const HalfEdges half_edges = sort_half_edges(mesh.vertices.size(), mesh.faces);
+  DisjointSets fans(3 * mesh.faces.size());
+  DisjointSets parts(mesh.faces.size());
   std::vector<std::uint32_t> fans_at(mesh.vertices.size(), 0);
   half_edges.for_each_edge([&](std::uint32_t smaller, std::span<const HalfEdge> group) {
     ++result.edges;
@@ -66,15 +66,15 @@ void inspect_edges(const Mesh& mesh, Inspection& result) {
       fans.unite(first.larger, next.larger);
       parts.unite(group[0].triangle(), half_edge.triangle());
     }
-    result.duplicate_triangles += count_duplicates(mesh, group);
+    result.duplicate_faces += count_duplicates(mesh, group);
   });
   CancelPoll poll;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::uint32_t t = 0; t < mesh.faces.size(); ++t) {
     poll();
-    if (has_repeated_corner(mesh.triangles[t])) continue;
+    if (has_repeated_corner(mesh.faces[t])) continue;
     result.components += parts.find(t) == t;
     for (std::uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
-      fans_at[mesh.triangles[t][c - 3 * t]] += fans.find(c) == c;
+      fans_at[mesh.faces[t][c - 3 * t]] += fans.find(c) == c;
     }
   }
   for (const std::uint32_t n : fans_at) {
@@ -87,9 +87,9 @@ void inspect_edges(const Mesh& mesh, Inspection& result) {
 void count_degenerate(const Mesh& mesh, double scale, Inspection& result) {
   const Vec3 error = scale * coordinate_error(view_of(mesh));
   CancelPoll poll;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     poll();
-    result.degenerate_triangles += is_thin(scaled_corners(mesh, t, scale), error);
+    result.degenerate_faces += is_thin(scaled_corners(mesh, t, scale), error);
   }
 }
 
@@ -97,7 +97,7 @@ void count_degenerate(const Mesh& mesh, double scale, Inspection& result) {
 Vec3 mean_of_used(const Mesh& mesh, const UnitFrame& frame) {
   std::vector<char> used(mesh.vertices.size(), 0);
   CancelPoll poll;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     poll();
     if (has_repeated_corner(t)) continue;
     for (const std::uint32_t v : t) used[v] = 1;
@@ -119,11 +119,11 @@ Inspection inspect(const Mesh& mesh) {
   validate(mesh);
   Inspection result;
   result.vertices = mesh.vertices.size();
-  result.triangles = mesh.triangles.size();
+  result.faces = mesh.faces.size();
   inspect_edges(mesh, result);
   std::size_t faces = 0;
   CancelPoll poll;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     poll();
     faces += !has_repeated_corner(t);
   }

@@ -45,14 +45,14 @@ void cut_along(const LoopSides& loop, Mesh& mesh, std::vector<std::uint32_t>& co
     sum += mesh.vertices[v];
     right.push_back(add_copy(v, mesh, copies));
   }
-  for (const auto& [i, c] : loop.right) mesh.triangles[c / 3][c % 3] = right[i];
+  for (const auto& [i, c] : loop.right) mesh.faces[c / 3][c % 3] = right[i];
   const std::uint32_t middle_left = add_copy(loop.vertices[0], mesh, copies);
   const std::uint32_t middle_right = add_copy(loop.vertices[0], mesh, copies);
   mesh.vertices[middle_left] = mesh.vertices[middle_right] = sum / static_cast<double>(n);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t j = (i + 1) % n;
-    mesh.triangles.push_back({loop.vertices[j], loop.vertices[i], middle_left});
-    mesh.triangles.push_back({right[i], right[j], middle_right});
+    mesh.faces.push_back({loop.vertices[j], loop.vertices[i], middle_left});
+    mesh.faces.push_back({right[i], right[j], middle_right});
   }
 }
 
@@ -61,15 +61,15 @@ std::vector<std::uint32_t> LoopSearch::way_to(std::uint32_t vertex) const {
   std::vector<std::uint32_t> way;
   while (vertex != base_) {
     way.push_back(reached_.at(vertex).by);
-    vertex = start_of(mesh_.triangles, way.back());
+    vertex = start_of(mesh_.faces, way.back());
   }
   return way;
 }
 
 // Returns the loop to the start of the half-edge, along it, and back.
 Loop LoopSearch::loop_through(std::uint32_t corner) const {
-  std::vector<std::uint32_t> there = way_to(start_of(mesh_.triangles, corner));
-  std::vector<std::uint32_t> back = way_to(end_of(mesh_.triangles, corner));
+  std::vector<std::uint32_t> there = way_to(start_of(mesh_.faces, corner));
+  std::vector<std::uint32_t> back = way_to(end_of(mesh_.faces, corner));
   while (!there.empty() && !back.empty() && there.back() == back.back()) {
     there.pop_back(), back.pop_back();
   }
@@ -78,8 +78,8 @@ Loop LoopSearch::loop_through(std::uint32_t corner) const {
   loop.corners.push_back(corner);
   for (const std::uint32_t c : back) loop.corners.push_back(mates_[c]);
   for (const std::uint32_t c : loop.corners) {
-    const Vec3& a = mesh_.vertices[start_of(mesh_.triangles, c)];
-    loop.length += norm(mesh_.vertices[end_of(mesh_.triangles, c)] - a);
+    const Vec3& a = mesh_.vertices[start_of(mesh_.faces, c)];
+    loop.length += norm(mesh_.vertices[end_of(mesh_.faces, c)] - a);
     loop.crossed ^= graph_.crossed(c);
   }
   return loop;
@@ -102,7 +102,7 @@ Loop LoopSearch::shortest(std::uint32_t base, double most) {
     here.settled = true;
     const std::uint64_t crossed = here.crossed;
     for_each_outgoing(mates_, outgoing_[v], [&](std::uint32_t c) {
-      const std::uint32_t w = end_of(mesh_.triangles, c);
+      const std::uint32_t w = end_of(mesh_.faces, c);
       if (outgoing_[w] == kNoMate) return;
       const double longer = length + norm(mesh_.vertices[w] - mesh_.vertices[v]);
       const bool may_cross = graph_.is_end[v] != 0 && graph_.is_end[w] != 0;

@@ -62,8 +62,8 @@ std::string advice(const Mesh& mesh, const Unpaired& unpaired) {
 [[noreturn]] void throw_unpaired(const Mesh& mesh, const Unpaired& unpaired) {
   throw Error(ErrorCode::kInvalidInput,
               fmt::format("the mesh is not closed and consistently oriented: {} edges have a side "
-                          "without a partner ({} boundary edges, {} between triangles of opposite "
-                          "orientation, {} where three or more triangles meet); {}",
+                          "without a partner ({} boundary edges, {} between faces of opposite "
+                          "orientation, {} where three or more faces meet); {}",
                           unpaired.total(), unpaired.boundary, unpaired.misoriented, unpaired.odd,
                           advice(mesh, unpaired)));
 }
@@ -72,7 +72,7 @@ std::string advice(const Mesh& mesh, const Unpaired& unpaired) {
 
 std::vector<Edge> pair_edges(const Mesh& mesh) {
   validate(mesh);
-  const HalfEdges half_edges = sort_half_edges(mesh.vertices.size(), mesh.triangles);
+  const HalfEdges half_edges = sort_half_edges(mesh.vertices.size(), mesh.faces);
   std::vector<Edge> edges;
   edges.reserve(half_edges.sorted.size() / 2);
   Unpaired unpaired;

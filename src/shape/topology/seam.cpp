@@ -27,7 +27,7 @@ struct Border {
 
 std::size_t single_edges(const Mesh& mesh) {
   std::size_t n = 0;
-  const HalfEdges half_edges = sort_half_edges(mesh.vertices.size(), mesh.triangles);
+  const HalfEdges half_edges = sort_half_edges(mesh.vertices.size(), mesh.faces);
   half_edges.for_each_edge(
       [&](std::uint32_t, std::span<const HalfEdge> group) { n += group.size() == 1; });
   return n;
@@ -35,10 +35,10 @@ std::size_t single_edges(const Mesh& mesh) {
 
 Border border_of(const Mesh& mesh) {
   Border border;
-  std::vector<char> at_border(mesh.triangles.size(), 0);
+  std::vector<char> at_border(mesh.faces.size(), 0);
   std::vector<double> lengths;
   const double scale = unit_frame(bounds(mesh.vertices)).scale;
-  const HalfEdges half_edges = sort_half_edges(mesh.vertices.size(), mesh.triangles);
+  const HalfEdges half_edges = sort_half_edges(mesh.vertices.size(), mesh.faces);
   half_edges.for_each_edge([&](std::uint32_t smaller, std::span<const HalfEdge> group) {
     if (group.size() != 1) return;
     at_border[group[0].triangle()] = 1;
@@ -49,7 +49,7 @@ Border border_of(const Mesh& mesh) {
   if (lengths.empty()) return border;
   border.mesh.vertices = mesh.vertices;
   for (std::size_t t = 0; t < at_border.size(); ++t) {
-    if (at_border[t]) border.mesh.triangles.push_back(mesh.triangles[t]);
+    if (at_border[t]) border.mesh.faces.push_back(mesh.faces[t]);
   }
   border.mesh = weld(border.mesh).mesh;  // drops the vertices of other triangles
   border.inner = single_edges(border.mesh) - border.edges;

@@ -39,11 +39,11 @@ VertexStars make_vertex_stars(std::size_t n_vertices, std::span<const Triangle> 
     for (const std::uint32_t v : t) ++stars.begin[v + 1];
   }
   for (std::size_t v = 0; v < n_vertices; ++v) stars.begin[v + 1] += stars.begin[v];
-  stars.triangles.resize(3 * triangles.size());
+  stars.faces.resize(3 * triangles.size());
   // begin[v] moves to the end of the triangles of v, where the triangles of v + 1 begin.
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     poll();
-    for (const std::uint32_t v : triangles[t]) stars.triangles[stars.begin[v]++] = t;
+    for (const std::uint32_t v : triangles[t]) stars.faces[stars.begin[v]++] = t;
   }
   for (std::size_t v = n_vertices; v > 0; --v) stars.begin[v] = stars.begin[v - 1];
   stars.begin[0] = 0;

@@ -14,10 +14,10 @@ namespace rholm {
 // The triangles of v, in mesh order, are triangles[begin[v]] ... triangles[begin[v + 1] - 1].
 struct VertexStars {
   std::vector<std::uint32_t> begin;  // n_vertices + 1
-  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> faces;
 
   std::span<const std::uint32_t> of(std::size_t v) const {
-    return {triangles.data() + begin[v], begin[v + 1] - begin[v]};
+    return {faces.data() + begin[v], begin[v + 1] - begin[v]};
   }
 };
 VertexStars make_vertex_stars(std::size_t n_vertices, std::span<const Triangle> triangles);

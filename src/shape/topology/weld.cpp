@@ -179,7 +179,7 @@ void drop_unused(const Mesh& mesh, std::vector<Triangle>& triangles, Mesh& out) 
   for (Triangle& t : triangles) {
     for (std::uint32_t& v : t) v = place[v];
   }
-  out.triangles = std::move(triangles);
+  out.faces = std::move(triangles);
 }
 
 }  // namespace
@@ -195,13 +195,13 @@ Welded weld(const Mesh& mesh, double tolerance) {
   Welded result;
   for (std::uint32_t i = 0; i < kept.size(); ++i) result.merged_vertices += kept[i] != i;
   std::vector<Triangle> triangles;
-  triangles.reserve(mesh.triangles.size());
+  triangles.reserve(mesh.faces.size());
   CancelPoll poll;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     poll();
     const Triangle welded{kept[t[0]], kept[t[1]], kept[t[2]]};
     if (has_repeated_corner(welded)) {
-      ++result.collapsed_triangles;
+      ++result.collapsed_faces;
     } else {
       triangles.push_back(welded);
     }

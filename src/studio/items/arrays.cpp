@@ -25,7 +25,7 @@ std::vector<std::uint8_t> bytes_of(const std::vector<std::array<float, 3>>& colo
 
 std::vector<Triangle> joined_triangles(const Mesh& mesh) {
   const std::vector<std::uint32_t> first = first_identical(mesh.vertices);
-  std::vector<Triangle> joined = mesh.triangles;
+  std::vector<Triangle> joined = mesh.faces;
   for (Triangle& t : joined) {
     for (std::uint32_t& corner : t) corner = first[corner];
   }

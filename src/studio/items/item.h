@@ -47,7 +47,7 @@ struct Item {
   std::string unit;            // unit of lengths, empty if unknown
 
   std::shared_ptr<const Mesh> original;     // meshes only: as read, or after the last edit
-  std::shared_ptr<const Model> model;       // expansions and analysed meshes only
+  std::shared_ptr<const Model> model;       // expansions and expanded meshes only
   std::shared_ptr<const AtlasModel> atlas;  // atlases only
   // File of the atlas, returned as is, since rewriting may change the last digits.
   std::shared_ptr<const std::string> atlas_file;
@@ -55,7 +55,7 @@ struct Item {
   std::shared_ptr<const Table> table;        // only for points read from a text table
   std::vector<std::string> warnings;         // warnings by the reader of its file
   std::shared_ptr<const Mesh> shown;         // the surface with its look; nullptr for points
-  std::shared_ptr<const MeshFacts> facts;    // facts of `shown`, or of the original once analysed
+  std::shared_ptr<const MeshFacts> facts;    // facts of `shown`, or of the original once expanded
   Look look;                                 // used with a model
   std::optional<double> volume;  // signed, of `shown`; set if `facts` are of another mesh
   std::optional<int> limit;      // degree limit of an atlas

@@ -25,8 +25,8 @@ std::string length(double value, const std::string& unit) {
 
 std::vector<std::uint32_t> offending_triangles(const Mesh& mesh, const Vec3& center) {
   std::vector<std::uint32_t> offending;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Triangle& corners = mesh.triangles[t];
+  for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
+    const Triangle& corners = mesh.faces[t];
     const Vec3& a = mesh.vertices[corners[0]];
     const Vec3 normal = cross(mesh.vertices[corners[1]] - a, mesh.vertices[corners[2]] - a);
     if (dot(normal, normal) > 0 && dot(normal, a - center) <= 0) {
@@ -43,7 +43,7 @@ void add(Json& facts, const char* label, const std::string& value) {
 void add_mesh_facts(const Item& item, Json& facts) {
   const Inspection& found = item.facts->inspection;
   add(facts, "Vertices", grouped(item.shown->vertices.size()));
-  add(facts, "Faces", grouped(item.shown->triangles.size()));
+  add(facts, "Faces", grouped(item.shown->faces.size()));
   add(facts, "Diagonal", length(bounds(item.shown->vertices).diagonal(), item.unit));
   add(facts, "Closed",
       found.closed ? "yes" : fmt::format("no, {} open edges", grouped(found.boundary_edges)));

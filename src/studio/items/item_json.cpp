@@ -112,7 +112,7 @@ Json json_of(const Item& item) {
                {"revision", item.revision},
                {"facts", facts_json(item)},
                {"vertices", at.size()},
-               {"faces", item.shown ? item.shown->triangles.size() : 0},
+               {"faces", item.shown ? item.shown->faces.size() : 0},
                {"diagonal", box.diagonal()},
                {"center", {middle.x, middle.y, middle.z}},
                {"unit", item.unit},

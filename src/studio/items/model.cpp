@@ -93,7 +93,7 @@ std::shared_ptr<const Model> make_model(Expansion expansion, std::shared_ptr<con
     model->base = values_of_shape(*model->original, model->expansion.center, is_gauge(*model));
   } else {
     model->directions = icosphere(subdivisions_for(coefficients.degree()));
-    model->joined = model->directions.triangles;
+    model->joined = model->directions.faces;
     model->base = evaluate(coefficients, model->directions.vertices, {}, context);
   }
   const bool radius = model->expansion.function == RadialFunction::kRadius;
@@ -145,7 +145,7 @@ QuickSurface quick_surface(const Model& model, const Look& look, const Context& 
       surface.error[j] = gauge ? static_cast<float>(r - 1 / model.base[j]) : left[j];
     }
   }
-  surface.normals = normals_of(surface.positions, model.directions.triangles, model.joined);
+  surface.normals = normals_of(surface.positions, model.directions.faces, model.joined);
   return surface;
 }
 

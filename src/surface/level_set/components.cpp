@@ -43,11 +43,11 @@ std::vector<Component> measure(const Mesh& mesh, const std::vector<std::uint32_t
   for (std::size_t c = 0; c < first.size(); ++c) measures[c].origin = mesh.vertices[first[c]];
   // Sums over consecutive triangles of the same component.
   using Run = std::pair<std::uint32_t, Component>;
-  std::vector<std::vector<Run>> runs((mesh.triangles.size() + kGrain - 1) / kGrain);
-  parallel_for(mesh.triangles.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::vector<Run>> runs((mesh.faces.size() + kGrain - 1) / kGrain);
+  parallel_for(mesh.faces.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     std::vector<Run>& own = runs[begin / kGrain];
     for (std::size_t i = begin; i < end; ++i) {
-      const Triangle& t = mesh.triangles[i];
+      const Triangle& t = mesh.faces[i];
       const std::uint32_t which = component[t[0]];
       if (own.empty() || own.back().first != which) own.emplace_back(which, Component{});
       Component& c = own.back().second;
@@ -93,7 +93,7 @@ void keep(std::vector<T>& values, const std::vector<std::uint32_t>& renumbered) 
 }
 
 bool has_area(const Mesh& mesh) {
-  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+  return std::any_of(mesh.faces.begin(), mesh.faces.end(), [&](const Triangle& t) {
     const Vec3& a = mesh.vertices[t[0]];
     return norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) > 0;
   });
@@ -124,9 +124,9 @@ std::vector<char> large_components(std::span<const ComponentSize> sizes, double 
 
 SharedSets connected_vertices(const Mesh& mesh, const Context& context) {
   SharedSets sets(mesh.vertices.size());
-  parallel_for(mesh.triangles.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+  parallel_for(mesh.faces.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Triangle& t = mesh.triangles[i];
+      const Triangle& t = mesh.faces[i];
       sets.unite(t[0], t[1]), sets.unite(t[1], t[2]);
     }
   });
@@ -157,10 +157,10 @@ DroppedComponents drop_small_components(Mesh& mesh, double least_share, const Co
   if (area > 0) result.dropped_area /= area;
   if (std::find(stays.begin(), stays.end(), 0) == stays.end()) return result;
   const std::vector<std::uint32_t> renumbered = renumber(component, stays);
-  std::erase_if(mesh.triangles, [&](const Triangle& t) { return !stays[component[t[0]]]; });
-  parallel_for(mesh.triangles.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+  std::erase_if(mesh.faces, [&](const Triangle& t) { return !stays[component[t[0]]]; });
+  parallel_for(mesh.faces.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
-      for (std::uint32_t& v : mesh.triangles[t]) v = renumbered[v];
+      for (std::uint32_t& v : mesh.faces[t]) v = renumbered[v];
     }
   });
   parallel_for(1 + mesh.attributes.size(), 1, context, {}, [&](std::size_t i, std::size_t) {

@@ -68,7 +68,7 @@ class BitBasis {
 // Compares the Euler characteristic V - E + F with two per component.
 bool has_handles(const Mesh& mesh, const Context& context) {
   const std::size_t parts = first_members(connected_vertices(mesh, context), context).size();
-  return 2 * mesh.vertices.size() < mesh.triangles.size() + 4 * parts;
+  return 2 * mesh.vertices.size() < mesh.faces.size() + 4 * parts;
 }
 
 // Returns the area joined to the left of the loop within a ball; stops at `enough`.
@@ -80,8 +80,8 @@ double area_beside(const Mesh& mesh, const std::vector<std::uint32_t>& mates,
   std::vector<std::uint32_t> queue;
   double area = 0;
   const auto enter = [&](std::uint32_t t) {
-    const Vec3 &a = mesh.vertices[mesh.triangles[t][0]], &b = mesh.vertices[mesh.triangles[t][1]],
-               &c = mesh.vertices[mesh.triangles[t][2]];
+    const Vec3 &a = mesh.vertices[mesh.faces[t][0]], &b = mesh.vertices[mesh.faces[t][1]],
+               &c = mesh.vertices[mesh.faces[t][2]];
     if (norm((a + b + c) / 3 - middle) > radius || !seen.insert(t).second) return;
     area += norm(cross(b - a, c - a)) / 2;
     queue.push_back(t);
@@ -101,7 +101,7 @@ bool opens_on_both_sides(const Mesh& mesh, const std::vector<std::uint32_t>& mat
   Vec3 sum;
   for (const std::uint32_t c : loop.corners) {
     back.push_back(mates[c]);
-    sum += mesh.vertices[start_of(mesh.triangles, c)];
+    sum += mesh.vertices[start_of(mesh.faces, c)];
   }
   const Vec3 middle = sum / static_cast<double>(loop.corners.size());
   const double beside = kBeside * resolution;
@@ -126,8 +126,8 @@ class LoopsOfPiece {
   LoopsOfPiece(const MeshPiece& piece, const Resolution& resolution)
       : mesh_(piece.mesh),
         resolution_(resolution),
-        mates_(find_mates(mesh_.vertices.size(), mesh_.triangles)),
-        outgoing_(inner_outgoing(mesh_.vertices.size(), mesh_.triangles, mates_)),
+        mates_(find_mates(mesh_.vertices.size(), mesh_.faces)),
+        outgoing_(inner_outgoing(mesh_.vertices.size(), mesh_.faces, mates_)),
         graph_(make_cut_graph(mesh_, mates_)) {}
 
   // Chooses loops that are open on both sides, shortest first, with no two adjacent. `left_out`
@@ -143,7 +143,7 @@ class LoopsOfPiece {
       const double own = resolution_at(candidate.base);
       const Loop loop = search.shortest(candidate.base, kGirth * own);
       const auto is_touched = [&](std::uint32_t c) {
-        return touched.contains(start_of(mesh_.triangles, c));
+        return touched.contains(start_of(mesh_.faces, c));
       };
       if (!chosen.is_full() && chosen.has(loop.crossed)) continue;
       if (std::any_of(loop.corners.begin(), loop.corners.end(), is_touched)) {
@@ -153,12 +153,11 @@ class LoopsOfPiece {
       if (!opens_on_both_sides(mesh_, mates_, loop, own)) continue;
       chosen.add(loop.crossed);
       for (const std::uint32_t c : loop.corners) {
-        touched.insert(start_of(mesh_.triangles, c));
-        for_each_outgoing(mates_, c, [&](std::uint32_t other) {
-          touched.insert(end_of(mesh_.triangles, other));
-        });
+        touched.insert(start_of(mesh_.faces, c));
+        for_each_outgoing(mates_, c,
+                          [&](std::uint32_t other) { touched.insert(end_of(mesh_.faces, other)); });
       }
-      loops.push_back(sides_of(loop.corners, mesh_.triangles, mates_));
+      loops.push_back(sides_of(loop.corners, mesh_.faces, mates_));
     }
     return loops;
   }
@@ -200,7 +199,7 @@ class LoopsOfPiece {
 // Converts a loop of the piece to the indices of the whole mesh.
 LoopSides on_whole(const MeshPiece& piece, LoopSides loop) {
   for (std::uint32_t& v : loop.vertices) v = piece.vertices[v];
-  for (auto& [i, c] : loop.right) c = 3 * piece.triangles[c / 3] + c % 3;
+  for (auto& [i, c] : loop.right) c = 3 * piece.faces[c / 3] + c % 3;
   return loop;
 }
 
@@ -224,10 +223,10 @@ std::vector<std::uint8_t> without_parting(const Mesh& mesh, const std::vector<Lo
   std::sort(in_order.begin(), in_order.end());
   SharedSets sets(n + outside.n);
   for (const auto& [v, piece] : outside.vertices) sets.unite(v, n + piece);
-  parallel_for(mesh.triangles.size(), 8192, context, {}, [&](std::size_t begin, std::size_t end) {
+  parallel_for(mesh.faces.size(), 8192, context, {}, [&](std::size_t begin, std::size_t end) {
     auto next_cut = std::lower_bound(in_order.begin(), in_order.end(), begin);
     for (std::size_t t = begin; t < end; ++t) {
-      Triangle corners = mesh.triangles[t];
+      Triangle corners = mesh.faces[t];
       if (next_cut != in_order.end() && *next_cut == t) {
         ++next_cut;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -284,7 +283,7 @@ void smooth_ends(Mesh& mesh, std::vector<std::uint32_t> ends, double reach,
     v = static_cast<std::uint32_t>(
         std::lower_bound(piece.vertices.begin(), piece.vertices.end(), v) - piece.vertices.begin());
   }
-  const std::vector<Triangle>& triangles = piece.mesh.triangles;
+  const std::vector<Triangle>& triangles = piece.mesh.faces;
   const std::vector<std::uint32_t> mates = find_mates(piece.vertices.size(), triangles);
   const std::vector<std::uint32_t> outgoing =
       inner_outgoing(piece.vertices.size(), triangles, mates);

@@ -33,7 +33,7 @@ struct BlockSurface {
   std::array<NodeBits, 3> edges = {};                       // edges with a vertex, per axis
   std::array<std::array<std::uint16_t, 3>, 8> before = {};  // vertices that precede [slice][axis]
   std::uint32_t n_vertices = 0;
-  std::uint32_t n_triangles = 0;
+  std::uint32_t n_faces = 0;
 };
 
 // std::popcount may be a function call, depending on the processor; this code is not.
@@ -108,7 +108,7 @@ void find_cubes(const BlockGrid& grid, std::size_t b, std::vector<BlockSurface>&
     const std::uint64_t all = all_of(inside[z]) & all_of(inside[z + 1]);
     block.cubes[z] = all_of(known[z]) & all_of(known[z + 1]) & some & ~all;
     for_each_bit(block.cubes[z],
-                 [&](int bit) { block.n_triangles += table[case_of(inside, z, bit)].n_triangles; });
+                 [&](int bit) { block.n_faces += table[case_of(inside, z, bit)].n_faces; });
   }
 }
 
@@ -150,27 +150,27 @@ void find_edges(const BlockGrid& grid, std::size_t b, std::vector<BlockSurface>&
 
 // Output positions of the grid's vertices and triangles.
 struct Places {
-  std::vector<std::uint32_t> vertices, triangles;  // first of each block, and the end
+  std::vector<std::uint32_t> vertices, faces;  // first of each block, and the end
 };
 
 // Computes the positions; only the first `n_own` blocks have triangles.
 Places places_of(const std::vector<BlockSurface>& blocks, std::size_t n_own) {
   Places places;
   places.vertices.assign(blocks.size() + 1, 0);
-  places.triangles.assign(blocks.size() + 1, 0);
+  places.faces.assign(blocks.size() + 1, 0);
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     vertices += blocks[b].n_vertices;
-    if (b < n_own) triangles += blocks[b].n_triangles;
+    if (b < n_own) triangles += blocks[b].n_faces;
     places.vertices[b + 1] = static_cast<std::uint32_t>(vertices);
-    places.triangles[b + 1] = static_cast<std::uint32_t>(triangles);
+    places.faces[b + 1] = static_cast<std::uint32_t>(triangles);
   }
   // Half-edges, three per triangle, must have numbers below 2^31.
   constexpr std::uint64_t kLimit = (std::uint64_t{1} << 31) / 3;
   if (triangles > kLimit || vertices > kLimit) {
     throw Error(ErrorCode::kUnsupported,
-                fmt::format("the surface has {} triangles, the limit is {}: take a coarser "
+                fmt::format("the surface has {} faces, the limit is {}: take a coarser "
                             "resolution",
                             triangles, kLimit));
   }
@@ -280,14 +280,14 @@ void write_triangles(const BlockGrid& grid, const std::vector<BlockSurface>& blo
   const CornerSlices inside = corner_slices(blocks, above, &NodeMasks::inside);
   const std::array<SurfaceCase, 256>& table = surface_table();
   SliceVertices vertices(blocks, places, above);
-  std::size_t t = places.triangles[b];
+  std::size_t t = places.faces[b];
   for (int z = 0; z < 8; ++z) {
     if (blocks[b].cubes[z] == 0) continue;
     vertices.set_slice(z);
     for_each_bit(blocks[b].cubes[z], [&](int bit) {
       const SurfaceCase& surface = table[case_of(inside, z, bit)];
-      for (std::size_t i = 0; i < surface.n_triangles; ++i) {
-        const std::uint8_t* const edges = surface.triangles.data() + 3 * i;
+      for (std::size_t i = 0; i < surface.n_faces; ++i) {
+        const std::uint8_t* const edges = surface.faces.data() + 3 * i;
         triangles[t++] = {vertices.on(bit, edges[0]), vertices.on(bit, edges[1]),
                           vertices.on(bit, edges[2])};
       }
@@ -334,11 +334,10 @@ ExtractedSurface extract(const BlockGrid& grid, std::size_t n_own,
     write_vertices(grid, b, blocks[b], places.vertices[b], result);
   });
   values_are_done();
-  const std::size_t n_triangles = places.triangles.back();
-  resize_large(result.mesh.triangles, n_triangles, room_for_copies(n_triangles), context);
-  for_blocks(n_cut, &BlockSurface::n_triangles, [&](std::size_t b) {
-    write_triangles(grid, blocks, places, b, result.mesh.triangles);
-  });
+  const std::size_t n_faces = places.faces.back();
+  resize_large(result.mesh.faces, n_faces, room_for_copies(n_faces), context);
+  for_blocks(n_cut, &BlockSurface::n_faces,
+             [&](std::size_t b) { write_triangles(grid, blocks, places, b, result.mesh.faces); });
   result.first_vertex = std::move(places.vertices);
   return result;
 }

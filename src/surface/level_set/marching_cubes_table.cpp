@@ -82,7 +82,7 @@ class LoopTriangulation {
     const int k = best_[i][j];
     append(i, k, result);
     append(k, j, result);
-    std::uint8_t* corners = result.triangles.data() + std::size_t{3} * result.n_triangles++;
+    std::uint8_t* corners = result.faces.data() + std::size_t{3} * result.n_faces++;
     for (const int corner : {i, k, j}) *corners++ = static_cast<std::uint8_t>(loop_[corner]);
   }
 
@@ -129,7 +129,7 @@ std::array<SurfaceCase, 256> make_table() {
         next[e] = -1;
         e = following;
       }
-      if (!loop.empty() && !append_loop(loop, table[inside])) table[inside].n_triangles = 0;
+      if (!loop.empty() && !append_loop(loop, table[inside])) table[inside].n_faces = 0;
     }
   }
   return table;

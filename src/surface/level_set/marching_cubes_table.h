@@ -14,8 +14,8 @@ inline constexpr std::array<std::uint8_t, 12> kEdgeCorner = {0, 2, 4, 6, 0, 1, 4
 // At most 12 edges are crossed; a loop of n edges has n - 2 triangles, so 10 suffice.
 struct SurfaceCase {
   std::uint8_t n_edges = 0;  // number of crossed edges
-  std::uint8_t n_triangles = 0;
-  std::array<std::uint8_t, 30> triangles = {};  // edges, counter-clockwise from outside
+  std::uint8_t n_faces = 0;
+  std::array<std::uint8_t, 30> faces = {};  // edges, counter-clockwise from outside
 };
 
 // Returns the table, made once by these rules (method 7.9):

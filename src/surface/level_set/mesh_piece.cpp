@@ -37,13 +37,13 @@ MeshPiece piece_around(const Mesh& mesh, const std::vector<std::uint32_t>& cente
     place[v] = static_cast<std::uint32_t>(piece.mesh.vertices.size());
     piece.mesh.vertices.push_back(mesh.vertices[v]);
   }
-  piece.triangles = indices_where(mesh.triangles.size(), context, [&](std::uint32_t t) {
-    const Triangle& c = mesh.triangles[t];
+  piece.faces = indices_where(mesh.faces.size(), context, [&](std::uint32_t t) {
+    const Triangle& c = mesh.faces[t];
     return place[c[0]] != kOutside && place[c[1]] != kOutside && place[c[2]] != kOutside;
   });
-  for (const std::uint32_t t : piece.triangles) {
-    const Triangle& c = mesh.triangles[t];
-    piece.mesh.triangles.push_back({place[c[0]], place[c[1]], place[c[2]]});
+  for (const std::uint32_t t : piece.faces) {
+    const Triangle& c = mesh.faces[t];
+    piece.mesh.faces.push_back({place[c[0]], place[c[1]], place[c[2]]});
   }
   return piece;
 }

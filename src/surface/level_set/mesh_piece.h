@@ -14,8 +14,8 @@
 namespace rholm {
 
 struct MeshPiece {
-  Mesh mesh;                                       // a mesh without attributes
-  std::vector<std::uint32_t> vertices, triangles;  // indices in the whole mesh, ascending
+  Mesh mesh;                                   // a mesh without attributes
+  std::vector<std::uint32_t> vertices, faces;  // indices in the whole mesh, ascending
 };
 
 // Decides which positions piece_around() includes.

@@ -28,12 +28,12 @@ std::vector<std::uint32_t> sharp_vertices(const Mesh& mesh, const NormalAttribut
   // The chord of a turn up to pi is at least this part of the turn: 1 - pi^2 / 24.
   constexpr double kChord = 0.58;
   const double slow = kChord * 2 * std::numbers::pi / length;
-  const std::size_t n = mesh.triangles.size();
+  const std::size_t n = mesh.faces.size();
   std::vector<std::vector<std::uint32_t>> found((n + kChunk - 1) / kChunk);
   parallel_for(n, kChunk, context, {}, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t>& sharp = found[begin / kChunk];
     for (std::size_t t = begin; t < end; ++t) {
-      const Triangle& corners = mesh.triangles[t];
+      const Triangle& corners = mesh.faces[t];
       const Vec3 own[3] = {normals[corners[0]], normals[corners[1]], normals[corners[2]]};
       // In nearly all triangles the normals turn less than the shortest edge allows.
       const double most = std::max(

@@ -51,7 +51,7 @@ std::vector<double> smoothed(const Mesh& mesh, std::span<const double> support,
   for (int round = 0; round < rounds; ++round) {
     std::fill(sums.begin(), sums.end(), 0.0);
     std::fill(weights.begin(), weights.end(), 0.0);
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.faces) {
       const Vec3& a = mesh.vertices[t[0]];
       const double area = norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a));
       const double mean = (values[t[0]] + values[t[1]] + values[t[2]]) / 3;
@@ -71,7 +71,7 @@ std::vector<double> smoothed(const Mesh& mesh, std::span<const double> support,
 // Returns the cut edges, sorted; cut i becomes vertex i after the vertices that stay.
 std::vector<std::uint64_t> find_cuts(const Mesh& mesh, const std::vector<double>& support) {
   std::vector<std::uint64_t> cuts;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k];
       const std::uint32_t b = t[(k + 1) % 3];
@@ -97,9 +97,9 @@ class Trimmer {
 
   Mesh run() {
     number_vertices();
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      cut(mesh_.triangles[t]);
-      of_.resize(result_.triangles.size(), t);
+    for (std::uint32_t t = 0; t < mesh_.faces.size(); ++t) {
+      cut(mesh_.faces[t]);
+      of_.resize(result_.faces.size(), t);
     }
     result_.vertices.reserve(sources_.size());
     for (const Source& s : sources_) {
@@ -125,7 +125,7 @@ class Trimmer {
     for (std::uint32_t v = 0; v < n_old_; ++v) old.push_back(sources_[v].from);
     return old;
   }
-  std::vector<std::uint32_t>& triangles() { return of_; }
+  std::vector<std::uint32_t>& faces() { return of_; }
 
   // Returns the edges along the cut, by vertices of the result.
   const std::vector<std::array<std::uint32_t, 2>>& border() const { return border_; }
@@ -135,7 +135,7 @@ class Trimmer {
 
   void number_vertices() {
     std::vector<char> used(mesh_.vertices.size(), 0);
-    for (const Triangle& t : mesh_.triangles) {
+    for (const Triangle& t : mesh_.faces) {
       for (const std::uint32_t v : t) used[v] = 1;
     }
     renumbered_.resize(mesh_.vertices.size());
@@ -162,7 +162,7 @@ class Trimmer {
     const int n = stays(t[0]) + stays(t[1]) + stays(t[2]);
     if (n == 0) return;
     if (n == 3) {
-      result_.triangles.push_back({renumbered_[t[0]], renumbered_[t[1]], renumbered_[t[2]]});
+      result_.faces.push_back({renumbered_[t[0]], renumbered_[t[1]], renumbered_[t[2]]});
       return;
     }
     // Corner a is alone on its side; b and c follow it.
@@ -175,7 +175,7 @@ class Trimmer {
     const std::uint32_t ca = cut_vertex(c, a);
     border_.push_back({ab, ca});
     if (n == 1) {
-      result_.triangles.push_back({renumbered_[a], ab, ca});
+      result_.faces.push_back({renumbered_[a], ab, ca});
     } else {
       push_quad(ab, renumbered_[b], renumbered_[c], ca);
     }
@@ -189,11 +189,11 @@ class Trimmer {
   // Adds two triangles along the shorter diagonal.
   void push_quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
     if (norm(place(a) - place(c)) <= norm(place(b) - place(d))) {
-      result_.triangles.push_back({a, b, c});
-      result_.triangles.push_back({a, c, d});
+      result_.faces.push_back({a, b, c});
+      result_.faces.push_back({a, c, d});
     } else {
-      result_.triangles.push_back({a, b, d});
-      result_.triangles.push_back({b, c, d});
+      result_.faces.push_back({a, b, d});
+      result_.faces.push_back({b, c, d});
     }
   }
 
@@ -211,7 +211,7 @@ class Trimmer {
 // Neighbours along the border, and triangles, of a cut vertex.
 struct BorderVertex {
   std::vector<std::uint32_t> neighbours;
-  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> faces;
 };
 using BorderVertices = std::map<std::uint32_t, BorderVertex>;
 
@@ -224,9 +224,9 @@ BorderVertices find_border(const Mesh& mesh,
   }
   if (border.empty()) return border;
   const std::uint32_t first = border.begin()->first;  // cut vertices come last
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const std::uint32_t v : mesh.triangles[t]) {
-      if (v >= first) border[v].triangles.push_back(t);
+  for (std::uint32_t t = 0; t < mesh.faces.size(); ++t) {
+    for (const std::uint32_t v : mesh.faces[t]) {
+      if (v >= first) border[v].faces.push_back(t);
     }
   }
   return border;
@@ -235,16 +235,16 @@ BorderVertices find_border(const Mesh& mesh,
 // Moves a vertex unless a triangle would turn over, or lose too much of its area.
 void move_vertex(Mesh& mesh, std::uint32_t vertex, const BorderVertex& around, const Vec3& to) {
   const auto twice_area = [&](std::uint32_t t) {
-    const Triangle& c = mesh.triangles[t];
+    const Triangle& c = mesh.faces[t];
     const Vec3& a = mesh.vertices[c[0]];
     return cross(mesh.vertices[c[1]] - a, mesh.vertices[c[2]] - a);
   };
   std::vector<Vec3> before;
-  before.reserve(around.triangles.size());
-  for (const std::uint32_t t : around.triangles) before.push_back(twice_area(t));
+  before.reserve(around.faces.size());
+  for (const std::uint32_t t : around.faces) before.push_back(twice_area(t));
   const Vec3 from = std::exchange(mesh.vertices[vertex], to);
   for (std::size_t i = 0; i < before.size(); ++i) {
-    const Vec3 after = twice_area(around.triangles[i]);
+    const Vec3 after = twice_area(around.faces[i]);
     if (dot(after, before[i]) < kLeastShrink * dot(before[i], before[i])) {
       mesh.vertices[vertex] = from;
       return;
@@ -280,8 +280,8 @@ TrimmedPart trim_part(const Mesh& mesh, std::span<const double> support,
                       const std::vector<std::uint8_t>& fixed, int smoothing) {
   check(mesh, support);
   Trimmer trimmer(mesh, smoothed(mesh, support, fixed, smoothing));
-  TrimmedPart result{.mesh = trimmer.run(), .vertices = trimmer.vertices(), .triangles = {}};
-  result.triangles = std::move(trimmer.triangles());
+  TrimmedPart result{.mesh = trimmer.run(), .vertices = trimmer.vertices(), .faces = {}};
+  result.faces = std::move(trimmer.faces());
   smooth_border(result.mesh, trimmer.border());
   return result;
 }

@@ -20,8 +20,8 @@ Mesh trim(const Mesh& mesh, std::span<const double> support, int smoothing = 2);
 // Remainder of a part of a mesh.
 struct TrimmedPart {
   Mesh mesh;
-  std::vector<std::uint32_t> vertices;   // source vertices of the first ones; others are new
-  std::vector<std::uint32_t> triangles;  // source triangle of each triangle
+  std::vector<std::uint32_t> vertices;  // source vertices of the first ones; others are new
+  std::vector<std::uint32_t> faces;     // source triangle of each triangle
 };
 // Acts as trim() on a part of a mesh. `fixed` flags the vertices
 // whose support stays unchanged, because other parts share them.

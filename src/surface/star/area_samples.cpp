@@ -23,9 +23,9 @@ Vec3 point_of_triangle(const Mesh& mesh, const Triangle& t, double u, double v) 
 
 std::vector<double> AreaSum::add(const Mesh& part) {
   std::vector<double> sums;
-  sums.reserve(part.triangles.size());
+  sums.reserve(part.faces.size());
   CancelPoll poll;
-  for (const Triangle& t : part.triangles) {
+  for (const Triangle& t : part.faces) {
     poll();
     const FaceNormal face = face_normal(scaled_corners(part, t, scale_));
     if (!face.degenerate) sum_.add(norm(face.twice_area));
@@ -35,18 +35,18 @@ std::vector<double> AreaSum::add(const Mesh& part) {
   return sums;
 }
 
-void check_area(double area, std::size_t n_triangles) {
+void check_area(double area, std::size_t n_faces) {
   if (area > 0) return;
   throw Error(ErrorCode::kInvalidInput,
-              "a surface of area 0 (" + std::to_string(n_triangles) +
-                  " triangles) cannot be sampled; give a mesh with a triangle of positive area");
+              "a surface of area 0 (" + std::to_string(n_faces) +
+                  " faces) cannot be sampled; give a mesh with a face of positive area");
 }
 
 AreaSamples AreaSampling::draw(const Mesh& part, std::span<const double> sums, std::size_t first,
                                std::size_t count) const {
   AreaSamples samples;
   samples.points.reserve(count);
-  samples.triangles.reserve(count);
+  samples.faces.reserve(count);
   const double share = twice_area / static_cast<double>(n);
   // The first triangle whose sum exceeds the target has positive area. Rounding may
   // lift the last target to the total; it then belongs to the last triangle with area.
@@ -59,9 +59,9 @@ AreaSamples AreaSampling::draw(const Mesh& part, std::span<const double> sums, s
     while (triangle != last && *triangle <= target) ++triangle;
     if (triangle == sums.end()) break;
     const auto t = static_cast<std::size_t>(triangle - sums.begin());
-    samples.triangles.push_back(static_cast<std::uint32_t>(t));
-    samples.points.push_back(point_of_triangle(
-        part, part.triangles[t], random_uniform(seed, 3 * k + 1), random_uniform(seed, 3 * k + 2)));
+    samples.faces.push_back(static_cast<std::uint32_t>(t));
+    samples.points.push_back(point_of_triangle(part, part.faces[t], random_uniform(seed, 3 * k + 1),
+                                               random_uniform(seed, 3 * k + 2)));
   }
   return samples;
 }
@@ -69,7 +69,7 @@ AreaSamples AreaSampling::draw(const Mesh& part, std::span<const double> sums, s
 AreaSamples sample_by_area(const Mesh& mesh, std::size_t n, std::uint64_t seed) {
   AreaSum sum(unit_frame(bounds(mesh.vertices)).scale);
   const std::vector<double> sums = sum.add(mesh);
-  check_area(sum.value(), mesh.triangles.size());
+  check_area(sum.value(), mesh.faces.size());
   return AreaSampling{sum.value(), n, seed}.draw(mesh, sums, 0, n);
 }
 

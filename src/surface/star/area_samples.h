@@ -27,11 +27,11 @@ class AreaSum {
 };
 
 // Throws InvalidInput if `area` is not positive.
-void check_area(double area, std::size_t n_triangles);
+void check_area(double area, std::size_t n_faces);
 
 struct AreaSamples {
   std::vector<Vec3> points;
-  std::vector<std::uint32_t> triangles;  // triangle of each point
+  std::vector<std::uint32_t> faces;  // triangle of each point
 };
 
 // Draws one sample in each of `n` equal shares of the area, in the order of the

@@ -25,7 +25,7 @@ class LastNormal {
   explicit LastNormal(const Mesh& mesh) : mesh_(mesh) {}
   const Vec3& of(std::uint32_t triangle) {
     if (triangle != triangle_) {
-      const FaceNormal face = face_normal(scaled_corners(mesh_, mesh_.triangles[triangle], 1));
+      const FaceNormal face = face_normal(scaled_corners(mesh_, mesh_.faces[triangle], 1));
       normal_ = face.degenerate ? Vec3{} : normalized(face.twice_area);
     }
     triangle_ = triangle;
@@ -109,16 +109,16 @@ std::size_t triangles_of_portion(std::size_t n_vertices, std::size_t memory) {
 }
 
 struct ComparedSurface::Part {
-  explicit Part(MeshPortion portion) : triangles(std::move(portion)) {}
+  explicit Part(MeshPortion portion) : faces(std::move(portion)) {}
 
-  MeshPortion triangles;
+  MeshPortion faces;
   std::vector<double> areas;         // sums of AreaSum, for drawing
   std::optional<TriangleTree> tree;  // tree of these triangles, for measuring
 };
 
 ComparedSurface::ComparedSurface(const Mesh& mesh, double scale) {
-  check_area(mesh.triangles.empty() ? 0 : 1, 0);
-  MeshPortion all{.mesh = {mesh.vertices, mesh.triangles, {}}, .numbers = {}};
+  check_area(mesh.faces.empty() ? 0 : 1, 0);
+  MeshPortion all{.mesh = {mesh.vertices, mesh.faces, {}}, .numbers = {}};
   for (Vec3& vertex : all.mesh.vertices) vertex *= scale;
   bounds_ = rholm::bounds(all.mesh.vertices);
   frame_ = unit_frame(bounds_);
@@ -144,14 +144,14 @@ void ComparedSurface::survey_portions() {
     sum.add(mesh);
   }
   twice_area_ = sum.value();
-  check_area(twice_area_, portions_->n_triangles());
+  check_area(twice_area_, portions_->n_faces());
 }
 
 void ComparedSurface::prepare_to_draw() {
   std::call_once(to_draw_, [&] {
     if (!kept_) return survey_portions();
     AreaSum sum(frame_.scale);
-    kept_->areas = sum.add(kept_->triangles.mesh);
+    kept_->areas = sum.add(kept_->faces.mesh);
     twice_area_ = sum.value();
     check_area(twice_area_, kept_->areas.size());
   });
@@ -159,20 +159,20 @@ void ComparedSurface::prepare_to_draw() {
 
 void ComparedSurface::prepare_to_measure(const Context& context) {
   if (!kept_) return prepare_to_draw();
-  std::call_once(to_measure_, [&] { kept_->tree.emplace(kept_->triangles.mesh, context); });
+  std::call_once(to_measure_, [&] { kept_->tree.emplace(kept_->faces.mesh, context); });
 }
 
 std::shared_ptr<const ComparedSurface::Part> ComparedSurface::part_to_draw(std::size_t p) const {
   if (kept_) return kept_;
   const auto part = std::make_shared<Part>(portions_->load(p));
-  part->areas = AreaSum(sums_[p]).add(part->triangles.mesh);
+  part->areas = AreaSum(sums_[p]).add(part->faces.mesh);
   return part;
 }
 
 std::shared_ptr<const ComparedSurface::Part> ComparedSurface::part_to_search(std::size_t p) const {
   if (kept_) return kept_;
   const auto part = std::make_shared<Part>(portions_->load(p));
-  part->tree.emplace(part->triangles.mesh, frame_, part->triangles.numbers);
+  part->tree.emplace(part->faces.mesh, frame_, part->faces.numbers);
   return part;
 }
 
@@ -184,12 +184,12 @@ SurfaceSamples ComparedSurface::draw(const CompareOptions& options, std::size_t 
   all.normals.reserve(n);
   for (std::size_t p = 0; p < n_parts() && all.points.size() < n; ++p) {
     const std::shared_ptr<const Part> part = part_to_draw(p);
-    const Mesh& mesh = part->triangles.mesh;
+    const Mesh& mesh = part->faces.mesh;
     const std::size_t done = all.points.size();
     const AreaSamples samples = sampling.draw(mesh, part->areas, first + done, n - done);
     all.points.insert(all.points.end(), samples.points.begin(), samples.points.end());
     LastNormal normal(mesh);
-    for (const std::uint32_t t : samples.triangles) all.normals.push_back(normal.of(t));
+    for (const std::uint32_t t : samples.faces) all.normals.push_back(normal.of(t));
   }
   return all;
 }
@@ -208,7 +208,7 @@ void ComparedSurface::measure(const SurfaceSamples& samples, const DistancesOut&
   for (std::size_t p = 0; p < n_parts(); ++p) {
     if (search.concerns(boxes_[p])) {
       const std::shared_ptr<const Part> part = part_to_search(p);
-      search.ask(*part->tree, part->triangles);
+      search.ask(*part->tree, part->faces);
     }
     progress(p + 1);
   }

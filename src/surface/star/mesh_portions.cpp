@@ -61,14 +61,14 @@ VertexRange range_of_vertices(const MeshInPlace& mesh, const Context& context) {
 
 std::uint32_t largest_index(const MeshInPlace& mesh) {
   std::uint32_t largest = 0;
-  for (std::size_t first = 0; first < mesh.mesh.n_triangles; first += kBlock) {
+  for (std::size_t first = 0; first < mesh.mesh.n_faces; first += kBlock) {
     ask_cancel();
-    const std::size_t n = std::min(kBlock, mesh.mesh.n_triangles - first);
+    const std::size_t n = std::min(kBlock, mesh.mesh.n_faces - first);
     for (std::size_t t = first; t < first + n; ++t) {
       const Triangle corners = mesh.mesh.triangle(t);
       largest = std::max({largest, corners[0], corners[1], corners[2]});
     }
-    if (mesh.release_triangles) mesh.release_triangles(first, n);
+    if (mesh.release_faces) mesh.release_faces(first, n);
   }
   return largest;
 }
@@ -77,7 +77,7 @@ std::uint32_t largest_index(const MeshInPlace& mesh) {
 
 Bounds checked_bounds(const MeshInPlace& mesh, const Context& context) {
   const VertexRange range = range_of_vertices(mesh, context);
-  const bool in_range = mesh.mesh.n_triangles == 0 || largest_index(mesh) < mesh.mesh.n_vertices;
+  const bool in_range = mesh.mesh.n_faces == 0 || largest_index(mesh) < mesh.mesh.n_vertices;
   if (!range.finite || !in_range) validate(mesh.mesh);  // throws and names the wrong element
   if (mesh.mesh.n_vertices == 0) return {};
   return {.min = {range.min[0], range.min[1], range.min[2]},
@@ -89,22 +89,22 @@ MeshPortions::MeshPortions(const MeshInPlace& mesh, double scale, std::size_t tr
 
 MeshPortion MeshPortions::load(std::size_t p) const {
   const std::size_t first = p * triangles_;
-  return gather({.first = first}, std::min(triangles_, n_triangles() - first));
+  return gather({.first = first}, std::min(triangles_, n_faces() - first));
 }
 
 MeshPortion MeshPortions::scouts() const {
   const std::size_t most = std::min(triangles_, kMostScouts);
-  const std::size_t step = (n_triangles() + most - 1) / most;
-  return gather({.first = 0, .step = step}, (n_triangles() + step - 1) / step);
+  const std::size_t step = (n_faces() + most - 1) / most;
+  return gather({.first = 0, .step = step}, (n_faces() + step - 1) / step);
 }
 
 MeshPortion MeshPortions::gather(const PortionNumbers& numbers, std::size_t n) const {
   MeshPortion portion{.mesh = {}, .numbers = numbers};
   CancelPoll poll;
-  std::vector<Triangle>& triangles = portion.mesh.triangles;
+  std::vector<Triangle>& triangles = portion.mesh.faces;
   triangles.reserve(n);
   std::uint32_t low = UINT32_MAX, high = 0;
-  RowsUsed used_triangles(mesh_.release_triangles);
+  RowsUsed used_triangles(mesh_.release_faces);
   for (std::size_t k = 0; k < n; ++k) {
     poll();
     const std::size_t number = numbers.first + k * numbers.step;

@@ -26,8 +26,8 @@ class MeshPortions {
   // with coordinates times `scale`. Keeps a reference to the mesh.
   MeshPortions(const MeshInPlace& mesh, double scale, std::size_t triangles);
 
-  std::size_t size() const { return (n_triangles() + triangles_ - 1) / triangles_; }
-  std::size_t n_triangles() const { return mesh_.mesh.n_triangles; }
+  std::size_t size() const { return (n_faces() + triangles_ - 1) / triangles_; }
+  std::size_t n_faces() const { return mesh_.mesh.n_faces; }
   MeshPortion load(std::size_t p) const;
   // Returns triangles from all over the mesh: at most a portion's number, and at most 2^16.
   MeshPortion scouts() const;

@@ -39,7 +39,7 @@ Mesh surface_of_degree(const Expansion& expansion, const Mesh& sphere, int degre
   const ValuesAndGradients f =
       evaluate_with_gradient(expansion.coefficients.resized(degree), sphere.vertices, {}, context);
   Mesh mesh;
-  mesh.triangles = sphere.triangles;
+  mesh.faces = sphere.faces;
   mesh.vertices.reserve(sphere.vertices.size());
   std::vector<Vec3> normals;
   normals.reserve(sphere.vertices.size());
@@ -80,7 +80,7 @@ Mesh synthesize(const Expansion& expansion, const Mesh& sphere, const Context& c
 
 Mesh directions_of(const Mesh& mesh, const Vec3& center) {
   Mesh sphere;
-  sphere.triangles = mesh.triangles;
+  sphere.faces = mesh.faces;
   sphere.vertices.reserve(mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3 x = mesh.vertices[i] - center;

@@ -154,7 +154,7 @@ struct ClosestDistances::Model {
 
   Model(const RadialSurface& s, const Mesh& sphere, const Context& c) : surface(s), context(c) {
     mesh.vertices = surface.points(sphere.vertices);
-    mesh.triangles = sphere.triangles;
+    mesh.faces = sphere.faces;
     tree = std::make_unique<TriangleTree>(mesh);
   }
 
@@ -176,15 +176,15 @@ struct ClosestDistances::Model {
 ClosestDistances::ClosestDistances(const MeshView& mesh, const Vec3& center, std::size_t n_points)
     : n_points_(n_points), pieces_(surface_pieces(mesh, center, kDense * n_points)) {
   shape_.vertices.resize(mesh.n_vertices);
-  shape_.triangles.resize(mesh.n_triangles);
+  shape_.faces.resize(mesh.n_faces);
   CancelPoll poll;
   for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
     poll();
     shape_.vertices[i] = pieces_.scale * (mesh.vertex(i) - center);
   }
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+  for (std::size_t t = 0; t < mesh.n_faces; ++t) {
     poll();
-    shape_.triangles[t] = mesh.triangle(t);
+    shape_.faces[t] = mesh.triangle(t);
   }
   tree_ = std::make_unique<TriangleTree>(shape_);
 }

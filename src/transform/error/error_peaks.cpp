@@ -84,8 +84,8 @@ class FewVertices {
   void visit_faces(const MeshView& mesh, const Context& context, const Visit& visit) const {
     if (vertices_.empty()) return;
     constexpr std::size_t kGrain = 1 << 15;  // chosen: some 50 us
-    std::vector<std::vector<std::size_t>> near((mesh.n_triangles + kGrain - 1) / kGrain);
-    parallel_for(mesh.n_triangles, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::vector<std::size_t>> near((mesh.n_faces + kGrain - 1) / kGrain);
+    parallel_for(mesh.n_faces, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
         const Triangle v = mesh.triangle(t);
         if (marks_[v[0] % kMarks] || marks_[v[1] % kMarks] || marks_[v[2] % kMarks]) {

@@ -184,7 +184,7 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
       if (at >= sum) continue;
       while (at < sum) at = place(++i);
       const std::size_t first = group * FaceSizes::kGroup;
-      groups.push_back({first, std::min(mesh.n_triangles, first + FaceSizes::kGroup), from, sum});
+      groups.push_back({first, std::min(mesh.n_faces, first + FaceSizes::kGroup), from, sum});
     }
     for (const Group& group : groups) {
       for (std::size_t t = group.first; t < group.last; ++t) triangles.push_back(mesh.triangle(t));

@@ -15,8 +15,7 @@ constexpr std::size_t kClosestPoints = 20'000, kFewClosestPoints = 3'000;
 }  // namespace
 
 bool shows_its_edges(const MeshView& mesh, int degree) {
-  const double angle =
-      1.5 * std::sqrt(4 * std::numbers::pi / static_cast<double>(mesh.n_triangles));
+  const double angle = 1.5 * std::sqrt(4 * std::numbers::pi / static_cast<double>(mesh.n_faces));
   constexpr double kCoarse = 6;  // scripts/constants: off by 20 % at 5, by a few % from 10 on
   return degree * angle > kCoarse;
 }
@@ -45,7 +44,7 @@ const ErrorPoints& ErrorSites::all(int degree) {
 
 const ErrorPoints& ErrorSites::over_area() {
   if (!over_area_) {
-    const std::size_t n = std::clamp(kOnFace * mesh_.n_triangles, kFewAreaPoints, kAreaPoints);
+    const std::size_t n = std::clamp(kOnFace * mesh_.n_faces, kFewAreaPoints, kAreaPoints);
     over_area_ = area_points(mesh_, center_, scan(), n, {.threads = threads_});
   }
   return *over_area_;

@@ -110,7 +110,7 @@ void visit_runs(const MeshView& mesh, const Vec3& center, const FaceScan& scan, 
   for (std::size_t run = begin; run < end; ++run) {
     if (degree * std::sqrt(scan.sizes.angles2[run]) <= least) continue;
     const std::size_t first = run * FaceSizes::kRun;
-    for (std::size_t t = first; t < std::min(mesh.n_triangles, first + FaceSizes::kRun); ++t) {
+    for (std::size_t t = first; t < std::min(mesh.n_faces, first + FaceSizes::kRun); ++t) {
       visit(corners_of(mesh, mesh.triangle(t), center, scan.sizes.scale), t);
     }
   }

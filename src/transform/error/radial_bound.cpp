@@ -140,9 +140,9 @@ class Search {
       double highest = 0;
       std::size_t number = 0, open = 0;
     };
-    std::vector<Run> runs((mesh_.n_triangles + kRun - 1) / kRun);
+    std::vector<Run> runs((mesh_.n_faces + kRun - 1) / kRun);
     const auto bounds_of = [&](std::size_t run, std::array<double, kRun>& bounds) {
-      const std::size_t begin = run * kRun, end = std::min(mesh_.n_triangles, begin + kRun);
+      const std::size_t begin = run * kRun, end = std::min(mesh_.n_faces, begin + kRun);
       corner_bounds(mesh_, begin, end, center_, scale_, bend_, bounds.data());
       for (std::size_t i = 0; i < end - begin; ++i) bounds[i] += seen_ + uncertainty_;
       return std::span(bounds).first(end - begin);

@@ -130,7 +130,7 @@ std::vector<double> distances_to_model(const RadialModel& model, const ErrorPoin
 }
 
 bool SampledDistances::suffice(const MeshView& mesh) const {
-  return mesh.n_triangles > kFewFaces && rms_error <= kMostError && std::abs(ratio - 1) <= kFar;
+  return mesh.n_faces > kFewFaces && rms_error <= kMostError && std::abs(ratio - 1) <= kFar;
 }
 
 SampledDistances sampled_distances(const MeshView& mesh, const Vec3& center,

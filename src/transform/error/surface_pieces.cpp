@@ -30,7 +30,7 @@ double solid_angle(const Corners& p) {
 class Pieces {
  public:
   Pieces(const MeshView& mesh, const Vec3& center, std::size_t n)
-      : mesh_(mesh), center_(center), n_(static_cast<double>(n)), all_(mesh.n_triangles <= n) {
+      : mesh_(mesh), center_(center), n_(static_cast<double>(n)), all_(mesh.n_faces <= n) {
     const VertexRange r = vertex_range(mesh, {.threads = 1});
     found_.scale =
         unit_frame({{r.min[0], r.min[1], r.min[2]}, {r.max[0], r.max[1], r.max[2]}}).scale;
@@ -54,7 +54,7 @@ class Pieces {
   template <typename Function>
   void for_each_face(const Function& function) const {
     CancelPoll poll;
-    for (std::size_t t = 0; t < mesh_.n_triangles; ++t) {
+    for (std::size_t t = 0; t < mesh_.n_faces; ++t) {
       poll();
       const Triangle triangle = mesh_.triangle(t);
       Corners p;

@@ -262,7 +262,7 @@ WorstPoints worst_points(const MeshView& mesh, const FaceScan& scan, const Expan
     return point_errors(points, exact, true, context);
   };
   WorstPoints worst;
-  if (mesh.n_vertices + mesh.n_triangles <= kFew) {
+  if (mesh.n_vertices + mesh.n_faces <= kFew) {
     worst.points = extreme_points(mesh, expansion.center, scan, exact.degree);
     worst.errors = measured(worst.points);
     worst.seen = worst.points.size();

@@ -71,7 +71,7 @@ StarGeometry star_geometry(const StarChart& chart) {
   geometry.scale = unit_scale(view_of(chart.mesh), {}, {.threads = 1});
   geometry.vertices.reserve(chart.mesh.vertices.size());
   for (const Vec3& v : chart.mesh.vertices) geometry.vertices.push_back(geometry.scale * v);
-  geometry.faces.resize(chart.mesh.triangles.size());
+  geometry.faces.resize(chart.mesh.faces.size());
   for (std::size_t t = 0; t < geometry.faces.size(); ++t) {
     const std::array<Vec3, 3> p = geometry.corners(t);
     const FaceNormal normal = face_normal(p);

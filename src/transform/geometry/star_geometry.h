@@ -25,7 +25,7 @@ struct StarGeometry {
   std::vector<FaceGeometry> faces;
 
   std::array<Vec3, 3> corners(std::size_t t) const {
-    const Triangle& triangle = chart->mesh.triangles[t];
+    const Triangle& triangle = chart->mesh.faces[t];
     return {vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]};
   }
 };

@@ -17,28 +17,27 @@ constexpr std::size_t kLargeSize = std::size_t{1} << 20, kLargeMesh = std::size_
 
 }  // namespace
 
-std::size_t Division::n(std::size_t p) const { return std::min(size, n_triangles - first(p)); }
+std::size_t Division::n(std::size_t p) const { return std::min(size, n_faces - first(p)); }
 
-Division divide_triangles(std::size_t n_triangles, std::size_t wanted) {
-  const std::size_t blocks = (n_triangles + kTrianglesPerBlock - 1) / kTrianglesPerBlock;
+Division divide_triangles(std::size_t n_faces, std::size_t wanted) {
+  const std::size_t blocks = (n_faces + kTrianglesPerBlock - 1) / kTrianglesPerBlock;
   const std::size_t each = (blocks + wanted - 1) / wanted;
-  return {.n_triangles = n_triangles,
-          .size = each * kTrianglesPerBlock,
-          .count = (blocks + each - 1) / each};
+  return {
+      .n_faces = n_faces, .size = each * kTrianglesPerBlock, .count = (blocks + each - 1) / each};
 }
 
-std::size_t part_count(std::size_t n_triangles, int degree, std::size_t grids) {
-  if (n_triangles <= kLargeMesh) return grids;
+std::size_t part_count(std::size_t n_faces, int degree, std::size_t grids) {
+  if (n_faces <= kLargeMesh) return grids;
   // A grid has some 3 L^2 cells. Each costs a tenth of a face to make and to add.
   const auto degrees = static_cast<std::size_t>(degree);
   const std::size_t size = std::max(kLargeSize, 2 * degrees * degrees);
-  return (n_triangles + size - 1) / size;
+  return (n_faces + size - 1) / size;
 }
 
 IndexRange index_range(const MeshView& mesh, std::size_t first, std::size_t n) {
   using Four [[gnu::vector_size(16)]] = std::uint32_t;
-  const std::size_t stride = mesh.triangle_stride;
-  const std::byte* record = mesh.triangles + first * stride;
+  const std::size_t stride = mesh.face_stride;
+  const std::byte* record = mesh.faces + first * stride;
   Four low = {UINT32_MAX, UINT32_MAX, UINT32_MAX, 0}, high = {};
   std::size_t t = 0;
   // Each record but the last is read with 4 bytes beyond it.
@@ -64,7 +63,7 @@ IndexRange index_range(const MeshView& mesh, std::size_t first, std::size_t n) {
 
 bool parts_overlap(const MeshView& mesh, const Division& division) {
   // If vertices are more than the faces can have, lumps of all vertices are too many.
-  if (mesh.n_vertices > mesh.n_triangles) return false;
+  if (mesh.n_vertices > mesh.n_faces) return false;
   constexpr std::size_t kLooks = 16;  // chosen: some 30 us
   std::size_t covered = 0;
   for (std::size_t p = 0; p < division.count; ++p) {

@@ -11,7 +11,7 @@
 namespace rholm {
 
 struct Division {
-  std::size_t n_triangles = 0;
+  std::size_t n_faces = 0;
   std::size_t size = 0;   // faces of each part but the last, in whole blocks
   std::size_t count = 0;  // number of parts
 
@@ -19,11 +19,11 @@ struct Division {
   std::size_t n(std::size_t p) const;
 };
 // Divides into at most `wanted` parts of the same size.
-Division divide_triangles(std::size_t n_triangles, std::size_t wanted);
+Division divide_triangles(std::size_t n_faces, std::size_t wanted);
 
 // Returns the number of parts for which grids pay. Beyond 2^23 faces, returns the number for which
 // memory does not grow with the mesh.
-std::size_t part_count(std::size_t n_triangles, int degree, std::size_t grids);
+std::size_t part_count(std::size_t n_faces, int degree, std::size_t grids);
 
 // The smallest and the largest index of a vertex; there is none if low > high.
 struct IndexRange {

@@ -35,8 +35,8 @@ namespace {
 
 // A closed mesh has half as many vertices as faces. If the range has at most half as many again,
 // the others in the range cost less than names.
-bool lies_together(const IndexRange& range, std::size_t n_triangles) {
-  return range.size() <= n_triangles / 4 * 3 + 64;
+bool lies_together(const IndexRange& range, std::size_t n_faces) {
+  return range.size() <= n_faces / 4 * 3 + 64;
 }
 
 }  // namespace
@@ -56,8 +56,8 @@ PartMesh::Places PartMesh::places(const IndexRange& range) const {
 
 CornerPlaces PartMesh::corners(const MeshView& mesh, std::size_t first, std::size_t n,
                                BlockPlaces& room) const {
-  const std::size_t stride = mesh.triangle_stride;
-  const std::byte* const record = mesh.triangles + first * stride;
+  const std::size_t stride = mesh.face_stride;
+  const std::byte* const record = mesh.faces + first * stride;
   if (!ranks) return {record, stride, first_vertex};
   HWY_DYNAMIC_DISPATCH(RankCorners)(*ranks, record, stride, n, room);
   return {reinterpret_cast<const std::byte*>(room), 3 * sizeof room[0], 0};
@@ -67,7 +67,7 @@ PartMesh part_mesh(const MeshView& mesh, std::size_t first, std::size_t n, const
                    const std::function<void(std::size_t first, std::size_t n)>& check) {
   PartMesh part;
   part.first_triangle = first;
-  part.n_triangles = n;
+  part.n_faces = n;
   if (lies_together(range, n)) {
     part.first_vertex = range.low;
     part.n_vertices = range.size();
@@ -77,8 +77,8 @@ PartMesh part_mesh(const MeshView& mesh, std::size_t first, std::size_t n, const
   for (std::size_t t = 0; t < n; t += kTrianglesPerBlock) {
     const std::size_t count = std::min(kTrianglesPerBlock, n - t);
     check(first + t, count);
-    const std::byte* record = mesh.triangles + (first + t) * mesh.triangle_stride;
-    for (std::size_t i = 0; i < count; ++i, record += mesh.triangle_stride) {
+    const std::byte* record = mesh.faces + (first + t) * mesh.face_stride;
+    for (std::size_t i = 0; i < count; ++i, record += mesh.face_stride) {
       std::uint32_t corner[3];
       std::memcpy(corner, record, sizeof corner);
       for (std::size_t k = 0; k < 3; ++k) set.add(corner[k]);

@@ -19,8 +19,8 @@ namespace rholm {
 using BlockPlaces = std::uint32_t[3 * kTrianglesPerBlock];
 
 struct PartMesh {
-  std::size_t first_triangle = 0, n_triangles = 0;  // in the mesh
-  std::uint32_t first_vertex = 0;                   // first vertex that the part may have
+  std::size_t first_triangle = 0, n_faces = 0;  // in the mesh
+  std::uint32_t first_vertex = 0;               // first vertex that the part may have
   std::size_t n_vertices = 0;
   // Vertices of the part in the order of the mesh, if they are scattered among others; else empty.
   std::vector<std::uint32_t> names;

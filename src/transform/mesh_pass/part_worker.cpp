@@ -46,7 +46,7 @@ class PartWorker<T>::Triangles {
         lumping2_(std::pow(lumping_error(worker.plan_.divided.degree), 2)) {}
 
   void run(SharedProgress& progress) {
-    const std::size_t first = part_mesh_.first_triangle, n = part_mesh_.n_triangles;
+    const std::size_t first = part_mesh_.first_triangle, n = part_mesh_.n_faces;
     const auto& release = worker_.options_.release;
     part_.block_errors.reserve((n + kBlockSize - 1) / kBlockSize);
     look_at(0);
@@ -77,7 +77,7 @@ class PartWorker<T>::Triangles {
 
   void look_at(std::size_t at) {
     const std::size_t first = part_mesh_.first_triangle + at;
-    const std::size_t n = std::min(kBlockSize, part_mesh_.n_triangles - at);
+    const std::size_t n = std::min(kBlockSize, part_mesh_.n_faces - at);
     if (part_mesh_.names.empty()) check_triangles(worker_.options_, first, n);
     next_->largest = largest_index(mesh_, first, n);
     if (next_->largest >= mesh_.n_vertices) worker_.refuse_mesh();
@@ -180,7 +180,7 @@ MeshPart<T> PartWorker<T>::work(std::size_t p, CommonLumps<Lump>& common, GridSo
   MeshPart<T> part;
   PartMesh mesh;
   mesh.first_triangle = division_.first(p);
-  mesh.n_triangles = division_.n(p);
+  mesh.n_faces = division_.n(p);
   const typename CommonLumps<Lump>::Loan loan(common);
   Triangles(*this, mesh, loan.lumps(), grid, nullptr, part).run(progress);
   grid.flush();

@@ -53,7 +53,7 @@ PassInput pass_input(const MeshView& mesh, const MeshPassOptions& options, const
     input.sample = sample_mesh(input.mesh, options.center, options.degree);
   };
   const auto in_order = [&] { return input.sample.edge_share > 0; };
-  if (in_order() || mesh.n_triangles < kWorthOrdering) return input;
+  if (in_order() || mesh.n_faces < kWorthOrdering) return input;
   if (vertices_in_order(mesh)) order(TriangleKey::kVertex);
   if (!in_order()) order(TriangleKey::kPosition);
   return input;
@@ -75,7 +75,7 @@ double tightened(double error, double modelled, const MeshPlan& plan, double pre
 double measure(const PassInput& input, const MeshPlan& plan, const Context& context, double norm,
                MeshPassResult& result) {
   FastReport& report = result.report;
-  const bool sampled = input.mesh.n_triangles > kMostVerified && result.closed;
+  const bool sampled = input.mesh.n_faces > kMostVerified && result.closed;
   if (!sampled || plan.divided.degree == 0 || !(norm > 0)) {
     return report.error;
   }
@@ -104,8 +104,8 @@ double measure(const PassInput& input, const MeshPlan& plan, const Context& cont
 
 MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
                          const Context& caller) {
-  if (mesh.n_triangles == 0) {
-    throw Error(ErrorCode::kInvalidInput, "the mesh has no triangles");
+  if (mesh.n_faces == 0) {
+    throw Error(ErrorCode::kInvalidInput, "the mesh has no faces");
   }
   StageTimes times;
   PassInput input = pass_input(mesh, options, caller, times);

@@ -93,14 +93,14 @@ void PassSums<T>::set_result(const MeshView& mesh, Coefficients sum, double sour
   const auto root = [](double x) { return std::copysign(std::sqrt(std::abs(x)), x); };
   result.min_d = root(sums.min_d2) * unscale;
   result.min_cos_gamma = root(sums.min_cos2);
-  result.bad_triangles = sums.bad;
+  result.bad_faces = sums.bad;
   FastReport& report = result.report;
   report.nodes = whole_.nodes;
   report.single = sizeof(T) == 4;
   report.width = transform.fourier.layout.width;
   report.oversampling = static_cast<double>(transform.fourier.layout.n_phi) /
                         (2.0 * std::max(plan_.divided.degree, 1));
-  report.lumped_triangles = mesh.n_triangles - sums.nodes;
+  report.lumped_faces = mesh.n_faces - sums.nodes;
   report.vertices = mesh.n_vertices;
   // With Hessians the grids have counted the vertices.
   set_error(mesh, source2 + (plan_.block.hessians ? 0 : lumps2_), hessian2, transform, result);

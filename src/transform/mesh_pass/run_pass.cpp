@@ -47,7 +47,7 @@ class Pass {
         context_(context),
         sums_(plan_),
         transform_(window_plan()),
-        division_(divide_triangles(mesh.n_triangles, wanted_parts())),
+        division_(divide_triangles(mesh.n_faces, wanted_parts())),
         worker_(mesh, options, plan, division_, transform_) {}
 
   Outcome run(MeshPassResult& result) {
@@ -58,7 +58,7 @@ class Pass {
       common_.emplace(mesh_.n_vertices, lumps_per_vertex(plan_.block.hessians));
     }
     {
-      const StageTimer timer(result.times, "triangles");
+      const StageTimer timer(result.times, "faces");
       if (options_.executor != nullptr && division_.count > 1) {
         share_parts();
       } else {
@@ -81,12 +81,12 @@ class Pass {
  private:
   std::size_t estimated_sources() const {
     return mesh_.n_vertices +
-           static_cast<std::size_t>(plan_.nodes * static_cast<double>(mesh_.n_triangles));
+           static_cast<std::size_t>(plan_.nodes * static_cast<double>(mesh_.n_faces));
   }
 
   std::size_t wanted_parts() const {
     if (options_.parts > 0) return options_.parts;
-    return part_count(mesh_.n_triangles, plan_.divided.degree,
+    return part_count(mesh_.n_faces, plan_.divided.degree,
                       grid_count(transform_, estimated_sources()));
   }
 
@@ -123,8 +123,8 @@ class Pass {
   // begin.
   void work_parts() {
     if (!common_) worker_.set_ranges(find_ranges());
-    SharedProgress progress(context_, "triangles", 0, before_spread(),
-                            static_cast<double>(mesh_.n_triangles));
+    SharedProgress progress(context_, "faces", 0, before_spread(),
+                            static_cast<double>(mesh_.n_faces));
     for (std::size_t first = 0; first < division_.count; first += kPartsAtATime) {
       const std::size_t n = std::min(kPartsAtATime, division_.count - first);
       std::vector<MeshPart<T>> parts(n);
@@ -219,8 +219,8 @@ class Pass {
         [&](std::size_t p, const std::string& bytes) { ByteReader(bytes).value(ranges[p]); });
     const std::string input = parts_job(ranges, common_.has_value());
     worker_.set_ranges(std::move(ranges));
-    SharedProgress progress(context_, "triangles", 0, before_spread(),
-                            static_cast<double>(mesh_.n_triangles));
+    SharedProgress progress(context_, "faces", 0, before_spread(),
+                            static_cast<double>(mesh_.n_faces));
     options_.executor->run(
         {.count = division_.count, .job = kPassJob, .input = input},
         [&](std::size_t p, int) { return part_task(worker_, common_.has_value(), p); },

@@ -251,7 +251,7 @@ class Sampler {
                   .center = plan.block.scale * plan.block.center,
                   .scale = plan.block.scale},
         plan_(plan) {
-    const double elements = kElements * static_cast<double>(mesh.n_triangles);
+    const double elements = kElements * static_cast<double>(mesh.n_faces);
     left_ = std::max(kFinerRules * plan.allowed.rules,
                      kFinerRounding * plan.allowed.rounding * plan.block.scale);
     finer_.divided = {
@@ -263,7 +263,7 @@ class Sampler {
   std::size_t group_count(int degree) const {
     const double transforms = 2 * kCoefficientCost * std::pow(degree + 1.0, 2);
     const double pass =
-        (kTriangleCost + kNodeCost * plan_.nodes) * static_cast<double>(vertices_.mesh.n_triangles);
+        (kTriangleCost + kNodeCost * plan_.nodes) * static_cast<double>(vertices_.mesh.n_faces);
     for (const auto& [groups, most] : kGroups) {
       if (static_cast<double>(groups) * transforms < most * pass) return groups;
     }
@@ -304,7 +304,7 @@ class Sampler {
     to.scale = 1 / std::sqrt(chance);
     std::map<std::uint32_t, Lump> lumps;
     NodeWriter nodes({plan_.divided, plan_.face_rounding}, vertices_, to);
-    for (const SampledTriangle& t : run.triangles) {
+    for (const SampledTriangle& t : run.faces) {
       const auto belongs = [&](std::size_t element) {
         return element == 3 ? t.face : t.edges[element];
       };
@@ -316,7 +316,7 @@ class Sampler {
     for (const auto& [vertex, lump] : lumps) to.add(lump.at, lump.source);
     to.scale = -to.scale;
     NodeWriter finer(finer_, vertices_, to);
-    for (const SampledTriangle& t : run.triangles) {
+    for (const SampledTriangle& t : run.faces) {
       finer.add_triangle(t.p, t.vertices, t.edges, t.face);
     }
     finer.flush();
@@ -329,7 +329,7 @@ class Sampler {
     std::map<std::uint32_t, Lump> lumps;
     Divided divided(to);
     NodeWriter nodes({plan_.divided, plan_.face_rounding}, vertices_, divided);
-    for (const SampledTriangle& t : run.triangles) {
+    for (const SampledTriangle& t : run.faces) {
       add_sources(
           t, nodes, to,
           [&](std::size_t element) { return element == 3 ? t.face : t.edges[element]; },

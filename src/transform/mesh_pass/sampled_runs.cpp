@@ -91,8 +91,8 @@ class RunReader {
     for (std::size_t r = 0; r < runs.size(); ++r) {
       ask_cancel();
       runs[r].chance = chosen[r].chance;
-      read_triangles(mesh_, chosen[r].first, chosen[r].n, runs[r].triangles);
-      for (SampledTriangle& triangle : runs[r].triangles) triangle.corners = {};
+      read_triangles(mesh_, chosen[r].first, chosen[r].n, runs[r].faces);
+      for (SampledTriangle& triangle : runs[r].faces) triangle.corners = {};
     }
     find_edges_and_vertices(chosen, runs);
     return runs;
@@ -125,8 +125,8 @@ class RunReader {
     std::vector<HalfEdge> open;
     std::vector<RunVertex> vertices;
     for (std::size_t r = 0; r < runs.size(); ++r) {
-      find_inner_edges(r, runs[r].triangles, open);
-      add_vertices(r, runs[r].triangles, vertices);
+      find_inner_edges(r, runs[r].faces, open);
+      add_vertices(r, runs[r].faces, vertices);
     }
     std::sort(open.begin(), open.end(), [](const HalfEdge& a, const HalfEdge& b) {
       return a.name != b.name ? a.name < b.name : a.run < b.run;
@@ -190,8 +190,8 @@ class RunReader {
 
   // Returns the faces of the mesh that have a marked vertex, in order.
   std::vector<std::size_t> triangles_at(const VertexMarks& marks) const {
-    std::vector<std::vector<std::size_t>> found((mesh_.n_triangles + kScanGrain - 1) / kScanGrain);
-    parallel_for(mesh_.n_triangles, kScanGrain, {.threads = context_.threads}, {},
+    std::vector<std::vector<std::size_t>> found((mesh_.n_faces + kScanGrain - 1) / kScanGrain);
+    parallel_for(mesh_.n_faces, kScanGrain, {.threads = context_.threads}, {},
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t i = begin; i < end; ++i) {
                      const Triangle t = mesh_.triangle(i);
@@ -241,7 +241,7 @@ class RunReader {
           if (!one.own) continue;
           const Chosen& run = chosen[one.run];
           if (is_in(run, number)) {
-            runs[one.run].triangles[number - run.first].corners[i] = true;
+            runs[one.run].faces[number - run.first].corners[i] = true;
           } else {
             around.push_back({one.run, number, 8U << i});
           }
@@ -276,7 +276,7 @@ class RunReader {
       }
     }
     for (std::size_t k = 0; k < open.size(); ++k) {
-      runs[open[k].run].triangles[open[k].triangle].edges[open[k].side] = own[k];
+      runs[open[k].run].faces[open[k].triangle].edges[open[k].side] = own[k];
     }
     for (const Twin& twin : twins) {
       if (own[twin.half_edge]) {
@@ -304,7 +304,7 @@ class RunReader {
       }
       const bool last_of_run = k + 1 == around.size() || around[k + 1].run != one.run;
       if (!last_of_run) continue;
-      add_around(corners, has, runs[one.run].triangles);
+      add_around(corners, has, runs[one.run].faces);
       corners.clear();
       has.clear();
     }
@@ -313,9 +313,9 @@ class RunReader {
   void add_around(const std::vector<Triangle>& corners, const std::vector<unsigned>& has,
                   std::vector<SampledTriangle>& triangles) {
     MeshView gathered = mesh_;
-    gathered.triangles = reinterpret_cast<const std::byte*>(corners.data());
-    gathered.triangle_stride = sizeof(Triangle);
-    gathered.n_triangles = corners.size();
+    gathered.faces = reinterpret_cast<const std::byte*>(corners.data());
+    gathered.face_stride = sizeof(Triangle);
+    gathered.n_faces = corners.size();
     for (std::size_t first = 0; first < corners.size(); first += kTrianglesPerBlock) {
       BlockSums sums = no_triangles();
       const std::size_t n = std::min(kTrianglesPerBlock, corners.size() - first);
@@ -348,7 +348,7 @@ SampledRuns sample_runs(const MeshView& mesh, const MeshPassOptions& options,
   double sum = 0;
   for (const double error : errors) sum += error;
   std::vector<Chosen> chosen;
-  double weighted = 0, roots = 0, before = random_uniform(0x70726f6265, mesh.n_triangles);
+  double weighted = 0, roots = 0, before = random_uniform(0x70726f6265, mesh.n_faces);
   for (std::size_t b = 0; b < errors.size(); ++b) {
     const double part = sum > 0 ? (errors[b] / sum + even) / 2 : even;
     const double chance = share < 1 ? std::min(1.0, count * part) : 1;
@@ -357,7 +357,7 @@ SampledRuns sample_runs(const MeshView& mesh, const MeshPassOptions& options,
     const double after = before + chance;
     if (std::floor(after) > std::floor(before)) {
       const std::size_t first = b * kTrianglesPerBlock;
-      chosen.push_back({first, std::min(kTrianglesPerBlock, mesh.n_triangles - first), chance});
+      chosen.push_back({first, std::min(kTrianglesPerBlock, mesh.n_faces - first), chance});
     }
     before = after;
   }
@@ -366,7 +366,7 @@ SampledRuns sample_runs(const MeshView& mesh, const MeshPassOptions& options,
   sample.common = std::pow(sum > 0 ? std::min(weighted / sum, even_root) : even_root, -2);
   double seen = 0;
   for (const Chosen& run : chosen) seen += static_cast<double>(run.n);
-  sample.share = seen / static_cast<double>(mesh.n_triangles);
+  sample.share = seen / static_cast<double>(mesh.n_faces);
   sample.runs = RunReader(mesh, options, block, context).read(chosen);
   return sample;
 }

@@ -31,7 +31,7 @@ struct SampledTriangle {
 // The faces of a run, then faces around it that have an edge or a vertex of the run.
 struct SampledRun {
   double chance = 1;  // chance of being in the sample
-  std::vector<SampledTriangle> triangles;
+  std::vector<SampledTriangle> faces;
 };
 
 struct SampledRuns {

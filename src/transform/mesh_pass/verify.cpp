@@ -124,7 +124,7 @@ double measure(const MeshPassResult& finer, double precision, MeshPassResult& re
 void read_again(const MeshView& mesh, const MeshPassOptions& options, const Context& context,
                 MeshPassResult& result) {
   const Context silent{.threads = context.threads};
-  const double finer_by = mesh.n_triangles <= kSmall ? kFinerOfSmall : kFiner;
+  const double finer_by = mesh.n_faces <= kSmall ? kFinerOfSmall : kFiner;
   double precision = options.precision, before = 0;
   for (int reading = 1;; ++reading) {
     ask_cancel();
@@ -149,7 +149,7 @@ void read_again(const MeshView& mesh, const MeshPassOptions& options, const Cont
 
 void verify_pass(const MeshView& mesh, const MeshPassOptions& options, const Context& context,
                  MeshPassResult& result) {
-  if (mesh.n_triangles > kMostVerified || options.degree == 0) return;
+  if (mesh.n_faces > kMostVerified || options.degree == 0) return;
   StageTimes times = std::move(result.times);
   timed(times, "verify", [&] { read_again(mesh, options, context, result); });
   result.times = std::move(times);

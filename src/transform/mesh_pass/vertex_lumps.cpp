@@ -93,7 +93,7 @@ HWY_INLINE LumpSums load_any(const MeshView& mesh, const std::uint32_t* numbers,
   constexpr std::size_t kLanes = hn::MaxLanes(D());
   // Vertices are read as corners of "triangles" whose indices follow each other.
   MeshView view = mesh;
-  view.triangle_stride = sizeof(std::uint32_t);
+  view.face_stride = sizeof(std::uint32_t);
   const auto* const at = reinterpret_cast<const std::byte*>(numbers);
   // A row of floats is read with 4 bytes beyond it.
   const std::size_t readable = mesh.n_vertices - (sizeof(Scalar) == sizeof(float));

@@ -23,7 +23,7 @@ void check_planes(const StarGeometry& geometry) {
     const FaceGeometry& face = geometry.faces[t];
     if (!face.degenerate && std::abs(face.d) < kSmallestSlope) {
       throw Error(ErrorCode::kInvalidInput,
-                  "the plane of triangle " + std::to_string(t) +
+                  "the plane of face " + std::to_string(t) +
                       " passes through the centre, where the gauge 1/r is not defined: choose "
                       "another centre, or the method edge");
     }

@@ -275,17 +275,17 @@ HWY_INLINE double PrepareBlock(const MeshView& mesh, const Frame& frame, std::si
     return Vector3{hn::MulAdd(v.x, scale, shift.x), hn::MulAdd(v.y, scale, shift.y),
                    hn::MulAdd(v.z, scale, shift.z)};
   };
-  const std::byte* indices = mesh.triangles + begin * mesh.triangle_stride;
+  const std::byte* indices = mesh.faces + begin * mesh.face_stride;
   poison_all(block);
   std::size_t at = 0;
   if (whole) {
-    for (; at + lanes <= n; at += lanes, indices += lanes * mesh.triangle_stride) {
+    for (; at + lanes <= n; at += lanes, indices += lanes * mesh.face_stride) {
       Prepare(d, local(LoadWhole(d, mesh, indices, T())),
               local(LoadWhole(d, mesh, indices + 4, T())),
               local(LoadWhole(d, mesh, indices + 8, T())), at, block, extents);
     }
   }
-  for (; at < n; at += lanes, indices += lanes * mesh.triangle_stride) {
+  for (; at < n; at += lanes, indices += lanes * mesh.face_stride) {
     const std::size_t few = HWY_MIN(lanes, n - at);
     Prepare(d, local(LoadFew<T>(d, mesh, indices, few)),
             local(LoadFew<T>(d, mesh, indices + 4, few)),
@@ -398,7 +398,7 @@ struct NormsJob {
   Vec3 center;
   double scale = 1;
   bool with_sizes = false;
-  std::size_t triangles = 0;  // number of faces in a part
+  std::size_t faces = 0;  // number of faces in a part
 
   Frame frame() const { return {.shift = -scale * center, .scale = scale}; }
 };
@@ -410,10 +410,10 @@ NormSums sums_of(const MeshView& mesh, const Frame& frame, std::size_t begin, st
   return {sums[0].value(), sums[1].value(), sums[2].value()};
 }
 
-void make_room(std::size_t n_triangles, double scale, FaceSizes& sizes) {
+void make_room(std::size_t n_faces, double scale, FaceSizes& sizes) {
   sizes.scale = scale;
-  sizes.area_bits.resize((n_triangles + FaceSizes::kGroup - 1) / FaceSizes::kGroup);
-  sizes.angles2.resize((n_triangles + kBlock - 1) / kBlock);
+  sizes.area_bits.resize((n_faces + FaceSizes::kGroup - 1) / FaceSizes::kGroup);
+  sizes.angles2.resize((n_faces + kBlock - 1) / kBlock);
   sizes.flat.resize(sizes.angles2.size());
 }
 
@@ -425,22 +425,22 @@ ExactNorms norms_of(const std::vector<NormSums>& parts, double scale) {
           .volume = sums[2].value() / 6 / (scale * scale * scale)};
 }
 
-std::size_t triangles_of_part(std::size_t n_triangles) {
-  const std::size_t grains = n_triangles / kGrain / kParts;
+std::size_t triangles_of_part(std::size_t n_faces) {
+  const std::size_t grains = n_faces / kGrain / kParts;
   return kGrain * std::clamp(grains, kLeastGrains, kMostGrains);
 }
 
 // Takes the faces of a part as a mesh, and returns its sums and sizes as bytes.
 std::string work(const MeshView& mesh, const NormsJob& job, std::size_t part) {
   MeshView some = mesh;
-  some.triangles += part * job.triangles * mesh.triangle_stride;
-  some.n_triangles = std::min(job.triangles, mesh.n_triangles - part * job.triangles);
+  some.faces += part * job.faces * mesh.face_stride;
+  some.n_faces = std::min(job.faces, mesh.n_faces - part * job.faces);
   FaceSizes sizes;
-  if (job.with_sizes) make_room(some.n_triangles, job.scale, sizes);
+  if (job.with_sizes) make_room(some.n_faces, job.scale, sizes);
   std::vector<NormSums> grains;
-  for (std::size_t at = 0; at < some.n_triangles; at += kGrain) {
+  for (std::size_t at = 0; at < some.n_faces; at += kGrain) {
     ask_cancel();
-    grains.push_back(sums_of(some, job.frame(), at, std::min(some.n_triangles, at + kGrain),
+    grains.push_back(sums_of(some, job.frame(), at, std::min(some.n_faces, at + kGrain),
                              job.with_sizes ? &sizes : nullptr));
   }
   ByteWriter writer;
@@ -480,13 +480,13 @@ void take(std::size_t first, const std::string& bytes, std::vector<NormSums>& gr
 ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context,
                        FaceSizes* sizes, Executor* executor) {
   const double scale = unit_scale(mesh, center, context);
-  if (sizes != nullptr) make_room(mesh.n_triangles, scale, *sizes);
+  if (sizes != nullptr) make_room(mesh.n_faces, scale, *sizes);
   const NormsJob job = {.center = center,
                         .scale = scale,
                         .with_sizes = sizes != nullptr,
-                        .triangles = triangles_of_part(mesh.n_triangles)};
-  const std::size_t parts = (mesh.n_triangles + job.triangles - 1) / job.triangles;
-  std::vector<NormSums> grains((mesh.n_triangles + kGrain - 1) / kGrain);
+                        .faces = triangles_of_part(mesh.n_faces)};
+  const std::size_t parts = (mesh.n_faces + job.faces - 1) / job.faces;
+  std::vector<NormSums> grains((mesh.n_faces + kGrain - 1) / kGrain);
   ByteWriter writer;
   writer.value(job);
   SharedProgress progress(context, "norms", 0, 1, static_cast<double>(parts));
@@ -496,7 +496,7 @@ ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& 
           {.count = parts, .job = kNormsJob, .input = writer.take()},
           [&](std::size_t part, int) { return work(mesh, job, part); },
           [&](std::size_t part, const std::string& bytes) {
-            take(part * job.triangles, bytes, grains, sizes);
+            take(part * job.faces, bytes, grains, sizes);
             progress.add(1);
           });
   return norms_of(grains, scale);

@@ -113,8 +113,8 @@ double tail_strength(const MeshView& mesh, const Vec3& center, const Context& co
     CompensatedSum sum;
     std::vector<HalfEdge> rest;
   };
-  std::vector<Part> parts((mesh.n_triangles + kGrain - 1) / kGrain);
-  parallel_for(mesh.n_triangles, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+  std::vector<Part> parts((mesh.n_faces + kGrain - 1) / kGrain);
+  parallel_for(mesh.n_faces, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     Part& part = parts[begin / kGrain];
     WaitingEdges waiting;
     const auto join = [&](double one, double other) {

@@ -79,7 +79,7 @@ ErrorStrengths vertex_error_strengths(const MeshView& mesh, const Vec3& center) 
   std::vector<VertexSums> sums(mesh.n_vertices);
   const auto local = [&](std::uint32_t i) { return scale * (mesh.vertex(i) - center); };
   CancelPoll poll;
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+  for (std::size_t t = 0; t < mesh.n_faces; ++t) {
     poll();
     const Triangle v = mesh.triangle(t);
     add_triangle({local(v[0]), local(v[1]), local(v[2])},

@@ -139,7 +139,7 @@ class Search {
   }
 
   void measure(ErrorPoints* worst) {
-    const bool predict = problem_.mesh.n_triangles <= kMostPredicted;
+    const bool predict = problem_.mesh.n_faces <= kMostPredicted;
     const double precision = known_error(result_.transform);
     expansion().errors = truncation_errors(
         expansion(), {.precision = precision, .predict = predict}, sites_, context_, worst);

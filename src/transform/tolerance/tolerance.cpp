@@ -28,10 +28,10 @@ void require_one_sheet(const StarReport& star) {
               "a tolerance needs a surface that every direction meets once: give a degree");
 }
 
-int first_degree(std::size_t n_triangles, const Tolerance& tolerance) {
+int first_degree(std::size_t n_faces, const Tolerance& tolerance) {
   // The edges' angle times this degree is about 0.6: most faces are lumped (performance.md). It is
   // within 12 and 96 (chosen: lower degrees are no cheaper, higher ones seldom needed).
-  const double degree = 0.15 * std::sqrt(static_cast<double>(n_triangles));
+  const double degree = 0.15 * std::sqrt(static_cast<double>(n_faces));
   return std::min(static_cast<int>(std::clamp(degree, 12.0, 96.0)), tolerance.max_degree);
 }
 
@@ -74,7 +74,7 @@ Precisions precisions_for(const ToleranceProblem& problem, const Tolerance& tole
 }
 
 TransformTarget first_pilot(const ToleranceProblem& problem, const Tolerance& tolerance) {
-  return {.degree = first_degree(problem.mesh.n_triangles, tolerance),
+  return {.degree = first_degree(problem.mesh.n_faces, tolerance),
           .precision = precisions_for(problem, tolerance).pilot};
 }
 

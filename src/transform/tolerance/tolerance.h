@@ -42,7 +42,7 @@ void check(const Tolerance& tolerance);
 void require_one_sheet(const StarReport& star);
 
 // Returns the first degree to try: coefficients are as cheap as the pass over the faces.
-int first_degree(std::size_t n_triangles, const Tolerance& tolerance);
+int first_degree(std::size_t n_faces, const Tolerance& tolerance);
 
 // Returns the tolerance in the mesh's unit. `mean` is the mean radius.
 double absolute_tolerance(const ToleranceProblem& problem, const Tolerance& tolerance, double mean);

@@ -183,8 +183,8 @@ TEST(cosine_center, is_not_beaten_by_an_exhaustive_search) {
 double slope_by_pieces(const Mesh& mesh, const Vec3& center) {
   constexpr int kPieces = 12;  // per edge
   double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Triangle& corners = mesh.triangles[t];
+  for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
+    const Triangle& corners = mesh.faces[t];
     const Vec3 a = mesh.vertices[corners[0]], b = mesh.vertices[corners[1]];
     const Vec3 c = mesh.vertices[corners[2]];
     const Vec3 normal = cross(b - a, c - a);
@@ -247,11 +247,11 @@ TEST(slope_center, does_not_depend_on_the_order_of_faces_and_corners) {
     EXPECT_GT(norm(in_order.center - center_of(mesh, CenterKind::kKernel).center), 1e-3);
     for (const std::uint64_t seed : {1, 2, 3}) {
       Mesh other = mesh;
-      for (std::size_t i = other.triangles.size() - 1; i > 0; --i) {
-        std::swap(other.triangles[i], other.triangles[random_bits(seed, i) % (i + 1)]);
+      for (std::size_t i = other.faces.size() - 1; i > 0; --i) {
+        std::swap(other.faces[i], other.faces[random_bits(seed, i) % (i + 1)]);
       }
-      for (std::size_t i = 0; i < other.triangles.size(); i += 2) {
-        Triangle& t = other.triangles[i];
+      for (std::size_t i = 0; i < other.faces.size(); i += 2) {
+        Triangle& t = other.faces[i];
         t = {t[1], t[2], t[0]};
       }
       expect_near(center_of(other, CenterKind::kSlope).center, in_order.center, 1e-8);

@@ -53,10 +53,9 @@ Mesh rough_sphere(int subdivisions, double noise) {
 }
 
 Mesh shuffled(Mesh mesh) {
-  for (std::size_t i = mesh.triangles.size() - 1; i > 0; --i) {
+  for (std::size_t i = mesh.faces.size() - 1; i > 0; --i) {
     const double u = random_uniform(5, i);
-    std::swap(mesh.triangles[i],
-              mesh.triangles[static_cast<std::size_t>(u * static_cast<double>(i + 1))]);
+    std::swap(mesh.faces[i], mesh.faces[static_cast<std::size_t>(u * static_cast<double>(i + 1))]);
   }
   return mesh;
 }
@@ -69,14 +68,14 @@ Mesh cut_sphere(int subdivisions) {
   for (const Vec3& v : {Vec3{-0.4, 0, 0}, {-0.4, 0.01, 0}, {-0.4, 0, 0.01}}) {
     mesh.vertices.push_back(v);
   }
-  mesh.triangles.insert(mesh.triangles.begin() + 7, {first, first + 1, first + 2});
+  mesh.faces.insert(mesh.faces.begin() + 7, {first, first + 1, first + 2});
   return mesh;
 }
 
 // Solves the linear program with all faces at once.
 double best_distance(const LocalView& view) {
   LinearProgram program(1.0625, 4);
-  for (std::size_t t = 0; t < view.mesh.n_triangles; ++t) {
+  for (std::size_t t = 0; t < view.mesh.n_faces; ++t) {
     const FacePlane face = view.plane(t);
     if (face.exists()) program.add({.a = face.normal, .lift = 1, .bound = face.most_distance({})});
   }
@@ -86,7 +85,7 @@ double best_distance(const LocalView& view) {
 
 double smallest_distance(const LocalView& view, const Vec3& center) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t t = 0; t < view.mesh.n_triangles; ++t) {
+  for (std::size_t t = 0; t < view.mesh.n_faces; ++t) {
     const FacePlane face = view.plane(t);
     if (face.exists()) smallest = std::min(smallest, face.distance(center));
   }
@@ -152,8 +151,8 @@ TEST(chebyshev_center, passes_over_faces_without_area) {
   Mesh mesh = bumpy_sphere(5, 0.3);
   const double best = chebyshev_center(local(view_of(mesh)), kOneThread).value;
   for (std::uint32_t i = 0; i < 5000; ++i) {
-    mesh.triangles.push_back({i, i, i + 1});
-    mesh.triangles.push_back({i, i, i});
+    mesh.faces.push_back({i, i, i + 1});
+    mesh.faces.push_back({i, i, i});
   }
   for (const Mesh& other : {mesh, shuffled(mesh)}) {
     EXPECT_NEAR(chebyshev_center(local(view_of(other)), kOneThread).value, best, 1e-12);
@@ -165,7 +164,7 @@ template <class T>
 void expect_scan_complete(const Mesh& mesh, const Vec3& center, const ScanLimits& limits) {
   const PackedMesh bytes = packed<T>(mesh, sizeof(T) == 4 ? 0 : 3);
   const LocalView view = local(bytes.view);
-  const std::size_t begin = 3, end = view.mesh.n_triangles - 5;
+  const std::size_t begin = 3, end = view.mesh.n_faces - 5;
   std::set<std::size_t> visited;
   scan_below(view, begin, end, center, limits, [&](std::size_t t) {
     EXPECT_TRUE(visited.empty() || t > *visited.rbegin());
@@ -292,14 +291,14 @@ TEST(sum_rises, tells_planes_that_are_too_near_and_visits_large_faces) {
     const double scale = view.frame.scale;
     SlopeLine line = {.middle = {-0.7 * scale, 0, 0}, .way = {scale, 0, 0}, .least = 0.1 * scale};
     const auto near = [&](const Places& places) {
-      return sum_rises(view, 0, view.mesh.n_triangles, line, places, kMostPlaces, visit).too_near;
+      return sum_rises(view, 0, view.mesh.n_faces, line, places, kMostPlaces, visit).too_near;
     };
     EXPECT_FALSE(near({0, 0.05, 0.1, 0.19}));
     EXPECT_TRUE(near({0, 0.05, 0.1, 0.21}));
     EXPECT_TRUE(near({0.21, 0.1, 0.05, 0}));
     visited.clear();
     line.middle.x = -0.405 * scale;  // at this distance the face is large
-    sum_rises(view, 0, view.mesh.n_triangles, line, {0}, 1, visit);
+    sum_rises(view, 0, view.mesh.n_faces, line, {0}, 1, visit);
     EXPECT_EQ(visited, (std::vector<std::size_t>{7}));
   });
 }
@@ -309,7 +308,7 @@ TEST(volume_centroid, is_that_of_sums_one_after_the_other) {
   for (std::uint64_t gap = 1; gap <= 33;
        ++gap) {  // any number of faces; the sum is defined for open meshes too
     Mesh some = mesh;
-    some.triangles.resize(mesh.triangles.size() - gap);
+    some.faces.resize(mesh.faces.size() - gap);
     const PackedMesh floats = packed<float>(some), doubles = packed<double>(some, 5);
     for_each_target([&] {
       for (const MeshView& view : {floats.view, doubles.view}) {
@@ -330,13 +329,13 @@ TEST(scan_lines, finds_the_two_faces_on_every_line) {
       for (std::uint64_t i = 0; i < 50; ++i) {
         const Vec3 center{0.1, 0, 0};
         std::set<std::size_t> crossed, along;
-        for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+        for (std::size_t t = 0; t < mesh.n_faces; ++t) {
           const auto corners = corners_from(view, t, view.frame.to_shape(center));
           for (const int side : {1, -1}) {
             if (cone_contains(corners, side * random_direction(1, i)) != 0) crossed.insert(t);
           }
         }
-        scan_lines(view, 0, mesh.n_triangles, {0.1, 0, 0}, random_direction(1, i),
+        scan_lines(view, 0, mesh.n_faces, {0.1, 0, 0}, random_direction(1, i),
                    [&](std::size_t t) { along.insert(t); });
         EXPECT_EQ(along, crossed);
         EXPECT_EQ(along.size(), 2u);
@@ -360,9 +359,9 @@ TEST(views, with_bad_indices_or_coordinates_are_refused_wherever_they_stand) {
   const double inf = std::numeric_limits<double>::infinity();
   for (const std::size_t place : {0, 1, 700, 5000, 5118, 5119}) {
     Mesh bad = mesh;
-    bad.triangles[place][place % 3] = static_cast<std::uint32_t>(mesh.vertices.size());
+    bad.faces[place][place % 3] = static_cast<std::uint32_t>(mesh.vertices.size());
     expect_refused(packed<float>(bad).view, "names vertex 2562");
-    bad.triangles[place][place % 3] = ~std::uint32_t{0};
+    bad.faces[place][place % 3] = ~std::uint32_t{0};
     expect_refused(packed<double>(bad).view, "names vertex -1");
   }
   for (const std::size_t place : {0, 1, 15, 16, 2000, 2560, 2561}) {
@@ -402,7 +401,7 @@ TEST(check_star, of_a_view_is_that_of_every_face) {
   for (const Vec3& center : {Vec3{0.1, 0.2, 0.3}, Vec3{0, 0, 1}, Vec3{5, 0, 0}}) {
     double min_d = 4e9, min_cosine = 1;
     std::size_t bad = 0;
-    for (std::size_t t = 0; t < view.mesh.n_triangles; ++t) {
+    for (std::size_t t = 0; t < view.mesh.n_faces; ++t) {
       const FacePlane face = view.plane(t);
       const double d = face.distance(view.frame.to_local(center));
       min_d = std::min(min_d, d / view.frame.scale);
@@ -416,7 +415,7 @@ TEST(check_star, of_a_view_is_that_of_every_face) {
       const StarReport report = check_star(bytes.view, center, 0, kOneThread);
       EXPECT_NEAR(report.min_d, min_d, 1e-14);
       EXPECT_NEAR(report.min_cos_gamma, min_cosine, 1e-13);
-      EXPECT_EQ(report.bad_triangles, bad);
+      EXPECT_EQ(report.bad_faces, bad);
       EXPECT_EQ(report.star_shaped, bad == 0);
     });
   }

@@ -20,7 +20,7 @@ namespace {
 // Counts the triangles that the half line meets, testing each triangle separately.
 int meetings(const Mesh& mesh, const Vec3& center, const Vec3& direction) {
   int count = 0;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const Vec3 a = mesh.vertices[t[0]] - center, b = mesh.vertices[t[1]] - center;
     const Vec3 c = mesh.vertices[t[2]] - center;
     const double det = dot(a, cross(b, c));
@@ -34,15 +34,15 @@ int meetings(const Mesh& mesh, const Vec3& center, const Vec3& direction) {
 Mesh together(Mesh a, const Mesh& b) {
   const auto offset = static_cast<std::uint32_t>(a.vertices.size());
   a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (const Triangle& t : b.triangles) {
-    a.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  for (const Triangle& t : b.faces) {
+    a.faces.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
   }
   return a;
 }
 
 // Returns all faces of a mesh, which include the faces with low planes.
 std::vector<std::uint32_t> all_faces(const Mesh& mesh) {
-  std::vector<std::uint32_t> all(mesh.triangles.size());
+  std::vector<std::uint32_t> all(mesh.faces.size());
   std::iota(all.begin(), all.end(), 0U);
   return all;
 }
@@ -69,7 +69,7 @@ TEST(count_meetings, are_those_of_each_triangle) {
       ASSERT_TRUE(counts.has_value());
       for (std::size_t i = 0; i < n; ++i) {
         ASSERT_EQ((*counts)[i], meetings(mesh, center, lattice_direction(i, n)))
-            << mesh.triangles.size() << ' ' << center.x << ' ' << i;
+            << mesh.faces.size() << ' ' << center.x << ' ' << i;
       }
     }
   }

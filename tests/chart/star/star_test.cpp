@@ -25,7 +25,7 @@ TEST(check_star, of_a_cube_from_its_middle) {
   const StarReport report = check_star(box({2, 2, 2}, 3), {0, 0, 0}, 5000, kOneThread);
   EXPECT_EQ(report.min_d, 1);
   EXPECT_NEAR(report.min_cos_gamma, 1 / std::sqrt(3), 1e-15);
-  EXPECT_EQ(report.bad_triangles, 0u);
+  EXPECT_EQ(report.bad_faces, 0u);
   EXPECT_TRUE(report.star_shaped);
   EXPECT_EQ(report.rays, 5000);
   EXPECT_EQ(report.once_share, 1);
@@ -33,10 +33,10 @@ TEST(check_star, of_a_cube_from_its_middle) {
 
 TEST(check_star, a_centre_on_a_face_an_edge_or_a_corner_is_not_inside) {
   const Mesh mesh = box({2, 2, 2}, 1);
-  EXPECT_EQ(check_star(mesh, {1, 0.1, 0.2}, 0).bad_triangles, 2u);
-  EXPECT_EQ(check_star(mesh, {1, 1, 0.2}, 0).bad_triangles, 4u);
+  EXPECT_EQ(check_star(mesh, {1, 0.1, 0.2}, 0).bad_faces, 2u);
+  EXPECT_EQ(check_star(mesh, {1, 1, 0.2}, 0).bad_faces, 4u);
   const StarReport corner = check_star(mesh, {1, 1, 1}, 0);
-  EXPECT_EQ(corner.bad_triangles, 6u);
+  EXPECT_EQ(corner.bad_faces, 6u);
   EXPECT_EQ(corner.min_d, 0);
   EXPECT_EQ(corner.min_cos_gamma, 0);
   EXPECT_FALSE(corner.star_shaped);
@@ -44,7 +44,7 @@ TEST(check_star, a_centre_on_a_face_an_edge_or_a_corner_is_not_inside) {
 
 TEST(check_star, outside_a_cube_one_face_turns_its_back) {
   const StarReport report = check_star(box({2, 2, 2}, 1), {3, 0, 0}, 1000);
-  EXPECT_EQ(report.bad_triangles, 2u);
+  EXPECT_EQ(report.bad_faces, 2u);
   EXPECT_EQ(report.min_d, -2);
   // The nearest corner of that face is at sqrt(4 + 1 + 1).
   EXPECT_NEAR(report.min_cos_gamma, -2 / std::sqrt(6), 1e-15);
@@ -86,7 +86,7 @@ TEST(check_star, refuses_a_centre_that_is_no_point_near_the_shape) {
 TEST(check_star, nested_spheres_are_not_one_star) {
   const Mesh mesh = joined(icosphere(2), moved(icosphere(2), {.scale = 0.5, .shift = {}}));
   const StarReport report = check_star(mesh, {0, 0, 0}, 1000);
-  EXPECT_EQ(report.bad_triangles, 0u);
+  EXPECT_EQ(report.bad_faces, 0u);
   EXPECT_FALSE(report.star_shaped);
   EXPECT_EQ(report.multiple_share, 1);
 }
@@ -96,7 +96,7 @@ TEST(find_center, without_a_kernel_falls_back_to_the_centre_that_sees_more_once)
       find_center(torus(2, 0.5, 40, 20), {.kind = CenterKind::kAuto, .point = {}, .rays = 2000});
   EXPECT_FALSE(report.star_shaped);
   EXPECT_TRUE(report.center_fell_back);
-  EXPECT_GT(report.bad_triangles, 0u);
+  EXPECT_GT(report.bad_faces, 0u);
   const StarReport cosine =
       find_center(torus(2, 0.5, 40, 20), {.kind = CenterKind::kCosine, .point = {}, .rays = 2000});
   EXPECT_EQ(cosine.center, report.center);
@@ -105,7 +105,7 @@ TEST(find_center, without_a_kernel_falls_back_to_the_centre_that_sees_more_once)
 
 TEST(find_center, refuses_meshes_without_a_surface) {
   const Mesh flat{.vertices = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}},
-                  .triangles = {{0, 1, 2}, {2, 1, 0}},
+                  .faces = {{0, 1, 2}, {2, 1, 0}},
                   .attributes = {}};
   EXPECT_THROW(find_center(flat, {}), Error);
   EXPECT_THROW(find_center(Mesh{}, {}), Error);
@@ -116,7 +116,7 @@ TEST(find_center, refuses_meshes_without_a_surface) {
 
 TEST(find_center, of_one_triangle_is_finite) {
   const Mesh one{
-      .vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}, .attributes = {}};
+      .vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .faces = {{0, 1, 2}}, .attributes = {}};
   for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kSlope, CenterKind::kCosine}) {
     const StarReport report = find_center(one, {.kind = kind, .point = {}, .rays = 100});
     EXPECT_TRUE(is_finite(report.center));
@@ -136,7 +136,7 @@ TEST(make_star_chart, moves_the_centre_to_the_origin_and_drops_attributes) {
   EXPECT_TRUE(chart.report.star_shaped);
   EXPECT_EQ(chart.report.once_share, 1);
   EXPECT_EQ(chart.edges.size(), 6u);
-  EXPECT_EQ(chart.mesh.triangles, mesh.triangles);
+  EXPECT_EQ(chart.mesh.faces, mesh.faces);
   EXPECT_TRUE(chart.mesh.attributes.empty());
   for (int i = 0; i < 4; ++i) {
     EXPECT_EQ(chart.mesh.vertices[i], mesh.vertices[i] - chart.report.center);
@@ -149,15 +149,15 @@ TEST(make_star_chart, passes_over_triangles_without_area) {
   const Edge edge = pair_edges(mesh).front();
   const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.push_back(0.5 * (mesh.vertices[edge.a] + mesh.vertices[edge.b]));
-  Triangle& left = mesh.triangles[edge.left];
+  Triangle& left = mesh.faces[edge.left];
   Triangle second = left;
   for (int k = 0; k < 3; ++k) {
     if (left[k] == edge.b) left[k] = middle;
     if (second[k] == edge.a) second[k] = middle;
   }
-  mesh.triangles.push_back(second);
-  mesh.triangles.push_back({edge.a, edge.b, middle});
-  ASSERT_EQ(inspect(mesh).degenerate_triangles, 1u);
+  mesh.faces.push_back(second);
+  mesh.faces.push_back({edge.a, edge.b, middle});
+  ASSERT_EQ(inspect(mesh).degenerate_faces, 1u);
   const StarChart chart = make_star_chart(mesh);
   EXPECT_NEAR(chart.report.min_d, 1, 1e-11);
   EXPECT_TRUE(chart.report.star_shaped);
@@ -198,7 +198,7 @@ TEST(make_star_chart, says_when_there_are_several_components) {
 
 TEST(make_star_chart, refuses_open_inward_and_misoriented_meshes) {
   Mesh open = icosphere(1);
-  open.triangles.pop_back();
+  open.faces.pop_back();
   expect_words(refusal(open, ErrorCode::kInvalidInput), {"3 boundary edges", "rholm repair"});
   Mesh inward = icosphere(1);
   flip(inward);
@@ -207,7 +207,7 @@ TEST(make_star_chart, refuses_open_inward_and_misoriented_meshes) {
   signed_sum.allow_signed = true;
   expect_words(refusal(inward, ErrorCode::kInvalidInput, signed_sum), {"inside out"});
   Mesh turned = icosphere(1);
-  std::swap(turned.triangles[0][0], turned.triangles[0][1]);
+  std::swap(turned.faces[0][0], turned.faces[0][1]);
   expect_words(refusal(turned, ErrorCode::kInvalidInput), {"opposite orientation"});
   refusal(Mesh{}, ErrorCode::kInvalidInput);
 }
@@ -218,7 +218,7 @@ TEST(make_star_chart, accepts_the_alternating_sum_when_asked) {
   options.center.rays = 1000;
   const StarChart chart = make_star_chart(torus(2, 1, 30, 20), options);
   EXPECT_FALSE(chart.report.star_shaped);
-  EXPECT_GT(chart.report.bad_triangles, 0u);
+  EXPECT_GT(chart.report.bad_faces, 0u);
   EXPECT_EQ(chart.report.rays, 1000);
   EXPECT_NEAR(chart.report.multiple_share, 0.5, 0.05);
 }

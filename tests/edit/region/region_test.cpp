@@ -58,9 +58,9 @@ TEST(Region, disc_does_not_jump_to_another_sheet) {
   Mesh other = mesh;
   for (Vec3& v : other.vertices) v.z += 0.01;
   for (const Vec3& v : other.vertices) mesh.vertices.push_back(v);
-  for (const Triangle& t : other.triangles) {
+  for (const Triangle& t : other.faces) {
     const auto shift = static_cast<std::uint32_t>(n);
-    mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+    mesh.faces.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
   }
   const std::vector<double> w = weights(mesh, DiscRegion{220, 0.5}, 0.2);
   for (std::size_t i = n; i < w.size(); ++i) EXPECT_EQ(w[i], 0);

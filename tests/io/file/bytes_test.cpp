@@ -82,7 +82,7 @@ TEST(read_bytes, shapes_are_read_from_standard_input) {
   input.finish();
   const ShapeFile file = read_shape("-");
   EXPECT_EQ(file.format, ShapeFormat::kOff);
-  EXPECT_EQ(std::get<Mesh>(file.shape).triangles.size(), 1u);
+  EXPECT_EQ(std::get<Mesh>(file.shape).faces.size(), 1u);
 }
 
 TEST(read_bytes, errors_of_standard_input_name_it) {

@@ -40,7 +40,7 @@ TEST(large_mesh, a_survey_knows_the_measures_of_a_box) {
 TEST(large_mesh, an_open_mesh_is_not_closed) {
   const TemporaryFolder folder;
   Mesh mesh = icosphere(2);
-  mesh.triangles.pop_back();
+  mesh.faces.pop_back();
   write_shape(mesh, folder / "m.ply");
   EXPECT_FALSE(survey_mesh(*map_mesh(folder / "m.ply")).closed);
 }
@@ -248,7 +248,7 @@ TEST(large_mesh, vertices_that_were_released_are_there_again) {
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
       EXPECT_EQ(map->view().vertex(i), mesh.vertices[i]);
     }
-    EXPECT_EQ(map->view().triangle(3), mesh.triangles[3]);
+    EXPECT_EQ(map->view().triangle(3), mesh.faces[3]);
   }
 }
 

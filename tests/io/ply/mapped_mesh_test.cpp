@@ -53,8 +53,8 @@ std::string ply(const Mesh& mesh, const Parts& parts) {
                              "element vertex " + std::to_string(mesh.vertices.size()) + "\n" +
                              parts.before + "property " + type + " x\nproperty " + type +
                              " y\nproperty " + type + " z\n" + parts.after + "element face " +
-                             std::to_string(mesh.triangles.size()) + "\nproperty " + parts.list +
-                             "\n" + parts.more + "end_header\n";
+                             std::to_string(mesh.faces.size()) + "\nproperty " + parts.list + "\n" +
+                             parts.more + "end_header\n";
   BytesBuilder file(kBigEndianHost);
   file.text(with_line_ends(header, parts.line_end));
   for (const Vec3& v : mesh.vertices) {
@@ -63,7 +63,7 @@ std::string ply(const Mesh& mesh, const Parts& parts) {
     if (type == "double") file.put<double>(v.x, v.y, v.z);
     file.text(std::string(lines_of(parts.after), '\7'));
   }
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     file.put<std::uint8_t>(3).put<std::uint32_t>(t[0], t[1], t[2]);
   }
   return file.text(parts.tail).bytes();
@@ -82,12 +82,12 @@ void expect_same_as_read(const std::string& bytes) {
   const Mesh mesh = testing::parse_mesh(bytes);
   const MeshView& view = map->view();
   ASSERT_EQ(view.n_vertices, mesh.vertices.size());
-  ASSERT_EQ(view.n_triangles, mesh.triangles.size());
+  ASSERT_EQ(view.n_faces, mesh.faces.size());
   for (std::size_t i = 0; i < view.n_vertices; ++i) EXPECT_EQ(view.vertex(i), mesh.vertices[i]);
-  for (std::size_t t = 0; t < view.n_triangles; ++t) {
-    EXPECT_EQ(view.triangle(t), mesh.triangles[t]);
+  for (std::size_t t = 0; t < view.n_faces; ++t) {
+    EXPECT_EQ(view.triangle(t), mesh.faces[t]);
   }
-  EXPECT_TRUE(map->counts_are_three(0, view.n_triangles));
+  EXPECT_TRUE(map->counts_are_three(0, view.n_faces));
 }
 
 TEST(map_mesh, shows_what_read_shape_reads) {
@@ -149,7 +149,7 @@ TEST(map_mesh, leaves_truncated_files_and_wild_counts_to_the_reader) {
 
 TEST(mapped_mesh, finds_every_face_that_is_no_triangle) {
   const Mesh mesh = bumpy_sphere(1, 0.3);  // 80 faces
-  const std::size_t n = mesh.triangles.size();
+  const std::size_t n = mesh.faces.size();
   const std::string good = ply(mesh, {});
   for (std::size_t wrong = 0; wrong < n; ++wrong) {
     std::string bad = good;
@@ -169,12 +169,12 @@ TEST(mapped_mesh, comes_back_after_release) {
   const Mesh mesh = bumpy_sphere(5, 0.3);  // 20480 faces, 65 pages
   const std::optional<MappedMesh> map = mapped(ply(mesh, {}));
   ASSERT_TRUE(map);
-  const std::size_t n = mesh.triangles.size();
+  const std::size_t n = mesh.faces.size();
   for (std::size_t first = 0; first < n; first += 1000) {
     map->release(first, std::min<std::size_t>(1000, n - first));
   }
   map->release(0, n);
-  for (std::size_t t = 0; t < n; ++t) ASSERT_EQ(map->view().triangle(t), mesh.triangles[t]);
+  for (std::size_t t = 0; t < n; ++t) ASSERT_EQ(map->view().triangle(t), mesh.faces[t]);
 }
 
 TEST(mapped_mesh, can_be_moved) {

@@ -39,9 +39,7 @@ class PlyPartsTest : public ::testing::Test {
     std::ifstream file(path(name), std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
-  PlyLayout layout() const {
-    return {mesh_.vertices.size(), mesh_.triangles.size(), mesh_.attributes};
-  }
+  PlyLayout layout() const { return {mesh_.vertices.size(), mesh_.faces.size(), mesh_.attributes}; }
   // Returns a part of both lists.
   PlyPart part(std::size_t first_vertex, std::size_t end_vertex, std::size_t first_triangle,
                std::size_t end_triangle) const {
@@ -55,8 +53,8 @@ class PlyPartsTest : public ::testing::Test {
       part.vertices.attributes.push_back(
           {attribute.name, attribute.type, cut(attribute.values, first_vertex, end_vertex)});
     }
-    for (const Triangle& t : cut(mesh_.triangles, first_triangle, end_triangle)) {
-      part.triangles.push_back({t[0], t[1], t[2]});
+    for (const Triangle& t : cut(mesh_.faces, first_triangle, end_triangle)) {
+      part.faces.push_back({t[0], t[1], t[2]});
     }
     return part;
   }
@@ -70,7 +68,7 @@ class PlyPartsTest : public ::testing::Test {
 TEST_F(PlyPartsTest, in_any_order_are_the_bytes_of_the_whole) {
   write_shape(mesh_, path("whole.ply"));
   PlyParts file(path("parts.ply"), layout());
-  const std::size_t n = mesh_.vertices.size(), m = mesh_.triangles.size();
+  const std::size_t n = mesh_.vertices.size(), m = mesh_.faces.size();
   PlyParts::put(file.file(), layout(), part(100, n, 77, m));
   PlyParts::put(file.file(), layout(), part(13, 100, 0, 77));
   PlyParts::put(file.file(), layout(), part(0, 13, m, m));
@@ -83,11 +81,11 @@ TEST_F(PlyPartsTest, one_after_the_other_are_the_same) {
   write_shape(mesh_, path("whole.ply"));
   const PlyLayout places = layout();
   const PlyPart first = part(0, 50, 0, 200),
-                rest = part(50, mesh_.vertices.size(), 200, mesh_.triangles.size());
+                rest = part(50, mesh_.vertices.size(), 200, mesh_.faces.size());
   std::string all = places.header();
   for (const std::vector<std::byte>& some :
-       {ply_vertices(first.vertices), ply_vertices(rest.vertices), ply_triangles(first.triangles),
-        ply_triangles(rest.triangles)}) {
+       {ply_vertices(first.vertices), ply_vertices(rest.vertices), ply_triangles(first.faces),
+        ply_triangles(rest.faces)}) {
     for (const std::byte b : some) all.push_back(static_cast<char>(b));
   }
   EXPECT_TRUE(all == bytes("whole.ply"));

@@ -150,14 +150,14 @@ TEST(ply, blocks_of_rows_join_without_a_seam) {
   }
   const Mesh mesh = parse_mesh(out.bytes());
   ASSERT_EQ(mesh.vertices.size(), n);
-  ASSERT_EQ(mesh.triangles.size(), n - 2);
+  ASSERT_EQ(mesh.faces.size(), n - 2);
   for (std::size_t i = 0; i < n; ++i) {
     const double x = static_cast<double>(i);
     ASSERT_EQ(mesh.vertices[i], (Vec3{x, 2 * x, 3 * x}));
     ASSERT_EQ(mesh.attributes[0].values[i], static_cast<double>(i % 251));
   }
   for (std::uint32_t i = 0; i + 2 < n; ++i) {
-    ASSERT_EQ(mesh.triangles[i], (Triangle{i, i + 1, i + 2}));
+    ASSERT_EQ(mesh.faces[i], (Triangle{i, i + 1, i + 2}));
   }
 }
 
@@ -224,11 +224,11 @@ TEST(ply, polygons_become_triangles_of_the_same_solid) {
       "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n3 1 2 6\n3 1 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
   const Mesh cube = parse_mesh(kAsciiHead + "element vertex 8\n" + kXyz + "element face 7\n" +
                                kFaces + "end_header\n" + cube_rows + quads);
-  EXPECT_EQ(cube.triangles.size(), 12u);
+  EXPECT_EQ(cube.faces.size(), 12u);
   EXPECT_DOUBLE_EQ(volume_of(cube), 1);
   // The order of the faces is kept: two triangles take the place of the quad.
-  EXPECT_EQ(cube.triangles[6], (Triangle{1, 2, 6}));
-  EXPECT_EQ(cube.triangles[7], (Triangle{1, 6, 5}));
+  EXPECT_EQ(cube.faces[6], (Triangle{1, 2, 6}));
+  EXPECT_EQ(cube.faces[7], (Triangle{1, 6, 5}));
 
   BytesBuilder out;
   out.text(binary_head(false) + "element vertex 8\n" + kXyz + "element face 7\n" + kFaces +
@@ -243,7 +243,7 @@ TEST(ply, polygons_become_triangles_of_the_same_solid) {
   out.put<std::uint8_t>(4).put<std::int32_t>(2, 3, 7, 6);
   out.put<std::uint8_t>(4).put<std::int32_t>(3, 0, 4, 7);
   const Mesh binary = parse_mesh(out.bytes());
-  EXPECT_EQ(binary.triangles.size(), 12u);
+  EXPECT_EQ(binary.faces.size(), 12u);
   EXPECT_DOUBLE_EQ(volume_of(binary), 1);
 }
 
@@ -261,16 +261,15 @@ TEST(ply, triangle_strips_alternate_and_restart) {
                            "element tristrips 2\nproperty list int int vertex_indices\n"
                            "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n";
   const Mesh strip = parse_mesh(head + "9 0 1 2 3 4 -1 1 3 2\n6 0 1 2 2 3 4\n");
-  EXPECT_EQ(
-      strip.triangles,
-      (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {1, 3, 2}, {0, 1, 2}, {3, 2, 4}}));
+  EXPECT_EQ(strip.faces, (std::vector<Triangle>{
+                             {0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {1, 3, 2}, {0, 1, 2}, {3, 2, 4}}));
   BytesBuilder out(true);
   out.text(binary_head(true) + "element vertex 4\n" + kXyz +
            "element tristrips 1\nproperty list int int vertex_indices\nend_header\n");
   put_tetrahedron_vertices<float>(out);
   out.put<std::int32_t>(8, 0, 2, 1, 3, -1, 0, 3, 2);
   const Mesh tetrahedron = parse_mesh(out.bytes());
-  EXPECT_EQ(tetrahedron.triangles, (std::vector<Triangle>{{0, 2, 1}, {1, 2, 3}, {0, 3, 2}}));
+  EXPECT_EQ(tetrahedron.faces, (std::vector<Triangle>{{0, 2, 1}, {1, 2, 3}, {0, 3, 2}}));
   expect_refused(head + "3 0 1 5\n0\n", {"names vertex 5", "5 vertices"});
   expect_refused(head + "3 0 1 -2\n0\n", {"names vertex -2"});
 }

@@ -72,7 +72,7 @@ TEST(obj, polygons_are_cut) {
   const Mesh mesh = parse_mesh(
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 2 0\nf 1 2 3 4\n"
       "f 1 2 3 5 4\n");
-  EXPECT_EQ(mesh.triangles.size(), 5u);
+  EXPECT_EQ(mesh.faces.size(), 5u);
   EXPECT_EQ(parse(kVertices + "f 1 2\nf 1 2 3\n").warnings,
             (std::vector<std::string>{"1 face with fewer than 3 corners skipped"}));
 }

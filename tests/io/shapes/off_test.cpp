@@ -96,7 +96,7 @@ TEST(off, without_faces_is_points_with_normals) {
 
 TEST(off, polygons_are_cut_and_short_faces_skipped) {
   const ShapeFile file = parse("OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n2 0 1\n0\n");
-  EXPECT_EQ(std::get<Mesh>(file.shape).triangles.size(), 2u);
+  EXPECT_EQ(std::get<Mesh>(file.shape).faces.size(), 2u);
   EXPECT_EQ(file.warnings, (std::vector<std::string>{"2 faces with fewer than 3 corners skipped"}));
 }
 

@@ -22,7 +22,7 @@ Mesh tetrahedron_with_attributes() {
                    {std::nextafter(1.0, 2.0), 0.1, -0.0},
                    {5e-324, std::numeric_limits<double>::max() / 4, 3},
                    {-1e22, 1e-7, 123456789.123456789}};
-  mesh.triangles = testing::kTetrahedronTriangles;
+  mesh.faces = testing::kTetrahedronTriangles;
   mesh.attributes = {{"red", ScalarType::kUint8, {255, 0, 17, 1}},
                      {"green", ScalarType::kUint8, {0, 128, 3, 255}},
                      {"blue", ScalarType::kUint8, {9, 8, 7, 6}},
@@ -67,7 +67,7 @@ void expect_same_attributes(const std::vector<Attribute>& a, const std::vector<A
 
 void expect_same_mesh(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.vertices, b.vertices);
-  EXPECT_EQ(a.triangles, b.triangles);
+  EXPECT_EQ(a.faces, b.faces);
   expect_same_attributes(a.attributes, b.attributes);
 }
 
@@ -181,7 +181,7 @@ TEST(shape_io, stl_keeps_the_corners_as_floats) {
     ASSERT_EQ(read.vertices.size(), 12u);
     for (std::size_t t = 0; t < 4; ++t) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3& v = mesh.vertices[mesh.triangles[t][k]];
+        const Vec3& v = mesh.vertices[mesh.faces[t][k]];
         const Vec3& r = read.vertices[3 * t + k];
         EXPECT_EQ(static_cast<float>(r.x), static_cast<float>(v.x));
         EXPECT_EQ(static_cast<float>(r.y), static_cast<float>(v.y));
@@ -189,8 +189,8 @@ TEST(shape_io, stl_keeps_the_corners_as_floats) {
       }
     }
     if (ascii) {  // text keeps all digits
-      EXPECT_EQ(read.vertices[0], mesh.vertices[mesh.triangles[0][0]]);
-      EXPECT_EQ(read.vertices[1], mesh.vertices[mesh.triangles[0][1]]);
+      EXPECT_EQ(read.vertices[0], mesh.vertices[mesh.faces[0][0]]);
+      EXPECT_EQ(read.vertices[1], mesh.vertices[mesh.faces[0][1]]);
     }
     // A shape that STL can hold is kept exactly.
     expect_same_mesh(round_trip(read, "a.stl", {.ascii = ascii}), read);
@@ -201,7 +201,7 @@ TEST(shape_io, stl_normals_are_unit_vectors_to_the_outside) {
   const TemporaryFolder folder;
   Mesh mesh;
   mesh.vertices = testing::kTetrahedronVertices;
-  mesh.triangles = testing::kTetrahedronTriangles;
+  mesh.faces = testing::kTetrahedronTriangles;
   write_shape(mesh, folder / "a.stl");
   const std::string bytes = testing::read_all(folder / "a.stl");
   ASSERT_EQ(bytes.size(), 84u + 4 * 50);
@@ -221,7 +221,7 @@ TEST(shape_io, large_shapes_survive_the_blocks_of_readers_and_writers) {
     mesh.vertices.push_back({std::sin(i), i * 0.1, -1.0 / (i + 1)});
     tag.values.push_back(i);
   }
-  for (std::uint32_t i = 0; i + 2 < n; ++i) mesh.triangles.push_back({i, i + 1, i + 2});
+  for (std::uint32_t i = 0; i + 2 < n; ++i) mesh.faces.push_back({i, i + 1, i + 2});
   for (const char* name : {"a.obj", "a.off"}) expect_same_mesh(round_trip(mesh, name), mesh);
   mesh.attributes = {tag};
   expect_same_mesh(round_trip(mesh, "a.ply"), mesh);
@@ -330,7 +330,7 @@ TEST(shape_io, names_of_formats_are_read_back) {
 TEST(shape_io, binary_stl_says_what_single_precision_does) {
   const TemporaryFolder folder;
   Mesh mesh{.vertices = testing::kTetrahedronVertices,
-            .triangles = testing::kTetrahedronTriangles,
+            .faces = testing::kTetrahedronTriangles,
             .attributes = {}};
   for (Vec3& v : mesh.vertices) v = 16.0 * v;
   EXPECT_TRUE(write_shape(mesh, folder / "near.stl").empty());
@@ -345,7 +345,7 @@ TEST(shape_io, binary_stl_says_what_single_precision_does) {
   const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(),
                        {{0, 5155487, 0}, {1, 5155487, 0}, {0.5, 5155487.2, 0}});
-  mesh.triangles.push_back({n, n + 1, n + 2});
+  mesh.faces.push_back({n, n + 1, n + 2});
   const auto lost = write_shape(mesh, folder / "far.stl");
   ASSERT_EQ(lost.size(), 1u);
   EXPECT_NE(lost[0].find("1 of 5 faces"), std::string::npos) << lost[0];
@@ -365,7 +365,7 @@ TEST(shape_io, what_a_format_cannot_hold_is_refused) {
   };
   Mesh mesh = tetrahedron_with_attributes();
   refuse(cloud_with_attributes(), "a.stl", ErrorCode::kUnsupported, "points");
-  refuse(mesh, "a.xyz", ErrorCode::kUnsupported, "triangles");
+  refuse(mesh, "a.xyz", ErrorCode::kUnsupported, "faces");
   refuse(mesh, "a.doc", ErrorCode::kUnsupported, "extension");
   refuse(mesh, "a", ErrorCode::kUnsupported, "extension");
   refuse(mesh, "a.stl", ErrorCode::kInvalidInput, "does not fit the floats");
@@ -376,7 +376,7 @@ TEST(shape_io, what_a_format_cannot_hold_is_refused) {
   mesh.vertices[0].x = NAN;
   refuse(mesh, "a.ply", ErrorCode::kInvalidInput, "vertex 0");
   mesh = tetrahedron_with_attributes();
-  mesh.triangles[0][0] = 4;
+  mesh.faces[0][0] = 4;
   refuse(mesh, "a.ply", ErrorCode::kInvalidInput, "vertex 4");
   EXPECT_EQ(folder.n_files(), 0u);
 }
@@ -414,7 +414,7 @@ TEST(shape_io, progress_of_reading_rises_to_one) {
   const TemporaryFolder folder;
   Mesh mesh;
   mesh.vertices.resize(300000);
-  mesh.triangles.resize(300000);
+  mesh.faces.resize(300000);
   for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) {
     write_shape(mesh, folder / name);
     double last = 0;

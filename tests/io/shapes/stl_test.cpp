@@ -45,9 +45,9 @@ std::string binary_tetrahedron(const std::string& title, std::uint32_t count = 4
 
 void expect_soup_of_tetrahedron(const Mesh& mesh) {
   ASSERT_EQ(mesh.vertices.size(), 12u);
-  ASSERT_EQ(mesh.triangles.size(), 4u);
+  ASSERT_EQ(mesh.faces.size(), 4u);
   for (std::uint32_t i = 0; i < 12; ++i) {
-    EXPECT_EQ(mesh.triangles[i / 3][i % 3], i);
+    EXPECT_EQ(mesh.faces[i / 3][i % 3], i);
     EXPECT_EQ(mesh.vertices[i],
               testing::kTetrahedronVertices[testing::kTetrahedronTriangles[i / 3][i % 3]]);
   }
@@ -83,7 +83,7 @@ TEST(stl, keywords_are_read_in_either_case_and_spacing) {
 
 TEST(stl, several_solids_are_one_mesh) {
   const ShapeFile file = parse(ascii_tetrahedron("a") + "\n" + ascii_tetrahedron("b"));
-  EXPECT_EQ(std::get<Mesh>(file.shape).triangles.size(), 8u);
+  EXPECT_EQ(std::get<Mesh>(file.shape).faces.size(), 8u);
   EXPECT_EQ(file.warnings, (std::vector<std::string>{"2 solids read as one mesh"}));
 }
 
@@ -120,7 +120,7 @@ TEST(stl, bytes_behind_the_facets_are_passed_over_with_a_note) {
   // The warning names whole facets that follow the counted facets.
   const std::string bytes = binary_tetrahedron("x");
   const ShapeFile six = parse(bytes + bytes.substr(84, 100), "a.stl");
-  EXPECT_EQ(std::get<Mesh>(six.shape).triangles.size(), 4u);
+  EXPECT_EQ(std::get<Mesh>(six.shape).faces.size(), 4u);
   EXPECT_NE(six.warnings.at(0).find("2 more, which the count does not name"), std::string::npos);
   const ShapeFile text = parse(ascii_tetrahedron() + "\x1a rest");
   expect_soup_of_tetrahedron(std::get<Mesh>(text.shape));

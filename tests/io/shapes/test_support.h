@@ -60,14 +60,14 @@ inline const std::vector<Triangle> kTetrahedronTriangles = {
 
 inline void expect_tetrahedron(const Mesh& mesh) {
   EXPECT_EQ(mesh.vertices, kTetrahedronVertices);
-  EXPECT_EQ(mesh.triangles, kTetrahedronTriangles);
+  EXPECT_EQ(mesh.faces, kTetrahedronTriangles);
 }
 
 // By the divergence theorem, the volume is a sixth of the sum of triple products. Every missing,
 // doubled or flipped triangle of a cube changes it.
 inline double volume_of(const Mesh& mesh) {
   double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
+  for (const auto& [a, b, c] : mesh.faces) {
     sum += dot(mesh.vertices[a], cross(mesh.vertices[b], mesh.vertices[c])) / 6;
   }
   return sum;

@@ -38,8 +38,8 @@ ErrorCode code_of(const Mesh& mesh, double part_of_diagonal, std::size_t max_num
 Mesh with(Mesh mesh, const Mesh& other) {
   const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const Triangle& t : other.triangles) {
-    mesh.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+  for (const Triangle& t : other.faces) {
+    mesh.faces.push_back({t[0] + n, t[1] + n, t[2] + n});
   }
   return mesh;
 }
@@ -113,15 +113,15 @@ TEST(compress, shapes_too_thin_for_the_grid_are_refused_at_once) {
   EXPECT_EQ(code_of(box({1, 1, 1e-9}, 2), 2e-2), ErrorCode::kUnsupported);
   EXPECT_EQ(code_of(box({1, 1, 1.0 / 95}, 2), 2e-2), ErrorCode::kUnsupported);
   const Mesh flat{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
-                  .triangles = {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}},
+                  .faces = {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}},
                   .attributes = {}};
   EXPECT_EQ(code_of(flat, 1e-2), ErrorCode::kUnsupported);
 }
 
 TEST(compress, triangles_must_be_oriented_alike) {
   Mesh mesh = icosphere(3);
-  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
-    std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
+  for (std::size_t t = 0; t < mesh.faces.size(); t += 3) {
+    std::swap(mesh.faces[t][0], mesh.faces[t][1]);
   }
   EXPECT_EQ(code_of(mesh, 1e-2), ErrorCode::kInvalidInput);
   // Each part is correct by itself, but one part is inside out.
@@ -191,7 +191,7 @@ TEST(compress, levels_have_as_many_faces_as_they_need_nightly) {
     const double lost = lost_at_degree(model.atlas, degree);
     const Mesh level = synthesize(model, {.degree = degree});
     const Mesh every_face = synthesize(model, {.step = model.step, .degree = degree});
-    EXPECT_LT(level.triangles.size(), every_face.triangles.size() / 4) << degree;
+    EXPECT_LT(level.faces.size(), every_face.faces.size() / 4) << degree;
     const Comparison found = compare(every_face, level, {.samples = 20000});
     EXPECT_LT(found.a_to_b.rms, 0.1 * lost) << degree;
     EXPECT_LT(found.b_to_a.rms, 0.1 * lost) << degree;

@@ -53,7 +53,7 @@ TEST(patch_atlas, pictures_of_the_steps_lie_on_the_sphere) {
     const PatchPicture picture = patch_picture(cloud, view, {.min_cosine = 0.6});
     EXPECT_GT(picture.patches, 8U);
     double area = 0;
-    for (const Triangle& t : picture.mesh.triangles) {
+    for (const Triangle& t : picture.mesh.faces) {
       const Vec3 &a = picture.mesh.vertices[t[0]], &b = picture.mesh.vertices[t[1]],
                  &c = picture.mesh.vertices[t[2]];
       const Vec3 twice = cross(b - a, c - a);
@@ -71,7 +71,7 @@ TEST(patch_atlas, pictures_of_the_steps_lie_on_the_sphere) {
     }
     ASSERT_EQ(picture.mesh.attributes.size(), 3U);
     EXPECT_EQ(picture.mesh.attributes[0].values.size(), picture.mesh.vertices.size());
-    EXPECT_EQ(picture.mesh.vertices.size() == 3 * picture.mesh.triangles.size(), apart);
+    EXPECT_EQ(picture.mesh.vertices.size() == 3 * picture.mesh.faces.size(), apart);
     EXPECT_EQ(parse_name<PatchView>(to_string(view)), view);
   }
 }
@@ -82,7 +82,7 @@ TEST(patch_atlas, spheres_are_those_that_fit_best) {
   const Mesh mesh = ellipsoid({3, 2, 1}, 4);
   const PatchPicture points = patch_picture(mesh, PatchView::kPatches);
   const PatchPicture spheres = patch_picture(mesh, PatchView::kSpheres);
-  ASSERT_EQ(points.mesh.triangles, spheres.mesh.triangles);
+  ASSERT_EQ(points.mesh.faces, spheres.mesh.faces);
   double largest = 0;
   for (std::size_t i = 0; i < points.mesh.vertices.size(); ++i) {
     largest = std::max(largest, norm(points.mesh.vertices[i] - spheres.mesh.vertices[i]));

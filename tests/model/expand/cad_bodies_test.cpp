@@ -42,7 +42,7 @@ TEST(CadBodies, are_seen_as_star_shaped_from_the_centre_of_the_exact_body) {
   std::size_t thin = 0;
   for (int i = 0; i < kBodies; i += RHOLM_CAD_STEP) {
     expect_is_seen_from_the_centre_of_the_exact_body(i);
-    thin += inspect(cad_body(i).written).degenerate_triangles;
+    thin += inspect(cad_body(i).written).degenerate_faces;
   }
   EXPECT_GT(thin, 0u);
 }
@@ -59,10 +59,10 @@ void expect_is_repaired(int i, CadRarity rarity) {
   const CadBody body = cad_body(i, rarity);
   SCOPED_TRACE(body.name + " " + std::to_string(i));
   const Repaired repaired = repair(body.written);
-  EXPECT_EQ(repaired.report.after.degenerate_triangles, 0u);
+  EXPECT_EQ(repaired.report.after.degenerate_faces, 0u);
   const Repaired again = repair(repaired.mesh);
   EXPECT_TRUE(again.mesh.vertices == repaired.mesh.vertices);
-  EXPECT_TRUE(again.mesh.triangles == repaired.mesh.triangles);
+  EXPECT_TRUE(again.mesh.faces == repaired.mesh.faces);
   EXPECT_TRUE(repaired.report.after.closed);
   EXPECT_TRUE(repaired.report.after.manifold);
   EXPECT_EQ(repaired.report.closed_holes, 0u);
@@ -119,7 +119,7 @@ TEST(CadBodies, lose_their_thin_faces_when_simplified) {
     SCOPED_TRACE(body.name + " " + std::to_string(i));
     const Simplification simple =
         simplify(body.written, {.max_error = 1e-5 * bounds(body.written.vertices).diagonal()});
-    EXPECT_EQ(inspect(simple.mesh).degenerate_triangles, 0u);
+    EXPECT_EQ(inspect(simple.mesh).degenerate_faces, 0u);
     EXPECT_TRUE(inspect(simple.mesh).closed);
   }
 }

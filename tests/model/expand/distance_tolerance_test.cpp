@@ -38,7 +38,7 @@ Draw draw(std::uint64_t seed) {
 }
 
 bool is_star(const Mesh& mesh) {
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const Vec3& a = mesh.vertices[t[0]];
     const Vec3 normal = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
     if (!(dot(normal, a) > 1e-3 * norm(normal))) return false;

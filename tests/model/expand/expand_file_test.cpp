@@ -68,8 +68,8 @@ TEST(expand_mapped, gives_what_the_same_file_gives_when_it_is_read) {
       ASSERT_TRUE(expanded.has_value());
       expect_equal(*expanded, read(path));
       expect_equal(*expanded, expand_file(path, kOptions));
-      EXPECT_EQ(expanded->faces, mesh.triangles.size());
-      EXPECT_EQ(expanded->edges, mesh.triangles.size() / 2 * 3);
+      EXPECT_EQ(expanded->faces, mesh.faces.size());
+      EXPECT_EQ(expanded->edges, mesh.faces.size() / 2 * 3);
       EXPECT_TRUE(expanded->transform.fast.has_value());
     });
   }
@@ -130,10 +130,10 @@ void expect_refused(const Mesh& mesh, ErrorCode code) {
 
 TEST(expand_mapped, takes_no_mesh_that_is_not_closed_or_not_star_shaped) {
   Mesh open = bumpy_sphere(4);
-  open.triangles.pop_back();
+  open.faces.pop_back();
   expect_refused(open, ErrorCode::kInvalidInput);
   Mesh misoriented = bumpy_sphere(4);
-  std::swap(misoriented.triangles[1000][0], misoriented.triangles[1000][1]);
+  std::swap(misoriented.faces[1000][0], misoriented.faces[1000][1]);
   expect_refused(misoriented, ErrorCode::kInvalidInput);
   expect_refused(torus(1, 0.3, 40, 20), ErrorCode::kNotStarShaped);
   expect_refused(test::joined(icosphere(3), bumpy_sphere(4)), ErrorCode::kNotStarShaped);

@@ -76,8 +76,8 @@ TEST(expand_in_place, leaves_welding_and_other_methods) {
 
 TEST(expand_in_place, has_no_use_for_what_is_no_surface) {
   Mesh none = bumpy_sphere(2), far = none, unnumbered = none, flat = none;
-  none.triangles.clear();
-  far.triangles[7][1] = static_cast<std::uint32_t>(far.vertices.size());
+  none.faces.clear();
+  far.faces[7][1] = static_cast<std::uint32_t>(far.vertices.size());
   unnumbered.vertices[7].y = std::numeric_limits<double>::quiet_NaN();
   for (Vec3& v : flat.vertices) v = {1, 2, 3};
   for (const Mesh& mesh : {none, far, unnumbered, flat}) {
@@ -108,8 +108,8 @@ TEST(expand_in_place, needs_a_point_that_sees_all_faces) {
 
 TEST(expand_in_place, needs_a_closed_surface_that_is_oriented_alike) {
   Mesh open = bumpy_sphere(3), misoriented = open;
-  open.triangles.pop_back();
-  std::swap(misoriented.triangles[5][0], misoriented.triangles[5][1]);
+  open.faces.pop_back();
+  std::swap(misoriented.faces[5][0], misoriented.faces[5][1]);
   EXPECT_EQ(reason_of(open), NotInPlace::kNotClosed);
   EXPECT_EQ(code_of(open), ErrorCode::kInvalidInput);
   EXPECT_EQ(reason_of(misoriented, about({})), NotInPlace::kNotClosed);
@@ -187,13 +187,13 @@ TEST(expand, a_turned_mesh_gives_the_bits_of_one_that_is_outward) {
 TEST(expand, a_welded_mesh_gives_the_bits_of_one_without_seams) {
   const Mesh mesh = test::rotated(bumpy_sphere(3));
   Mesh soup;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const auto first = static_cast<std::uint32_t>(soup.vertices.size());
     for (const std::uint32_t i : t) {
       const auto apart = static_cast<double>(soup.vertices.size() % 5);
       soup.vertices.push_back((1 + 1e-12 * apart) * mesh.vertices[i]);
     }
-    soup.triangles.push_back({first, first + 1, first + 2});
+    soup.faces.push_back({first, first + 1, first + 2});
   }
   constexpr double kWeld = 1e-9;
   for (ExpandOptions options : several_ways()) {
@@ -284,7 +284,7 @@ TEST(expand, refuses_options_out_of_range_before_all_work) {
 // A fault of the mesh in the file is also a fault in memory: the mesh is prepared at once.
 TEST(expand_file, does_not_try_a_second_time_what_the_mesh_cannot) {
   Mesh open = bumpy_sphere(3);
-  open.triangles.pop_back();
+  open.faces.pop_back();
   const testing::TemporaryFolder folder;
   write_shape(open, folder / "m.ply");
   Stages stages;
@@ -296,7 +296,7 @@ TEST(expand_file, does_not_try_a_second_time_what_the_mesh_cannot) {
 TEST(expand_file, asks_the_caller_to_read_only_what_cannot_stay_in_the_file) {
   const testing::TemporaryFolder folder;
   Mesh closed = bumpy_sphere(3), open = closed;
-  open.triangles.pop_back();
+  open.faces.pop_back();
   write_shape(closed, folder / "closed.ply");
   write_shape(open, folder / "open.ply");
   int reads = 0;

@@ -30,10 +30,10 @@ ErrorCode code_of(const Mesh& mesh, const ExpandOptions& options = {}) {
 // Returns triangles with their own vertices, as in an STL file.
 Mesh soup_of(const Mesh& mesh) {
   Mesh soup;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const auto first = static_cast<std::uint32_t>(soup.vertices.size());
     for (const std::uint32_t i : t) soup.vertices.push_back(mesh.vertices[i]);
-    soup.triangles.push_back({first, first + 1, first + 2});
+    soup.faces.push_back({first, first + 1, first + 2});
   }
   return soup;
 }
@@ -44,10 +44,10 @@ TEST(expand, a_soup_of_triangles_gives_the_coefficients_of_the_welded_mesh) {
   for (const Engine engine : {Engine::kFast, Engine::kDirect}) {
     const ExpandOptions options{.degree = 12, .engine = engine, .precision = 1e-13};
     const Expanded whole = expand(mesh, options), soup = expand(soup_of(mesh), options);
-    EXPECT_EQ(soup.edges, 3 * mesh.triangles.size() / 2);
+    EXPECT_EQ(soup.edges, 3 * mesh.faces.size() / 2);
     if (engine == Engine::kDirect) {
       EXPECT_EQ(soup.vertices, mesh.vertices.size());
-      EXPECT_EQ(soup.merged_vertices, 3 * mesh.triangles.size() - mesh.vertices.size());
+      EXPECT_EQ(soup.merged_vertices, 3 * mesh.faces.size() - mesh.vertices.size());
     }
     const auto a = whole.transform.expansion.coefficients.values();
     const auto b = soup.transform.expansion.coefficients.values();
@@ -72,16 +72,16 @@ struct Records {
     for (const Vec3& v : mesh.vertices) {
       vertices.push_back({float(v.x), float(v.y), float(v.z), NAN});
     }
-    for (const Triangle& t : mesh.triangles) faces.push_back({{}, t});
+    for (const Triangle& t : mesh.faces) faces.push_back({{}, t});
   }
   MeshView view() const {
     return {.vertices = reinterpret_cast<const std::byte*>(vertices.data()),
             .n_vertices = vertices.size(),
             .vertex_stride = sizeof(Vertex),
             .coordinate = ScalarType::kFloat32,
-            .triangles = reinterpret_cast<const std::byte*>(faces.data()) + offsetof(Face, corners),
-            .n_triangles = faces.size(),
-            .triangle_stride = sizeof(Face)};
+            .faces = reinterpret_cast<const std::byte*>(faces.data()) + offsetof(Face, corners),
+            .n_faces = faces.size(),
+            .face_stride = sizeof(Face)};
   }
 };
 
@@ -91,7 +91,7 @@ TEST(expand, arrays_of_another_program_give_the_bits_of_the_mesh_they_hold) {
   for (const Mesh& mesh : {bumpy_sphere(2), upside_down}) {
     const Records records(mesh);
     const Mesh same = mesh_of(records.view());
-    EXPECT_EQ(same.triangles, mesh.triangles);
+    EXPECT_EQ(same.faces, mesh.faces);
     EXPECT_EQ(same.vertices[5].x, float(mesh.vertices[5].x));
     const Expanded a = expand(same, {.degree = 12});
     const Expanded b = expand(records.view(), {.degree = 12});
@@ -212,7 +212,7 @@ TEST(expand, surfaces_that_fold_are_the_same_as_by_a_chart) {
                                  slow.transform.expansion.coefficients),
             2e-8);
   EXPECT_FALSE(fast.star.star_shaped);
-  EXPECT_EQ(fast.star.bad_triangles, slow.star.bad_triangles);
+  EXPECT_EQ(fast.star.bad_faces, slow.star.bad_faces);
   EXPECT_EQ(fast.star.multiple_share, slow.star.multiple_share);
   EXPECT_GT(fast.star.multiple_share, 0);
   EXPECT_NEAR(fast.star.min_d, slow.star.min_d, 1e-14);
@@ -236,7 +236,7 @@ TEST(expand, surfaces_without_a_kernel_are_the_same_as_by_a_chart) {
                                    slow.transform.expansion.coefficients),
               2e-8);
     EXPECT_EQ(fast.star.once_share, slow.star.once_share);
-    EXPECT_EQ(fast.star.bad_triangles, slow.star.bad_triangles);
+    EXPECT_EQ(fast.star.bad_faces, slow.star.bad_faces);
     EXPECT_EQ(fast.star.center_fell_back, slow.star.center_fell_back);
     EXPECT_LT(norm(fast.star.center - slow.star.center), 1e-12);
     EXPECT_FALSE(fast.times.contains("topology"));
@@ -259,13 +259,13 @@ TEST(expand, refuses_what_has_no_coefficients_with_a_code_and_words) {
   EXPECT_EQ(code_of({}), ErrorCode::kInvalidInput);
   Mesh one;
   one.vertices = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
-  one.triangles = {{0, 1, 2}};
+  one.faces = {{0, 1, 2}};
   EXPECT_EQ(code_of(one), ErrorCode::kInvalidInput);
   Mesh open = icosphere(2);
-  open.triangles.pop_back();
+  open.faces.pop_back();
   EXPECT_EQ(code_of(open), ErrorCode::kInvalidInput);
   Mesh misoriented = icosphere(2);
-  std::swap(misoriented.triangles[5][0], misoriented.triangles[5][1]);
+  std::swap(misoriented.faces[5][0], misoriented.faces[5][1]);
   EXPECT_EQ(code_of(misoriented), ErrorCode::kInvalidInput);
   Mesh nan = icosphere(1);
   nan.vertices[3].y = std::numeric_limits<double>::quiet_NaN();

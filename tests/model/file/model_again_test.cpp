@@ -88,7 +88,7 @@ AtlasModel through_file(const AtlasModel& model) {
 
 void expect_same(const Mesh& again, const Mesh& made, const std::string& of) {
   EXPECT_TRUE(again.vertices == made.vertices) << of;
-  EXPECT_TRUE(again.triangles == made.triangles) << of;
+  EXPECT_TRUE(again.faces == made.faces) << of;
   for (const char* axis : {"nx", "ny", "nz"}) {
     EXPECT_TRUE(find_attribute(again.attributes, axis)->values ==
                 find_attribute(made.attributes, axis)->values)
@@ -130,7 +130,7 @@ TEST(ModelAgain, keeps_what_the_options_made_of_the_surface) {
       {.noise = 0.01},
       {.blend = CapBlend::kSpline},
       {.simplify = SimplifyOptions{}},
-      {.holes = HolePolicy::kKeep, .simplify = SimplifyOptions{.triangles = 900}},
+      {.holes = HolePolicy::kKeep, .simplify = SimplifyOptions{.faces = 900}},
       {.simplify = SimplifyOptions{.share = 0.3, .max_error = 0.02}}};
   for (std::size_t i = 0; i < std::size(all); ++i) {
     const Reconstruction made = reconstruct(cloud, all[i]);

@@ -28,7 +28,7 @@ Coefficients printed_formula(const Mesh& mesh, int degree) {
   Coefficients sum(degree);
   for (int m = 2; m <= degree; ++m) {
     const LegendreOrder order = legendre_order(m, degree, mu[m]);
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.faces) {
       const Vec3 n = normalized(cross(mesh.vertices[t[1]] - mesh.vertices[t[0]],
                                       mesh.vertices[t[2]] - mesh.vertices[t[0]]));
       for (int i = 0; i < 3; ++i) {

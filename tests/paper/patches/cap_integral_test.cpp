@@ -40,12 +40,12 @@ Mesh cap_mesh(double half_angle, int rings, int n_phi) {
           {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
     }
   }
-  for (std::uint32_t k = 0; k < n; ++k) mesh.triangles.push_back({0, 1 + k, 1 + (k + 1) % n});
+  for (std::uint32_t k = 0; k < n; ++k) mesh.faces.push_back({0, 1 + k, 1 + (k + 1) % n});
   for (std::uint32_t i = 1; i < static_cast<std::uint32_t>(rings); ++i) {
     for (std::uint32_t k = 0; k < n; ++k) {
       const std::uint32_t a = 1 + (i - 1) * n + k, b = 1 + (i - 1) * n + (k + 1) % n;
-      mesh.triangles.push_back({a, a + n, b + n});
-      mesh.triangles.push_back({a, b + n, b});
+      mesh.faces.push_back({a, a + n, b + n});
+      mesh.faces.push_back({a, b + n, b});
     }
   }
   return mesh;
@@ -83,7 +83,7 @@ TEST(CapIntegral, whole_meshes_have_the_coefficients_of_the_edge_transform) {
     Mesh scaled = mesh;
     for (Vec3& v : scaled.vertices) v *= radius;
     CapIntegral made =
-        cap_integral(unit_frame_at({}, radius), {scaled.vertices, mesh.triangles}, {.degree = 40});
+        cap_integral(unit_frame_at({}, radius), {scaled.vertices, mesh.faces}, {.degree = 40});
     EXPECT_NEAR(made.solid_angle, 4 * kPi, 1e-11);
     for (double& value : made.coefficients.values()) value /= radius;
     EXPECT_LT(test::relative_difference(made.coefficients, whole), 1e-9);
@@ -96,7 +96,7 @@ TEST(CapIntegral, patches_in_one_frame_add_up_to_the_whole) {
   for (const double dilation : {1.0, 2.5}) {
     frame.dilation = dilation;
     const CapIntegralOptions options{.degree = 30};
-    const std::span<const Triangle> all = mesh.triangles;
+    const std::span<const Triangle> all = mesh.faces;
     const Coefficients whole = cap_integral(frame, {mesh.vertices, all}, options).coefficients;
     Coefficients sum(30);
     for (const auto& part : {all.first(77), all.subspan(77)}) {
@@ -116,7 +116,7 @@ TEST(CapIntegral, a_patch_of_a_sphere_tends_to_the_indicator_of_its_cap) {
   for (const int n : {32, 64, 128}) {
     const Mesh mesh = cap_mesh(0.6, n / 4, n);
     const CapIntegral made =
-        cap_integral(unit_frame_at({}), {mesh.vertices, mesh.triangles}, {.degree = 24});
+        cap_integral(unit_frame_at({}), {mesh.vertices, mesh.faces}, {.degree = 24});
     const double error = indicator_error(made.coefficients, 0.6);
     EXPECT_LT(error, std::pow(2 * kPi / n, 2));
     if (last > 0) {
@@ -132,7 +132,7 @@ TEST(CapIntegral, on_the_dilated_sphere_it_is_the_indicator_of_the_opened_cap) {
   const CapFrame frame = patch_frame(seen, mesh.vertices, 1.4);
   EXPECT_NEAR(frame.dilation, std::tan(0.7) / std::tan(0.15), 1e-12);
   EXPECT_NEAR(frame.support, 2 * std::sin(0.15), 1e-14);
-  const CapIntegral made = cap_integral(frame, {mesh.vertices, mesh.triangles}, {.degree = 24});
+  const CapIntegral made = cap_integral(frame, {mesh.vertices, mesh.faces}, {.degree = 24});
   EXPECT_LT(indicator_error(made.coefficients, 1.4), std::pow(2 * kPi / 128, 2));
   EXPECT_NEAR(made.solid_angle, 2 * kPi * (1 - std::cos(0.3)), 1e-3);
 }
@@ -150,8 +150,8 @@ TEST(CapIntegral, the_triangulation_of_a_flat_patch_does_not_matter) {
     for (std::uint32_t i = 0; i + 1 < m; ++i) {
       for (std::uint32_t k = 0; k + 1 < m; ++k) {
         const std::uint32_t a = i * m + k;
-        mesh.triangles.push_back({a, a + 1, a + m + 1});
-        mesh.triangles.push_back({a, a + m + 1, a + m});
+        mesh.faces.push_back({a, a + 1, a + m + 1});
+        mesh.faces.push_back({a, a + m + 1, a + m});
       }
     }
     return mesh;
@@ -159,8 +159,8 @@ TEST(CapIntegral, the_triangulation_of_a_flat_patch_does_not_matter) {
   const Mesh coarse = square(1), fine = square(20);
   const CapIntegralOptions options{.degree = kMaxIntegralDegree};
   const CapFrame frame = unit_frame_at({});
-  const CapIntegral a = cap_integral(frame, {coarse.vertices, coarse.triangles}, options);
-  const CapIntegral b = cap_integral(frame, {fine.vertices, fine.triangles}, options);
+  const CapIntegral a = cap_integral(frame, {coarse.vertices, coarse.faces}, options);
+  const CapIntegral b = cap_integral(frame, {fine.vertices, fine.faces}, options);
   EXPECT_LT(test::relative_difference(a.coefficients, b.coefficients), 1e-7);
   EXPECT_NEAR(a.solid_angle, 4 * kPi / 6, 1e-13);  // a face of a cube
 }
@@ -171,16 +171,16 @@ TEST(CapIntegral, the_sphere_as_extension_takes_its_part_off_the_mean) {
   const Mesh mesh = cap_mesh(0.7, 6, 20);
   const CapFrame frame = unit_frame_at({0, 0, -0.4}, 0.5);
   CapIntegralOptions options{.degree = 12};
-  const CapIntegral zero = cap_integral(frame, {mesh.vertices, mesh.triangles}, options);
+  const CapIntegral zero = cap_integral(frame, {mesh.vertices, mesh.faces}, options);
   options.extension = CapExtension::kSphere;
-  const CapIntegral sphere = cap_integral(frame, {mesh.vertices, mesh.triangles}, options);
+  const CapIntegral sphere = cap_integral(frame, {mesh.vertices, mesh.faces}, options);
   const double rest = 0.5 * (4 * kPi - zero.solid_angle) / std::sqrt(4 * kPi);
   EXPECT_NEAR(sphere.coefficients.c(0, 0), zero.coefficients.c(0, 0) + rest, 1e-9);
 }
 
 TEST(CapIntegral, a_patch_of_its_own_sphere_vanishes_on_the_sphere) {
   const Mesh mesh = cap_mesh(0.6, 40, 160);
-  const CapIntegral made = cap_integral(unit_frame_at({}), {mesh.vertices, mesh.triangles},
+  const CapIntegral made = cap_integral(unit_frame_at({}), {mesh.vertices, mesh.faces},
                                         {.degree = 16, .extension = CapExtension::kSphere});
   EXPECT_NEAR(made.coefficients.c(0, 0), std::sqrt(4 * kPi), 1e-3);
   for (int l = 1; l <= 16; ++l) EXPECT_NEAR(made.coefficients.c(l, 0), 0, 1e-3);
@@ -232,7 +232,7 @@ TEST(CapErrors, are_those_of_the_paper) {
 
 TEST(CapIntegral, same_bits_for_one_and_two_threads) {
   const Mesh mesh = bumpy_sphere(4, 0.3);
-  const PatchMesh patch{mesh.vertices, mesh.triangles};
+  const PatchMesh patch{mesh.vertices, mesh.faces};
   const CapFrame frame = unit_frame_at({});
   const auto one = cap_integral(frame, patch, {.degree = 60}, {.threads = 1});
   const auto two = cap_integral(frame, patch, {.degree = 60}, {.threads = 2});

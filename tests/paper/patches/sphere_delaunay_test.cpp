@@ -53,7 +53,7 @@ std::vector<Vec3> octant(std::size_t n) {
 TEST(SphereDelaunay, directions_of_an_icosphere_give_its_triangles) {
   for (const int subdivisions : {0, 1, 3}) {
     const Mesh mesh = icosphere(subdivisions);
-    EXPECT_EQ(sphere_delaunay(mesh.vertices), canonical(mesh.triangles));
+    EXPECT_EQ(sphere_delaunay(mesh.vertices), canonical(mesh.faces));
   }
 }
 

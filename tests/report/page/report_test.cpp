@@ -163,7 +163,7 @@ TEST(report_data, largest_error_of_a_sphere_around_an_octahedron_is_at_the_faces
 
 TEST(report_data, an_open_mesh_has_distances_but_no_radial_errors) {
   Mesh open = icosphere(2);
-  open.triangles.pop_back();
+  open.faces.pop_back();
   const Expansion expansion = expansion_of(icosphere(2), 4);
   const report::Data data =
       report::find_data(expansion, report::shape_figures(open, {}, 0, {}), {});

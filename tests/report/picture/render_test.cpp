@@ -83,7 +83,7 @@ TEST(render, shows_right_as_right_and_up_as_up) {
   Mesh mesh;  // a plate in the plane y = 0 whose upper right quarter is missing
   mesh.vertices = {{-1, 0, -1}, {0, 0, -1}, {1, 0, -1}, {-1, 0, 0},
                    {0, 0, 0},   {1, 0, 0},  {-1, 0, 1}, {0, 0, 1}};
-  mesh.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {3, 4, 7}, {3, 7, 6}};
+  mesh.faces = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {3, 4, 7}, {3, 7, 6}};
   const Image image = render_one(mesh, front());
   EXPECT_EQ(pixel(image, 48 + 18, 40 - 18), kWhite);
   EXPECT_NE(pixel(image, 48 - 18, 40 - 18), kWhite);
@@ -109,7 +109,7 @@ TEST(render, shows_faces_from_behind_in_another_colour) {
 TEST(render, darkens_corners_by_occlusion) {
   Mesh mesh;  // floor z = 0 and wall y = 1, seen from above and the front
   mesh.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {1, 1, 2}, {-1, 1, 2}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {3, 2, 4}, {3, 4, 5}};
+  mesh.faces = {{0, 1, 2}, {0, 2, 3}, {3, 2, 4}, {3, 4, 5}};
   RenderOptions options = front();
   options.view = {0, 1, -1};
   options.occlusion_rays = 8;
@@ -177,7 +177,7 @@ TEST(render, of_a_convex_body_has_no_shadows) {
 TEST(render, of_a_plate_has_the_light_of_its_direction) {
   Mesh plate;
   plate.vertices = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
-  plate.triangles = {{0, 1, 2}, {0, 2, 3}};
+  plate.faces = {{0, 1, 2}, {0, 2, 3}};
   RenderOptions options = front();
   for (const Vec3& from : {Vec3{0, 1, 0}, Vec3{0.5, 1, -0.2}, Vec3{-1, 0.4, 0.7}}) {
     options.view = from;
@@ -228,7 +228,7 @@ TEST(render, sees_shadows_on_what_is_narrower_than_two_pixels) {
   const auto add_plate = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
     const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), {corner, corner + u, corner + u + v, corner + v});
-    mesh.triangles.insert(mesh.triangles.end(), {{n, n + 1, n + 2}, {n, n + 2, n + 3}});
+    mesh.faces.insert(mesh.faces.end(), {{n, n + 1, n + 2}, {n, n + 2, n + 3}});
   };
   for (int k = 0; k < 20; ++k) {
     add_plate({7.1 + 4 * k, k % 2 == 0 ? 0.0 : 8.0, 0}, {0.8, 0, 0}, {0, 0, 40});
@@ -366,11 +366,11 @@ TEST(render, smooth_shading_hides_the_facets) {
 TEST(render, draws_degenerate_shapes) {
   Mesh point, line, plate;
   point.vertices = {{1, 2, 3}};
-  point.triangles = {{0, 0, 0}};
+  point.faces = {{0, 0, 0}};
   line.vertices = {{0, 0, 0}, {1, 0, 0}};
-  line.triangles = {{0, 1, 0}};
+  line.faces = {{0, 1, 0}};
   plate.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  plate.triangles = {{0, 1, 2}};
+  plate.faces = {{0, 1, 2}};
   for (const bool perspective : {false, true}) {
     for (const Mesh& mesh : {point, line, plate}) {
       RenderOptions options = front();  // the plate is seen edge-on

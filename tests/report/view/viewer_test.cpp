@@ -95,7 +95,7 @@ TEST(view_data, holds_the_coefficients_and_the_shape) {
   for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
     EXPECT_EQ(positions[3 * i + 1], static_cast<float>(shape.vertices[i].y));
   }
-  EXPECT_EQ(found.array<std::uint32_t>("triangles", 3)[2], shape.triangles[0][2]);
+  EXPECT_EQ(found.array<std::uint32_t>("triangles", 3)[2], shape.faces[0][2]);
   EXPECT_NE(found.json.find(R"("title":"a \"box\" <&>")"), std::string::npos);
   EXPECT_NE(found.json.find(R"("function":"radius")"), std::string::npos);
 }

@@ -20,7 +20,7 @@ void expect_sound(const Mesh& mesh, std::size_t genus, const char* what) {
   EXPECT_FALSE(shape.inside_out) << what;
   EXPECT_EQ(shape.components, 1u) << what;
   EXPECT_EQ(shape.genus, genus) << what;
-  EXPECT_EQ(shape.degenerate_triangles, 0u) << what;
+  EXPECT_EQ(shape.degenerate_faces, 0u) << what;
   EXPECT_EQ(shape.isolated_vertices, 0u) << what;
 }
 
@@ -40,7 +40,7 @@ TEST(icosphere, has_20_times_4_to_the_n_triangles_and_vertices_on_the_unit_spher
   std::size_t power = 1;
   for (int n = 0; n <= 5; ++n, power *= 4) {
     const Mesh mesh = icosphere(n);
-    EXPECT_EQ(mesh.triangles.size(), 20 * power);
+    EXPECT_EQ(mesh.faces.size(), 20 * power);
     EXPECT_EQ(mesh.vertices.size(), 10 * power + 2);
     // A normalised vector has the length 1 within 2 ulp.
     for (const Vec3& v : mesh.vertices) ASSERT_NEAR(norm(v), 1, 4.5e-16);
@@ -59,7 +59,7 @@ TEST(latitude_longitude_sphere, vertices_run_from_the_north_pole_along_rings_to_
   const int n_theta = 4, n_phi = 6;
   const Mesh mesh = latitude_longitude_sphere(n_theta, n_phi);
   ASSERT_EQ(mesh.vertices.size(), 26u);
-  EXPECT_EQ(mesh.triangles.size(), 48u);  // closed, genus 0: 2 (vertices - 2)
+  EXPECT_EQ(mesh.faces.size(), 48u);  // closed, genus 0: 2 (vertices - 2)
   EXPECT_EQ(mesh.vertices.front(), (Vec3{0, 0, 1}));
   EXPECT_EQ(mesh.vertices.back(), (Vec3{0, 0, -1}));
   for (int i = 0; i < n_theta; ++i) {
@@ -84,7 +84,7 @@ TEST(ellipsoid, has_the_volume_of_the_sphere_times_its_axes) {
 TEST(box, has_the_volume_area_and_counts_of_a_box) {
   for (const int n : {1, 2, 7}) {
     const Mesh mesh = box({1, 2, 3}, n);
-    EXPECT_EQ(mesh.triangles.size(), 12u * n * n);
+    EXPECT_EQ(mesh.faces.size(), 12u * n * n);
     EXPECT_EQ(mesh.vertices.size(), 6u * n * n + 2);
     EXPECT_NEAR(enclosed_volume(mesh), 6, 1e-14);
     EXPECT_NEAR(surface_area(mesh), 22, 1e-13);

@@ -94,10 +94,10 @@ TEST(sample_slices, go_across_the_axis_that_is_given) {
 TEST(sample_slices, do_not_depend_on_how_triangles_share_vertices) {
   const Mesh whole = icosphere(3);
   Mesh soup;
-  for (const Triangle& t : whole.triangles) {
+  for (const Triangle& t : whole.faces) {
     const auto first = static_cast<std::uint32_t>(soup.vertices.size());
     for (const std::uint32_t v : t) soup.vertices.push_back(whole.vertices[v]);
-    soup.triangles.push_back({first, first + 1, first + 2});
+    soup.faces.push_back({first, first + 1, first + 2});
   }
   const SampleOptions options{.points = 500, .pattern = SamplePattern::kSlices};
   const PointCloud a = sample_surface(whole, options), b = sample_surface(soup, options);
@@ -167,7 +167,7 @@ TEST(sample_scans, do_not_see_through_the_surface) {
   const Mesh one = two;
   for (const Vec3& v : one.vertices) two.vertices.push_back(v + Vec3{2.5, 0, 0});
   const auto n = static_cast<std::uint32_t>(one.vertices.size());
-  for (const Triangle& t : one.triangles) two.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+  for (const Triangle& t : one.faces) two.faces.push_back({t[0] + n, t[1] + n, t[2] + n});
   const PointCloud cloud = sample_surface(two, {.points = 4000, .scans = 12, .sensor = true});
   const auto &x = attribute(cloud, "sensor_x").values, &y = attribute(cloud, "sensor_y").values,
              &z = attribute(cloud, "sensor_z").values;
@@ -236,8 +236,7 @@ TEST(sample_pattern, is_the_same_for_any_number_of_threads) {
 }
 
 TEST(sample_pattern, that_never_meets_the_surface_is_refused) {
-  Mesh flat{
-      .vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}, .attributes = {}};
+  Mesh flat{.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .faces = {{0, 1, 2}}, .attributes = {}};
   EXPECT_THROW(sample_surface(flat, {.pattern = SamplePattern::kSlices}), Error);
   EXPECT_EQ(sample_surface(flat, {.points = 100, .pattern = SamplePattern::kGrid}).normals[0],
             (Vec3{0, 0, 1}));

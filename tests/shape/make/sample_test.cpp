@@ -20,7 +20,7 @@ using std::numbers::pi;
 // Returns the square 0 ... side in the plane z = 0.
 Mesh square(double side) {
   return {.vertices = {{0, 0, 0}, {side, 0, 0}, {side, side, 0}, {0, side, 0}},
-          .triangles = {{0, 1, 2}, {0, 2, 3}},
+          .faces = {{0, 1, 2}, {0, 2, 3}},
           .attributes = {}};
 }
 
@@ -59,7 +59,7 @@ TEST(sample, has_points_in_proportion_to_area) {
 TEST(sample, within_a_triangle_is_uniform) {
   constexpr double n = 40000;
   const Mesh triangle{
-      .vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}, .attributes = {}};
+      .vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .faces = {{0, 1, 2}}, .attributes = {}};
   const PointCloud cloud = sample_surface(triangle, {.points = static_cast<std::size_t>(n)});
   Vec3 mean;
   for (const Vec3& p : cloud.points) mean += p / n;
@@ -143,7 +143,7 @@ TEST(sample, density_falls_by_the_ratio_along_the_longest_axis) {
   // On a strip of length 1 the density is proportional to exp(-ln(q) x). The half with small x has
   // (1 - q^-1/2) / (1 - 1/q) of the points.
   const Mesh strip{.vertices = {{0, 0, 0}, {0.1, 0, 0}, {0.1, 1, 0}, {0, 1, 0}},
-                   .triangles = {{0, 1, 2}, {0, 2, 3}},
+                   .faces = {{0, 1, 2}, {0, 2, 3}},
                    .attributes = {}};
   constexpr double n = 20000, q = 30;
   const PointCloud cloud =
@@ -218,8 +218,8 @@ TEST(sample, has_attributes_from_before_the_noise_and_of_the_surface_for_outlier
   const PointCloud noisy = sample_surface(mesh, {.points = 1000, .noise = 0.1});
   EXPECT_NE(noisy.points, clean.points);
   EXPECT_EQ(noisy.attributes[0].values, clean.attributes[0].values);
-  const PointCloud stray = sample_surface(mesh, {.points = 1000, .outliers = 1});
-  for (const double value : stray.attributes[0].values) {
+  const PointCloud isolated = sample_surface(mesh, {.points = 1000, .outliers = 1});
+  for (const double value : isolated.attributes[0].values) {
     EXPECT_GE(value, -1);  // at (0, 1)
     EXPECT_LE(value, 2);   // at (1, 0)
   }
@@ -255,9 +255,8 @@ TEST(sample, refuses_what_has_no_area_and_options_out_of_range) {
     }
   };
   refuse({}, {});
-  refuse(
-      {.vertices = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, .triangles = {{0, 1, 2}}, .attributes = {}},
-      {});
+  refuse({.vertices = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, .faces = {{0, 1, 2}}, .attributes = {}},
+         {});
   const Mesh mesh = icosphere(0);
   refuse(mesh, {.points = 0});
   refuse(mesh, {.points = kMaxPoints + 1});
@@ -275,15 +274,15 @@ TEST(largest_component, is_the_one_of_the_largest_area_without_the_others_vertic
   const Mesh ball = icosphere(1);
   const std::size_t n = mesh.vertices.size();
   for (const Vec3& v : ball.vertices) mesh.vertices.push_back(5 * v + Vec3{9, 0, 0});
-  for (Triangle t : ball.triangles) {
+  for (Triangle t : ball.faces) {
     for (std::uint32_t& v : t) v += static_cast<std::uint32_t>(n);
-    mesh.triangles.push_back(t);
+    mesh.faces.push_back(t);
   }
   const Mesh largest = largest_component(mesh);
   EXPECT_EQ(largest.vertices.size(), ball.vertices.size());
-  EXPECT_EQ(largest.triangles.size(), ball.triangles.size());
+  EXPECT_EQ(largest.faces.size(), ball.faces.size());
   EXPECT_NEAR(surface_area(largest), 25 * surface_area(ball), 1e-9);
-  EXPECT_TRUE(largest_component({}).triangles.empty());
+  EXPECT_TRUE(largest_component({}).faces.empty());
 }
 
 }  // namespace

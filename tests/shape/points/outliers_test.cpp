@@ -37,10 +37,10 @@ TEST(Outliers, a_clean_sphere_has_none) {
   EXPECT_LE(count(flags, 0, flags.size()), 1U);
 }
 
-TEST(Outliers, stray_points_are_found_and_the_surface_is_not_lost) {
-  const std::size_t n = 10000, stray = 1000;
+TEST(Outliers, isolated_points_are_found_and_the_surface_is_not_lost) {
+  const std::size_t n = 10000, isolated = 1000;
   PointCloud cloud = test::sphere_points(n);
-  for (std::size_t i = 0; i < stray; ++i) {
+  for (std::size_t i = 0; i < isolated; ++i) {
     cloud.points.push_back({random_in(-1.2, 1.2, 2, 3 * i), random_in(-1.2, 1.2, 2, 3 * i + 1),
                             random_in(-1.2, 1.2, 2, 3 * i + 2)});
     cloud.normals.push_back(random_direction(3, i));
@@ -48,7 +48,7 @@ TEST(Outliers, stray_points_are_found_and_the_surface_is_not_lost) {
   const auto flags = outliers_of(cloud, 0);
   EXPECT_LT(count(flags, 0, n), n / 500);
   std::size_t off_surface = 0, found = 0;
-  for (std::size_t i = n; i < n + stray; ++i) {
+  for (std::size_t i = n; i < n + isolated; ++i) {
     // Within two spacings of the surface a normal may agree by chance.
     if (std::abs(norm(cloud.points[i]) - 1) < 2 * std::sqrt(4 * std::numbers::pi / n)) continue;
     ++off_surface;

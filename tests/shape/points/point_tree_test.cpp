@@ -31,12 +31,13 @@ Vec3 random_point(std::uint64_t seed, std::uint64_t i) {
 std::vector<Cloud> clouds() {
   std::vector<Cloud> all = {{"one", {{1, 2, 3}}}, {"two", {{0, 0, 0}, {1, 0, 0}}}};
   Cloud cube{"cube", {}}, sphere{"sphere", {}}, line{"line", {}}, same{"same", {}};
-  Cloud strays{"sphere among strays", {}};  // leaves with an isolated point are almost empty
+  Cloud isolated{"sphere among isolated points",
+                 {}};  // leaves with an isolated point are almost empty
   Cloud lattice{"lattice", {}}, twice{"every place nine times", {}}, uneven{"uneven", {}};
   for (std::uint64_t i = 0; i < 700; ++i) {
     cube.points.push_back(random_point(1, i));
     sphere.points.push_back(random_direction(2, i));
-    strays.points.push_back(i % 10 == 0 ? random_point(8, i) : 0.3 * random_direction(8, i));
+    isolated.points.push_back(i % 10 == 0 ? random_point(8, i) : 0.3 * random_direction(8, i));
     line.points.push_back(random_in(0, 1, 3, i) * Vec3{1, 2, 3});
     same.points.push_back({0.1, 0.2, 0.3});
     const std::uint64_t row = i / 9, layer = i / 81;
@@ -46,7 +47,7 @@ std::vector<Cloud> clouds() {
     // Clusters have all sizes.
     uneven.points.push_back(std::pow(10.0, -static_cast<double>(i % 5)) * random_point(5, i));
   }
-  for (Cloud* cloud : {&cube, &sphere, &strays, &line, &same, &lattice, &twice, &uneven}) {
+  for (Cloud* cloud : {&cube, &sphere, &isolated, &line, &same, &lattice, &twice, &uneven}) {
     all.push_back(std::move(*cloud));
   }
   for (std::size_t n : {15, 16, 17, 31, 33, 255, 256, 257, 258}) {

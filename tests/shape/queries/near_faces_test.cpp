@@ -17,8 +17,8 @@ Balls balls_on(const Mesh& mesh, std::size_t n, double reach, std::uint64_t seed
   Balls balls;
   for (std::size_t k = 0; k < n; ++k) {
     const auto u = [&](std::size_t j) { return random_uniform(seed, 8 * k + j); };
-    const auto t = static_cast<std::size_t>(u(0) * static_cast<double>(mesh.triangles.size()));
-    const Triangle& f = mesh.triangles[t];
+    const auto t = static_cast<std::size_t>(u(0) * static_cast<double>(mesh.faces.size()));
+    const Triangle& f = mesh.faces[t];
     const double a = u(1), b = (1 - a) * u(2);
     const Vec3 x =
         a * mesh.vertices[f[0]] + b * mesh.vertices[f[1]] + (1 - a - b) * mesh.vertices[f[2]];
@@ -35,7 +35,7 @@ TEST(faces_near, have_the_closest_points_of_the_whole_mesh) {
     for (const double reach : {0.0, 1e-6, 1e-3, 0.1, 3.0}) {
       const Balls balls = balls_on(mesh, 300, reach, 1);
       const Mesh near = faces_near(view_of(mesh), {}, 1, balls, {});
-      ASSERT_FALSE(near.triangles.empty());
+      ASSERT_FALSE(near.faces.empty());
       const TriangleTree near_tree(near);
       for (const Vec3& center : balls.centers) {
         // Each tree computes in its own frame.
@@ -48,12 +48,12 @@ TEST(faces_near, have_the_closest_points_of_the_whole_mesh) {
 // All balls are in one place: faces outside their box are left out.
 TEST(faces_near, are_few_where_balls_are_small) {
   const Mesh mesh = bumpy_sphere(6, 0.5);
-  EXPECT_LT(faces_near(view_of(mesh), {}, 1, balls_on(mesh, 100, 1e-3, 2), {}).triangles.size(),
-            mesh.triangles.size() / 20);
+  EXPECT_LT(faces_near(view_of(mesh), {}, 1, balls_on(mesh, 100, 1e-3, 2), {}).faces.size(),
+            mesh.faces.size() / 20);
   Balls one;
   one.add(mesh.vertices[7], 1e-3);
   one.add(1.001 * mesh.vertices[7], 2e-3);
-  EXPECT_LT(faces_near(view_of(mesh), {}, 1, one, {}).triangles.size(), 20);
+  EXPECT_LT(faces_near(view_of(mesh), {}, 1, one, {}).faces.size(), 20);
 }
 
 TEST(faces_near, are_in_the_coordinates_of_the_balls) {

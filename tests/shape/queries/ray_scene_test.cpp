@@ -27,7 +27,7 @@ Mesh octasphere(int n) {
   const auto emit = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (const Vec3& p : {a, b, c}) mesh.vertices.push_back(normalized(p));
-    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.faces.push_back({first, first + 1, first + 2});
   };
   for (int octant = 0; octant < 8; ++octant) {
     const double sx = octant & 1 ? -1 : 1, sy = octant & 2 ? -1 : 1, sz = octant & 4 ? -1 : 1;
@@ -57,7 +57,7 @@ TEST(RayScene, ends_where_the_scope_of_the_thread_says_so) {
   int asked = 0, go_on = 1 << 30;
   const CancelScope scope([&] { return ++asked < go_on; });
   { const RayScene scene(mesh); }
-  const int copying = static_cast<int>((mesh.vertices.size() + mesh.triangles.size()) >> 13);
+  const int copying = static_cast<int>((mesh.vertices.size() + mesh.faces.size()) >> 13);
   EXPECT_GT(asked, copying + 1);
   go_on = copying + 2;
   asked = 0;
@@ -75,7 +75,7 @@ TEST(count_hits, sphere_from_inside_is_met_once_through_vertices_edges_and_faces
   const Mesh mesh = octasphere(12);
   const RayScene scene(mesh);
   for (const Vec3& origin : {Vec3{}, Vec3{0.3, -0.2, 0.1}}) {
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.faces) {
       const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
       for (const Vec3& target : {a, 0.5 * (a + b), 0.7 * b + 0.3 * c, (a + b + c) / 3.0}) {
         ASSERT_EQ(scene.count_hits(origin, normalized(target - origin)), 1);
@@ -133,8 +133,8 @@ TEST(count_hits, of_nested_shells_counts_every_shell) {
     const Mesh sphere = moved(octasphere(8), shell, {});
     const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), sphere.vertices.begin(), sphere.vertices.end());
-    for (const Triangle& t : sphere.triangles) {
-      mesh.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+    for (const Triangle& t : sphere.faces) {
+      mesh.faces.push_back({t[0] + base, t[1] + base, t[2] + base});
     }
   }
   const RayScene scene(mesh);
@@ -150,7 +150,7 @@ TEST(first_hit, is_the_nearest_face_with_its_place_on_the_triangle) {
   const RayHit hit = scene.first_hit({0.5, 0.25, 4}, {0, 0, -1}, 0, kInfinity);
   ASSERT_TRUE(hit.hit);
   EXPECT_NEAR(hit.distance, 3, 1e-6);
-  const Triangle& t = mesh.triangles[hit.triangle];
+  const Triangle& t = mesh.faces[hit.triangle];
   const Vec3 place = (1.0 - hit.u - hit.v) * mesh.vertices[t[0]] +
                      double(hit.u) * mesh.vertices[t[1]] + double(hit.v) * mesh.vertices[t[2]];
   EXPECT_NEAR(norm(place - Vec3{0.5, 0.25, 1}), 0, 1e-6);
@@ -217,8 +217,8 @@ std::vector<SlowCrossing> slow_crossings(const Mesh& mesh, const Vec3& o, const 
            a[2] * (b[0] * c[1] - b[1] * c[0]);
   };
   std::vector<SlowCrossing> found;
-  for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
-    const auto& [a, b, c] = mesh.triangles[k];
+  for (std::uint32_t k = 0; k < mesh.faces.size(); ++k) {
+    const auto& [a, b, c] = mesh.faces[k];
     const Row p = minus(row(mesh.vertices[a]), row(o)), q = minus(row(mesh.vertices[b]), row(o)),
               r = minus(row(mesh.vertices[c]), row(o)), along = row(d);
     const Real u = product(along, q, r), v = product(along, r, p), w = product(along, p, q);
@@ -281,7 +281,7 @@ TEST(rays, do_not_slip_through_edges_and_vertices) {
   int slips = 0;
   for (int k = 0; k < 20000; ++k) {
     const Triangle& t =
-        mesh.triangles[std::size_t{7919} * static_cast<std::size_t>(k) % mesh.triangles.size()];
+        mesh.faces[std::size_t{7919} * static_cast<std::size_t>(k) % mesh.faces.size()];
     const Vec3 origin = 0.5 * random_point(41, k / 100);
     const double share = k % 4 == 0 ? 0 : random_uniform(42, k);
     const Vec3 target = (1 - share) * mesh.vertices[t[0]] + share * mesh.vertices[t[1]];

@@ -17,7 +17,7 @@ Mesh both(const Mesh& a, const Mesh& b, const Vec3& moved = {}) {
   Mesh mesh = a;
   const auto n = static_cast<std::uint32_t>(a.vertices.size());
   for (const Vec3& v : b.vertices) mesh.vertices.push_back(v + moved);
-  for (const Triangle& t : b.triangles) mesh.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+  for (const Triangle& t : b.faces) mesh.faces.push_back({t[0] + n, t[1] + n, t[2] + n});
   return mesh;
 }
 
@@ -29,14 +29,14 @@ Mesh scaled(Mesh mesh, double factor) {
 // One point of each triangle, away from its middle.
 struct Points {
   std::vector<Vec3> points;
-  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> faces;
 };
 Points points_of(const Mesh& mesh) {
   Points on;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
+  for (std::uint32_t t = 0; t < mesh.faces.size(); ++t) {
+    const auto& [a, b, c] = mesh.faces[t];
     on.points.push_back(0.31 * mesh.vertices[a] + 0.29 * mesh.vertices[b] + 0.4 * mesh.vertices[c]);
-    on.triangles.push_back(t);
+    on.faces.push_back(t);
   }
   return on;
 }
@@ -44,7 +44,7 @@ Points points_of(const Mesh& mesh) {
 std::vector<int> winding_of(const Mesh& mesh) {
   const Points on = points_of(mesh);
   const RayScene scene(mesh);
-  return outer_winding({mesh, on.points, on.triangles}, scene, {});
+  return outer_winding({mesh, on.points, on.faces}, scene, {});
 }
 
 TEST(sheet_gaps, of_a_box_are_its_sides) {
@@ -52,7 +52,7 @@ TEST(sheet_gaps, of_a_box_are_its_sides) {
     const Mesh mesh = scaled(box({1, 2, 0.1}, 4), scale);
     const Points on = points_of(mesh);
     const RayScene scene(mesh);
-    const std::vector<double> gaps = sheet_gaps({mesh, on.points, on.triangles}, scene, {});
+    const std::vector<double> gaps = sheet_gaps({mesh, on.points, on.faces}, scene, {});
     for (std::size_t i = 0; i < gaps.size(); ++i) {
       const Vec3 p = on.points[i] / scale;
       const double side = std::abs(p.x) > 0.4999 ? 1 : std::abs(p.y) > 0.9999 ? 2 : 0.1;
@@ -66,30 +66,30 @@ TEST(sheet_gaps, are_seen_through_the_air_as_well_and_nowhere_across_an_open_she
   const Mesh mesh = both(one, one, {0, 0, 1.03});
   const Points on = points_of(mesh);
   const RayScene scene(mesh);
-  const std::vector<double> gaps = sheet_gaps({mesh, on.points, on.triangles}, scene, {});
+  const std::vector<double> gaps = sheet_gaps({mesh, on.points, on.faces}, scene, {});
   EXPECT_NEAR(*std::min_element(gaps.begin(), gaps.end()), 0.03, 1e-6);
   EXPECT_EQ(std::count_if(gaps.begin(), gaps.end(), [](double g) { return g < 0.5; }), 2 * 18);
   const Mesh sheet{
-      .vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}, .attributes = {}};
+      .vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .faces = {{0, 1, 2}}, .attributes = {}};
   const Points of_sheet = points_of(sheet);
   const RayScene alone(sheet);
-  EXPECT_TRUE(std::isinf(sheet_gaps({sheet, of_sheet.points, of_sheet.triangles}, alone, {})[0]));
+  EXPECT_TRUE(std::isinf(sheet_gaps({sheet, of_sheet.points, of_sheet.faces}, alone, {})[0]));
 }
 
 TEST(sheet_gaps, of_a_flat_solid_are_zero) {
   const Mesh mesh{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
-                  .triangles = {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}},
+                  .faces = {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}},
                   .attributes = {}};
   const Points on = points_of(mesh);
   const RayScene scene(mesh);
-  for (const double gap : sheet_gaps({mesh, on.points, on.triangles}, scene, {})) {
+  for (const double gap : sheet_gaps({mesh, on.points, on.faces}, scene, {})) {
     EXPECT_LT(gap, 2e-6);
   }
 }
 
 TEST(outer_winding, tells_what_other_parts_enclose) {
   const Mesh outer = icosphere(3), inner = scaled(icosphere(2), 0.5);
-  const std::size_t n = outer.triangles.size();
+  const std::size_t n = outer.faces.size();
   const std::vector<int> nested = winding_of(both(outer, inner));
   EXPECT_TRUE(std::all_of(nested.begin(), nested.begin() + static_cast<std::ptrdiff_t>(n),
                           [](int w) { return w == 0; }));
@@ -111,7 +111,7 @@ TEST(outer_winding, counts_the_enclosed_parts_of_crossing_boxes) {
   const Points on = points_of(mesh);
   const std::vector<int> winding = winding_of(mesh);
   for (std::size_t i = 0; i < winding.size(); ++i) {
-    const bool second = i >= one.triangles.size();
+    const bool second = i >= one.faces.size();
     const Vec3 p = on.points[i] - (second ? Vec3{} : Vec3{0.5, 0.5, 0.5});
     const auto within = [](double x) { return std::abs(x) < 0.5; };
     EXPECT_EQ(winding[i], within(p.x) && within(p.y) && within(p.z) ? 1 : 0) << i;

@@ -18,14 +18,14 @@ namespace {
 
 std::vector<Triangle> triangles_of(const MeshView& mesh) {
   std::vector<Triangle> all;
-  all.reserve(mesh.n_triangles);
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) all.push_back(mesh.triangle(t));
+  all.reserve(mesh.n_faces);
+  for (std::size_t t = 0; t < mesh.n_faces; ++t) all.push_back(mesh.triangle(t));
   return all;
 }
 
 Mesh shuffled_sphere(bool vertices_too, int subdivisions = 5) {
   Mesh mesh = icosphere(subdivisions);
-  test::shuffle(mesh.triangles, 1);
+  test::shuffle(mesh.faces, 1);
   if (!vertices_too) return mesh;
   std::vector<std::uint32_t> order(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -36,10 +36,10 @@ Mesh shuffled_sphere(bool vertices_too, int subdivisions = 5) {
 // Returns the mean distance between the first corners of consecutive triangles.
 double mean_step(const MeshView& mesh) {
   double sum = 0;
-  for (std::size_t t = 1; t < mesh.n_triangles; ++t) {
+  for (std::size_t t = 1; t < mesh.n_faces; ++t) {
     sum += norm(mesh.vertex(mesh.triangle(t)[0]) - mesh.vertex(mesh.triangle(t - 1)[0]));
   }
-  return sum / static_cast<double>(mesh.n_triangles - 1);
+  return sum / static_cast<double>(mesh.n_faces - 1);
 }
 
 constexpr TriangleKey kKeys[] = {TriangleKey::kVertex, TriangleKey::kPosition};
@@ -49,7 +49,7 @@ TEST(triangle_order, keeps_every_triangle_once) {
   for (const TriangleKey key : kKeys) {
     std::vector<Triangle> sorted =
         triangles_of(order_triangles(view_of(mesh), key, {}, {}, {}).view);
-    std::vector<Triangle> expected = mesh.triangles;
+    std::vector<Triangle> expected = mesh.faces;
     std::sort(sorted.begin(), sorted.end());
     std::sort(expected.begin(), expected.end());
     EXPECT_EQ(sorted, expected);
@@ -71,7 +71,7 @@ TEST(triangle_order, smallest_corners_ascend_by_vertex) {
 // a distance of 4/3.
 TEST(triangle_order, neighbours_are_near_by_position) {
   const Mesh mesh = shuffled_sphere(true);
-  const double n = static_cast<double>(mesh.triangles.size());
+  const double n = static_cast<double>(mesh.faces.size());
   EXPECT_GT(mean_step(view_of(mesh)), 1.3);
   const OrderedTriangles ordered =
       order_triangles(view_of(mesh), TriangleKey::kPosition, {}, {}, {});
@@ -98,27 +98,26 @@ TEST(triangle_order, visits_every_triangle_before_it_is_read) {
         before += n;
       },
       [&](std::size_t, std::size_t n) { after += n; }, {.threads = 1});
-  EXPECT_EQ(before, mesh.triangles.size());
-  EXPECT_EQ(after, 2 * mesh.triangles.size());  // it is read twice
+  EXPECT_EQ(before, mesh.faces.size());
+  EXPECT_EQ(after, 2 * mesh.faces.size());  // it is read twice
 }
 
 TEST(triangle_order, keeps_what_is_out_of_range_or_nowhere) {
   Mesh mesh = shuffled_sphere(true);
-  mesh.triangles[5] = {4000000000U, 1, 2};
+  mesh.faces[5] = {4000000000U, 1, 2};
   mesh.vertices[7] = {std::nan(""), std::numeric_limits<double>::infinity(), -1e300};
   for (const TriangleKey key : kKeys) {
     std::vector<Triangle> sorted =
         triangles_of(order_triangles(view_of(mesh), key, {}, {}, {}).view);
-    EXPECT_EQ(std::count(sorted.begin(), sorted.end(), mesh.triangles[5]), 1);
-    EXPECT_EQ(sorted.size(), mesh.triangles.size());
+    EXPECT_EQ(std::count(sorted.begin(), sorted.end(), mesh.faces[5]), 1);
+    EXPECT_EQ(sorted.size(), mesh.faces.size());
   }
 }
 
 TEST(triangle_order, small_and_flat_meshes) {
   for (const Mesh& mesh : {test::tetrahedron(), Mesh{{{1, 1, 1}, {1, 1, 1}}, {{0, 1, 0}}, {}}}) {
     for (const TriangleKey key : kKeys) {
-      EXPECT_EQ(order_triangles(view_of(mesh), key, {}, {}, {}).view.n_triangles,
-                mesh.triangles.size());
+      EXPECT_EQ(order_triangles(view_of(mesh), key, {}, {}, {}).view.n_faces, mesh.faces.size());
     }
   }
 }

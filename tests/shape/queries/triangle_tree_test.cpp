@@ -61,7 +61,7 @@ double oracle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& 
 
 double brute_force_distance(const Mesh& mesh, const Vec3& p) {
   double best = kInfinity;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     best = std::min(
         best, oracle_distance(p, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]));
   }
@@ -78,7 +78,7 @@ TEST(closest_point, equals_a_brute_force_search_in_extended_precision) {
     const ClosestPoint found = tree.closest(p);
     ASSERT_NEAR(found.distance, brute_force_distance(mesh, p), 1e-14);
     ASSERT_NEAR(norm(found.point - p), found.distance, 1e-14);
-    const Triangle& t = mesh.triangles[found.triangle];
+    const Triangle& t = mesh.faces[found.triangle];
     ASSERT_NEAR(
         0,
         oracle_distance(found.point, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]),
@@ -95,7 +95,7 @@ TEST(closest_point, is_not_lost_in_the_rounding_of_the_tree) {
     for (std::uint32_t k = 0; k < 500; ++k) {
       const double radius = 1 + 1e-8 * random_uniform(seed, k);
       mesh.vertices.push_back(radius * normalized(random_point(seed + 100, k)));
-      mesh.triangles.insert(mesh.triangles.end(), 16, {k, k, k});
+      mesh.faces.insert(mesh.faces.end(), 16, {k, k, k});
     }
     const TriangleTree tree(mesh);
     const Vec3 p = 1e-8 * random_point(seed + 200, 0);
@@ -143,7 +143,7 @@ TEST(closest_point, ties_go_to_the_smaller_index) {
   EXPECT_EQ(tree.closest({-2, -2, -2}).triangle, 0u);
   EXPECT_EQ(tree.closest({1.5, 3, 2.25}).triangle, 2u);  // corner 7: 2, 3, 6, 7, 10, 11
   Mesh twice = mesh;
-  twice.triangles.insert(twice.triangles.begin(), mesh.triangles.begin(), mesh.triangles.end());
+  twice.faces.insert(twice.faces.begin(), mesh.faces.begin(), mesh.faces.end());
   const TriangleTree doubled(twice);
   for (int k = 0; k < 200; ++k) EXPECT_LT(doubled.closest(random_point(3, k)).triangle, 12u);
 }
@@ -155,7 +155,7 @@ TEST(closest_point, of_equal_triangles_is_on_the_first) {
   std::vector<Triangle> all;
   for (int k = 0; k < 3; ++k) {
     for (int copy = 0; copy < 100; ++copy) {
-      for (const Triangle& t : mesh.triangles) {
+      for (const Triangle& t : mesh.faces) {
         const auto first = static_cast<std::uint32_t>(8 * copy);
         all.push_back({first + t[0], first + t[1], first + t[2]});
       }
@@ -166,7 +166,7 @@ TEST(closest_point, of_equal_triangles_is_on_the_first) {
     const Vec3 offset = 3.0 * random_point(21, copy);
     for (const Vec3& corner : corners) mesh.vertices.push_back(corner + offset);
   }
-  mesh.triangles = all;
+  mesh.faces = all;
   const TriangleTree tree(mesh);
   for (int k = 0; k < 20000; ++k) {
     ASSERT_LT(tree.closest(4.0 * random_point(22, k)).triangle, all.size() / 3);
@@ -177,22 +177,22 @@ TEST(closest_point, of_equal_triangles_is_on_the_first) {
 TEST(closest_point, of_portions_is_that_of_the_whole) {
   Mesh mesh = cube();
   const Mesh more = soup(19, 300);
-  for (const Triangle& t : more.triangles) {
+  for (const Triangle& t : more.faces) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.faces.push_back({first, first + 1, first + 2});
     for (const std::uint32_t corner : t) mesh.vertices.push_back(more.vertices[corner]);
   }
-  for (const Triangle& t : cube().triangles) mesh.triangles.push_back(t);  // repeated
+  for (const Triangle& t : cube().faces) mesh.faces.push_back(t);  // repeated
   const UnitFrame frame = unit_frame(bounds(mesh.vertices));
   const TriangleTree whole(mesh);
-  const std::size_t n = mesh.triangles.size();
+  const std::size_t n = mesh.faces.size();
   for (const std::size_t step : {n, n / 2, std::size_t{7}, std::size_t{1}}) {
     std::vector<Mesh> portions;
     std::vector<TriangleTree> trees;
     trees.reserve(step);
     for (std::size_t first = 0; first < step; ++first) {
       Mesh& portion = portions.emplace_back(Mesh{mesh.vertices, {}, {}});
-      for (std::size_t t = first; t < n; t += step) portion.triangles.push_back(mesh.triangles[t]);
+      for (std::size_t t = first; t < n; t += step) portion.faces.push_back(mesh.faces[t]);
     }
     for (std::size_t first = 0; first < step; ++first) {
       trees.emplace_back(portions[first], frame, PortionNumbers{first, step});
@@ -241,7 +241,7 @@ TEST(closest_point, of_a_mesh_without_triangles_or_to_nan_is_refused) {
 TEST(closest_point, of_a_mesh_that_is_a_single_point_is_that_point) {
   Mesh mesh;
   mesh.vertices = {{1, 2, 3}};
-  mesh.triangles = {{0, 0, 0}};
+  mesh.faces = {{0, 0, 0}};
   const ClosestPoint found = TriangleTree(mesh).closest({1, 2, 5});
   EXPECT_EQ(found.distance, 2);
   EXPECT_EQ(found.point, (Vec3{1, 2, 3}));
@@ -269,7 +269,7 @@ double distance_without_a_tree(const Mesh& mesh, const Vec3& p) {
   const UnitFrame frame = unit_frame(bounds(mesh.vertices));
   const Vec3 q = frame.to_local(p);
   double best = kInfinity;
-  for (Triangle t : mesh.triangles) {
+  for (Triangle t : mesh.faces) {
     std::sort(t.begin(), t.end());
     const std::array<Vec3, 3> corners = {frame.to_local(mesh.vertices[t[0]]),
                                          frame.to_local(mesh.vertices[t[1]]),
@@ -289,11 +289,11 @@ TEST(closest_point, of_slivers_is_that_without_a_tree) {
         const Vec3 a = random_point(20, t), b = a + 0.3 * random_point(21, t);
         const Vec3 c = a + random_uniform(22, t) * (b - a) + width * random_point(23, t);
         mesh.vertices.insert(mesh.vertices.end(), {a, b, c});
-        mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+        mesh.faces.push_back({3 * t, 3 * t + 1, 3 * t + 2});
       }
       const TriangleTree tree(mesh);
       for (std::uint32_t k = 0; k < 300; ++k) {
-        const Triangle& t = mesh.triangles[k];
+        const Triangle& t = mesh.faces[k];
         const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
         const Vec3 inside = (a + b + c) / 3.0;
         for (const Vec3& p : {inside, inside + 1e-6 * random_point(24, k), b + 3.0 * (b - a)}) {
@@ -315,8 +315,8 @@ TEST(closest_point, of_a_grid_is_the_height_over_it) {
   for (std::uint32_t i = 0; i < kSide; ++i) {
     for (std::uint32_t j = 0; j < kSide; ++j) {
       const std::uint32_t a = i * (kSide + 1) + j, b = a + kSide + 1;
-      mesh.triangles.push_back({a, b, a + 1});
-      mesh.triangles.push_back({b, b + 1, a + 1});
+      mesh.faces.push_back({a, b, a + 1});
+      mesh.faces.push_back({b, b + 1, a + 1});
     }
   }
   const TriangleTree tree(mesh);

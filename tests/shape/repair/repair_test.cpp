@@ -29,8 +29,8 @@ void expect_solid(const Inspection& i, std::size_t components) {
   EXPECT_TRUE(i.manifold);
   EXPECT_TRUE(i.oriented);
   EXPECT_FALSE(i.inside_out);
-  EXPECT_EQ(i.duplicate_triangles, 0u);
-  EXPECT_EQ(i.degenerate_triangles, 0u);
+  EXPECT_EQ(i.duplicate_faces, 0u);
+  EXPECT_EQ(i.degenerate_faces, 0u);
   EXPECT_EQ(i.components, components);
 }
 
@@ -48,8 +48,8 @@ TEST(repair, leaves_a_good_mesh_as_it_is) {
   const Mesh mesh = icosphere(3);
   const Repaired result = repair(mesh);
   EXPECT_EQ(result.mesh.vertices, mesh.vertices);
-  EXPECT_EQ(result.mesh.triangles, mesh.triangles);
-  EXPECT_EQ(result.report.flipped_triangles, 0u);
+  EXPECT_EQ(result.mesh.faces, mesh.faces);
+  EXPECT_EQ(result.report.flipped_faces, 0u);
   EXPECT_EQ(result.report.closed_holes, 0u);
 }
 
@@ -58,14 +58,14 @@ TEST(repair, of_mixed_orientation_turns_the_smaller_part_and_keeps_the_volume) {
   for (const double share : {0.1, 0.3, 0.9}) {
     Mesh mixed = mesh;
     std::size_t turned = 0;
-    for (std::size_t t = 0; t < mixed.triangles.size(); ++t) {
+    for (std::size_t t = 0; t < mixed.faces.size(); ++t) {
       if (random_in(0, 1, 7, t) > share) continue;
-      std::swap(mixed.triangles[t][1], mixed.triangles[t][2]);
+      std::swap(mixed.faces[t][1], mixed.faces[t][2]);
       ++turned;
     }
     const Repaired result = repair(mixed);
     expect_solid(result.report.after, 1);
-    EXPECT_EQ(result.report.flipped_triangles, turned) << share;
+    EXPECT_EQ(result.report.flipped_faces, turned) << share;
     EXPECT_EQ(enclosed_volume(result.mesh), enclosed_volume(mesh));
   }
 }
@@ -74,41 +74,41 @@ TEST(repair, of_mixed_orientation_turns_the_smaller_part_and_keeps_the_volume) {
 TEST(repair, turns_the_first_face_where_it_alone_is_wrong) {
   const Mesh mesh = icosphere(1);
   Mesh mixed = mesh;
-  std::swap(mixed.triangles[0][1], mixed.triangles[0][2]);
+  std::swap(mixed.faces[0][1], mixed.faces[0][2]);
   const Repaired result = repair(mixed);
-  EXPECT_EQ(result.report.flipped_triangles, 1u);
+  EXPECT_EQ(result.report.flipped_faces, 1u);
   EXPECT_EQ(result.report.inside_out_parts, 0u);
   EXPECT_EQ(enclosed_volume(result.mesh), enclosed_volume(mesh));
 }
 
-TEST(repair, drops_duplicates_of_either_sense_needles_and_stray_vertices) {
+TEST(repair, drops_duplicates_of_either_sense_needles_and_unused_vertices) {
   Mesh mesh = icosphere(2);
-  const std::size_t n = mesh.triangles.size();
+  const std::size_t n = mesh.faces.size();
   for (std::size_t t = 0; t < n; t += 2) {
-    Triangle again = mesh.triangles[t];
+    Triangle again = mesh.faces[t];
     if (t % 4 == 0) std::swap(again[0], again[1]);
-    mesh.triangles.push_back(again);
+    mesh.faces.push_back(again);
   }
   mesh.vertices.push_back({9, 9, 9});
   const Repaired result = repair(mesh);
   expect_solid(result.report.after, 1);
-  EXPECT_EQ(result.report.duplicate_triangles, n / 2);
+  EXPECT_EQ(result.report.duplicate_faces, n / 2);
   EXPECT_EQ(result.report.isolated_vertices, 1u);
-  EXPECT_EQ(result.mesh.triangles.size(), n);
+  EXPECT_EQ(result.mesh.faces.size(), n);
 }
 
 // The edge from 0 to 1 of a tetrahedron has a vertex in its middle in one face only. A triangle
 // without area lies in between.
 TEST(repair, swaps_a_sliver_for_two_triangles_with_area) {
   const Mesh mesh{.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}},
-                  .triangles = {{0, 2, 4}, {4, 2, 1}, {0, 4, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}},
+                  .faces = {{0, 2, 4}, {4, 2, 1}, {0, 4, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}},
                   .attributes = {}};
-  ASSERT_EQ(inspect(mesh).degenerate_triangles, 1u);
+  ASSERT_EQ(inspect(mesh).degenerate_faces, 1u);
   ASSERT_TRUE(inspect(mesh).closed);
   const Repaired result = repair(mesh);
   expect_solid(result.report.after, 1);
-  EXPECT_EQ(result.report.degenerate_triangles, 1u);
-  EXPECT_EQ(result.mesh.triangles.size(), 6u);
+  EXPECT_EQ(result.report.degenerate_faces, 1u);
+  EXPECT_EQ(result.mesh.faces.size(), 6u);
   EXPECT_NEAR(enclosed_volume(result.mesh), 8.0 / 6, 1e-15);
 }
 
@@ -117,25 +117,25 @@ TEST(repair, makes_one_of_corners_that_rounding_keeps_apart) {
   Mesh mesh = tetrahedron();
   for (Vec3& v : mesh.vertices) v += {1, 1, 1};
   mesh.vertices.push_back({1, 1, std::nextafter(1.0, 2.0)});  // beside vertex 0
-  mesh.triangles = {{0, 2, 1}, {4, 3, 2}, {4, 1, 3}, {1, 2, 3}, {0, 4, 2}, {0, 1, 4}};
+  mesh.faces = {{0, 2, 1}, {4, 3, 2}, {4, 1, 3}, {1, 2, 3}, {0, 4, 2}, {0, 1, 4}};
   ASSERT_TRUE(inspect(mesh).closed);
   const Repaired result = repair(mesh);
   expect_solid(result.report.after, 1);
   EXPECT_EQ(result.mesh.vertices.size(), 4u);
-  EXPECT_EQ(result.report.degenerate_triangles, 2u);
+  EXPECT_EQ(result.report.degenerate_faces, 2u);
 }
 
 TEST(repair, closes_small_holes_and_keeps_the_genus) {
   Mesh mesh = torus(1, 0.4, 24, 12);
   const double volume = enclosed_volume(mesh);
   // Two triangles of one square are missing, and one elsewhere.
-  mesh.triangles.erase(mesh.triangles.begin() + 100, mesh.triangles.begin() + 102);
-  mesh.triangles.erase(mesh.triangles.begin() + 300);
+  mesh.faces.erase(mesh.faces.begin() + 100, mesh.faces.begin() + 102);
+  mesh.faces.erase(mesh.faces.begin() + 300);
   const Repaired result = repair(mesh);
   expect_solid(result.report.after, 1);
   EXPECT_EQ(result.report.after.genus, 1u);
   EXPECT_EQ(result.report.closed_holes, 2u);
-  EXPECT_EQ(result.report.hole_triangles, 3u);
+  EXPECT_EQ(result.report.hole_faces, 3u);
   EXPECT_NEAR(enclosed_volume(result.mesh), volume, 1e-2 * volume);
 }
 
@@ -143,7 +143,7 @@ TEST(repair, closes_small_holes_and_keeps_the_genus) {
 // no diagonal of the hole is free: the hole is closed around a new vertex.
 TEST(repair, closes_a_hole_around_a_new_vertex_where_all_its_corners_are_joined) {
   Mesh mesh{.vertices = {},
-            .triangles = {},
+            .faces = {},
             .attributes = {{.name = "quality", .values = {}},
                            {.name = "label", .type = ScalarType::kUint8, .values = {}}}};
   for (int i = 0; i < 6; ++i) {
@@ -155,7 +155,7 @@ TEST(repair, closes_a_hole_around_a_new_vertex_where_all_its_corners_are_joined)
   for (std::uint32_t i = 0; i < 7; ++i) {
     for (const Triangle& t :
          {Triangle{i, (i + 1) % 7, (i + 3) % 7}, Triangle{i, (i + 3) % 7, (i + 2) % 7}}) {
-      if (std::find(t.begin(), t.end(), 6) == t.end()) mesh.triangles.push_back(t);
+      if (std::find(t.begin(), t.end(), 6) == t.end()) mesh.faces.push_back(t);
     }
   }
   ASSERT_EQ(inspect(mesh).boundary_edges, 6u);
@@ -163,7 +163,7 @@ TEST(repair, closes_a_hole_around_a_new_vertex_where_all_its_corners_are_joined)
   expect_solid(result.report.after, 1);
   EXPECT_EQ(result.report.after.genus, 1u);
   EXPECT_EQ(result.report.closed_holes, 1u);
-  EXPECT_EQ(result.report.hole_triangles, 6u);
+  EXPECT_EQ(result.report.hole_faces, 6u);
   ASSERT_EQ(result.mesh.vertices.size(), 7u);
   EXPECT_NEAR(norm(result.mesh.vertices[6] - Vec3{0, 0, 0.05}), 0, 1e-15);
   EXPECT_NEAR(result.mesh.attributes[0].values[6], 2.75, 1e-15);
@@ -174,7 +174,7 @@ TEST(repair, closes_a_hole_around_a_new_vertex_where_all_its_corners_are_joined)
 TEST(repair, gives_a_box_its_missing_side_back) {
   for (const int cells : {1, 4, 8}) {
     Mesh mesh = box({1, 2, 3}, cells);
-    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    std::erase_if(mesh.faces, [&](const Triangle& t) {
       return std::all_of(t.begin(), t.end(),
                          [&](std::uint32_t v) { return mesh.vertices[v].z > 1.5 - 1e-9; });
     });
@@ -188,7 +188,7 @@ TEST(repair, gives_a_box_its_missing_side_back) {
 
 TEST(repair, leaves_large_holes_and_open_sheets_and_says_so) {
   Mesh half = icosphere(4);
-  std::erase_if(half.triangles, [&](const Triangle& t) {
+  std::erase_if(half.faces, [&](const Triangle& t) {
     return half.vertices[t[0]].z + half.vertices[t[1]].z + half.vertices[t[2]].z < 0;
   });
   const std::size_t rim = inspect(weld(half).mesh).boundary_edges;
@@ -200,14 +200,14 @@ TEST(repair, leaves_large_holes_and_open_sheets_and_says_so) {
   expect_solid(repair(half, {.max_hole = rim}).report.after, 1);
   // A square and one triangle: their covers are as large as they are.
   const Mesh square{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
-                    .triangles = {{0, 1, 2}, {0, 2, 3}},
+                    .faces = {{0, 1, 2}, {0, 2, 3}},
                     .attributes = {}};
   Mesh triangle = square;
-  triangle.triangles.pop_back();
+  triangle.faces.pop_back();
   for (const Mesh& sheet : {square, triangle}) {
     const Repaired result = repair(sheet);
     EXPECT_EQ(result.report.sheets, 1u);
-    EXPECT_EQ(result.mesh.triangles, weld(sheet).mesh.triangles);
+    EXPECT_EQ(result.mesh.faces, weld(sheet).mesh.faces);
   }
 }
 
@@ -232,7 +232,7 @@ TEST(repair, separates_solids_that_touch_in_an_edge_or_a_corner) {
 TEST(repair, takes_a_fin_off_a_solid) {
   Mesh mesh = tetrahedron();
   mesh.vertices.push_back({2, 2, 2});
-  mesh.triangles.push_back({1, 2, 4});  // three triangles at the edge from 1 to 2
+  mesh.faces.push_back({1, 2, 4});  // three triangles at the edge from 1 to 2
   const Repaired result = repair(mesh);
   EXPECT_EQ(result.report.after.components, 2u);
   EXPECT_EQ(result.report.after.boundary_edges, 3u);
@@ -270,22 +270,22 @@ TEST(repair, leaves_a_moebius_strip_one_sided) {
     const std::uint32_t a = 2 * i, b = a + 1;
     const bool last = i + 1 == kSteps;
     const std::uint32_t c = last ? 1 : a + 2, d = last ? 0 : a + 3;
-    strip.triangles.push_back({a, c, b});
-    strip.triangles.push_back({b, c, d});
+    strip.faces.push_back({a, c, b});
+    strip.faces.push_back({b, c, d});
   }
   const Repaired result = repair(strip);
   EXPECT_EQ(result.report.one_sided_parts, 1u);
-  EXPECT_EQ(result.mesh.triangles, strip.triangles);
+  EXPECT_EQ(result.mesh.faces, strip.faces);
 }
 
 TEST(repair, does_not_depend_on_size_or_place) {
   Mesh mesh = icosphere(2);
-  mesh.triangles.erase(mesh.triangles.begin() + 5);
-  std::swap(mesh.triangles[9][0], mesh.triangles[9][1]);
+  mesh.faces.erase(mesh.faces.begin() + 5);
+  std::swap(mesh.faces[9][0], mesh.faces[9][1]);
   const Repaired expected = repair(mesh);
   for (const double size : {0x1p-332, 0x1p332, 0x1p1000, 0x1p-990}) {
     const Repaired result = repair(scaled(mesh, size));
-    EXPECT_EQ(result.mesh.triangles, expected.mesh.triangles) << size;
+    EXPECT_EQ(result.mesh.faces, expected.mesh.faces) << size;
     EXPECT_EQ(result.mesh.vertices, scaled(expected.mesh, size).vertices) << size;
   }
 }
@@ -328,7 +328,7 @@ TEST(triangulate_hole, of_a_convex_polygon_has_its_area) {
     const auto free = [](std::uint32_t, std::uint32_t) { return false; };
     const auto hole = triangulate_hole(rim, beyond, free);
     ASSERT_TRUE(hole);
-    EXPECT_EQ(hole->triangles.size(), n - 2);
+    EXPECT_EQ(hole->faces.size(), n - 2);
     EXPECT_NEAR(hole->area, n * std::sin(2 * std::numbers::pi / n) / 2, 1e-13);
     const auto taken = [](std::uint32_t, std::uint32_t) { return true; };
     EXPECT_EQ(triangulate_hole(rim, beyond, taken).has_value(), n == 3);
@@ -377,8 +377,8 @@ TEST(triangulate_hole, of_straight_sides_keeps_off_taken_diagonals) {
     ASSERT_EQ(hole.has_value(), can_close(0, n - 1, n, taken)) << seed;
     ++(hole ? closed : open);
     if (!hole) continue;
-    EXPECT_EQ(hole->triangles.size(), n - 2);
-    for (const auto& [i, m, j] : hole->triangles) {
+    EXPECT_EQ(hole->faces.size(), n - 2);
+    for (const auto& [i, m, j] : hole->faces) {
       EXPECT_TRUE(i < m && m < j) << seed;
       for (const auto& diagonal : {std::pair{i, m}, std::pair{m, j}}) {
         EXPECT_FALSE(taken.contains(diagonal)) << seed;
@@ -396,10 +396,10 @@ void split_edge(std::uint32_t triangle, std::uint32_t a, std::uint32_t b,
   for (const double share : shares) {
     const auto at = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.push_back(begin + share * way);
-    Triangle near = mesh.triangles[triangle];
+    Triangle near = mesh.faces[triangle];
     std::ranges::replace(near, b, at);
-    std::ranges::replace(mesh.triangles[triangle], a, at);
-    mesh.triangles.push_back(near);
+    std::ranges::replace(mesh.faces[triangle], a, at);
+    mesh.faces.push_back(near);
     a = at;
   }
 }
@@ -427,7 +427,7 @@ TEST(repair, joins_vertices_on_edges_of_other_faces) {
     EXPECT_NEAR(result.report.after.volume, 24, 1e-12);
     const Repaired again = repair(result.mesh);
     EXPECT_TRUE(again.mesh.vertices == result.mesh.vertices);
-    EXPECT_TRUE(again.mesh.triangles == result.mesh.triangles);
+    EXPECT_TRUE(again.mesh.faces == result.mesh.faces);
     EXPECT_EQ(again.report.junctions, 0u);
   }
 }
@@ -438,23 +438,23 @@ TEST(repair, drops_a_thin_face_beside_an_edge_of_three) {
   const Edge edge = pair_edges(mesh).front();
   const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.push_back(0.5 * (mesh.vertices[edge.a] + mesh.vertices[edge.b]));
-  mesh.triangles.push_back({edge.a, middle, edge.b});
+  mesh.faces.push_back({edge.a, middle, edge.b});
   const Repaired result = repair(mesh);
-  EXPECT_EQ(result.report.degenerate_triangles, 1u);
+  EXPECT_EQ(result.report.degenerate_faces, 1u);
   EXPECT_EQ(result.report.split_vertices, 0u);
   expect_solid(result.report.after, 1);
   EXPECT_NEAR(result.report.after.volume, 8, 1e-12);
-  EXPECT_EQ(result.mesh.triangles.size(), 12u);
+  EXPECT_EQ(result.mesh.faces.size(), 12u);
 }
 
 // Open edges in one direction from a vertex stay if they are farther apart than the rounding.
 TEST(repair, leaves_slits_that_are_wider_than_rounding) {
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1, -1e-3, 0}, {0.5, -1, 0}};
-  mesh.triangles = {{0, 1, 2}, {0, 4, 3}};
+  mesh.faces = {{0, 1, 2}, {0, 4, 3}};
   const Repaired result = repair(mesh);
   EXPECT_EQ(result.report.junctions, 0u);
-  EXPECT_EQ(result.mesh.triangles.size(), 2u);
+  EXPECT_EQ(result.mesh.faces.size(), 2u);
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ constexpr int kRing = 40, kTube = 12;
 struct Surface {
   explicit Surface(const Mesh& given)
       : mesh(given),
-        mates(find_mates(mesh.vertices.size(), mesh.triangles)),
-        outgoing(inner_outgoing(mesh.vertices.size(), mesh.triangles, mates)),
+        mates(find_mates(mesh.vertices.size(), mesh.faces)),
+        outgoing(inner_outgoing(mesh.vertices.size(), mesh.faces, mates)),
         graph(make_cut_graph(mesh, mates)) {}
 
   Mesh mesh;
@@ -31,7 +31,7 @@ struct Surface {
 };
 
 Mesh without_triangle(Mesh mesh) {
-  mesh.triangles.pop_back();
+  mesh.faces.pop_back();
   return mesh;
 }
 
@@ -41,17 +41,17 @@ Mesh double_torus() {
   const auto n = static_cast<std::uint32_t>(both.vertices.size());
   const Mesh other = both;
   for (const Vec3& v : other.vertices) both.vertices.push_back(v + Vec3{6, 0, 0});
-  const Triangle a = both.triangles.back();
-  both.triangles.pop_back();
-  for (const Triangle& t : other.triangles) {
-    both.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+  const Triangle a = both.faces.back();
+  both.faces.pop_back();
+  for (const Triangle& t : other.faces) {
+    both.faces.push_back({t[0] + n, t[1] + n, t[2] + n});
   }
-  const Triangle b = both.triangles.back();
-  both.triangles.pop_back();
+  const Triangle b = both.faces.back();
+  both.faces.pop_back();
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t next = (k + 1) % 3, own = 2 - k, own_next = (own + 2) % 3;
-    both.triangles.push_back({a[k], a[next], b[own]});
-    both.triangles.push_back({a[next], b[own_next], b[own]});
+    both.faces.push_back({a[k], a[next], b[own]});
+    both.faces.push_back({a[next], b[own_next], b[own]});
   }
   return both;
 }
@@ -61,7 +61,7 @@ TEST(mates, lead_back_along_the_same_edge) {
   for (std::uint32_t c = 0; c < s.mates.size(); ++c) {
     ASSERT_NE(s.mates[c], kNoMate);
     EXPECT_EQ(s.mates[s.mates[c]], c);
-    EXPECT_EQ(start_of(s.mesh.triangles, s.mates[c]), end_of(s.mesh.triangles, c));
+    EXPECT_EQ(start_of(s.mesh.faces, s.mates[c]), end_of(s.mesh.faces, c));
   }
 }
 
@@ -77,8 +77,8 @@ TEST(mates, of_two_fans_that_touch_in_a_vertex_are_no_inner_vertex) {
   const Mesh other = two;
   for (const Vec3& v : other.vertices) two.vertices.push_back(v + Vec3{0, 0, 2});
   const auto shared = [&](std::uint32_t v) { return v == 0 ? 0 : v + n; };
-  for (const Triangle& t : other.triangles) {
-    two.triangles.push_back({shared(t[0]), shared(t[1]), shared(t[2])});
+  for (const Triangle& t : other.faces) {
+    two.faces.push_back({shared(t[0]), shared(t[1]), shared(t[2])});
   }
   EXPECT_EQ(Surface(two).outgoing[0], kNoMate);
 }
@@ -90,8 +90,8 @@ TEST(cut_graph, has_no_edges_on_spheres_and_discs) {
 
 TEST(cut_graph, is_crossed_an_even_number_of_times_around_every_triangle_and_vertex) {
   Mesh open = double_torus();
-  open.triangles.erase(open.triangles.begin() + 100);
-  open.triangles.erase(open.triangles.begin() + 300);
+  open.faces.erase(open.faces.begin() + 100);
+  open.faces.erase(open.faces.begin() + 300);
   for (const Mesh& mesh : {double_torus(), open}) {
     const Surface s(mesh);
     EXPECT_FALSE(s.graph.edges.empty());
@@ -109,7 +109,7 @@ TEST(cut_graph, is_crossed_an_even_number_of_times_around_every_triangle_and_ver
 // Around a hole of an open surface there is also a loop: its border does not count.
 TEST(cut_graph, tells_a_ring_from_a_disc) {
   Mesh ring = icosphere(3);
-  std::erase_if(ring.triangles,
+  std::erase_if(ring.faces,
                 [&](const Triangle& t) { return std::abs(ring.vertices[t[0]].z) > 0.7; });
   const Surface s(ring);
   LoopSearch search(s.mesh, s.mates, s.outgoing, s.graph);
@@ -132,8 +132,8 @@ TEST(short_loops, of_a_torus_go_around_its_tube) {
     ASSERT_EQ(loop.corners.size(), static_cast<std::size_t>(kTube));
     EXPECT_NEAR(loop.length, around, 1e-12);
     for (std::size_t i = 0; i < loop.corners.size(); ++i) {
-      EXPECT_EQ(end_of(s.mesh.triangles, loop.corners[i]),
-                start_of(s.mesh.triangles, loop.corners[(i + 1) % loop.corners.size()]));
+      EXPECT_EQ(end_of(s.mesh.faces, loop.corners[i]),
+                start_of(s.mesh.faces, loop.corners[(i + 1) % loop.corners.size()]));
     }
     EXPECT_TRUE(search.shortest(v, 0.999 * around).corners.empty());
   }
@@ -146,7 +146,7 @@ TEST(short_loops, of_a_neck_that_parts_a_surface_are_none) {
            norm(mesh.vertices[t[1]] - mesh.vertices[t[2]]) +
            norm(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
   };
-  const Triangle neck = torus(2, 0.5, kRing, kTube).triangles.back();
+  const Triangle neck = torus(2, 0.5, kRing, kTube).faces.back();
   LoopSearch search(s.mesh, s.mates, s.outgoing, s.graph);
   EXPECT_TRUE(search.shortest(neck[0], 1.5 * length(s.mesh, neck)).corners.empty());
 }
@@ -162,7 +162,7 @@ TEST(cut_loop, takes_a_handle_and_neither_volume_nor_orientation) {
     LoopSearch search(s.mesh, s.mates, s.outgoing, s.graph);
     const Loop loop = search.shortest(5, 4);
     std::vector<std::uint32_t> copies;
-    cut_along(sides_of(loop.corners, s.mesh.triangles, s.mates), s.mesh, copies);
+    cut_along(sides_of(loop.corners, s.mesh.faces, s.mates), s.mesh, copies);
     const Inspection after = inspect(s.mesh);
     EXPECT_TRUE(after.closed && after.manifold && after.oriented);
     EXPECT_EQ(after.components, 1U);

@@ -17,7 +17,7 @@ TEST(closing_tolerance, is_just_above_the_gap_of_a_seam) {
   const Mesh mesh = ellipsoid({1, 1, 1}, 4);
   for (const double gap : {1e-12, 1e-6, 1e-3}) {
     Mesh soup = exploded(mesh);
-    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    for (std::size_t t = 0; t < soup.faces.size(); ++t) {
       double z = 0;
       for (int k = 0; k < 3; ++k) z += soup.vertices[3 * t + k].z;
       if (z < 0) {
@@ -36,7 +36,7 @@ TEST(closing_tolerance, is_just_above_the_gap_of_a_seam) {
 TEST(closing_tolerance, is_none_for_holes_and_for_closed_meshes) {
   Mesh mesh = icosphere(3);
   EXPECT_FALSE(closing_tolerance(mesh));
-  mesh.triangles.resize(mesh.triangles.size() - 40);
+  mesh.faces.resize(mesh.faces.size() - 40);
   EXPECT_FALSE(closing_tolerance(mesh));
   EXPECT_FALSE(closing_tolerance(Mesh{}));
 }

@@ -26,11 +26,11 @@ bool has_half_edge(const Triangle& t, std::uint32_t a, std::uint32_t b) {
 }
 
 void expect_edges_right(const Mesh& mesh, const std::vector<Edge>& edges) {
-  EXPECT_EQ(2 * edges.size(), 3 * mesh.triangles.size());
+  EXPECT_EQ(2 * edges.size(), 3 * mesh.faces.size());
   std::pair<std::uint32_t, std::uint32_t> last{0, 0};
   for (const Edge& e : edges) {
-    EXPECT_TRUE(has_half_edge(mesh.triangles[e.left], e.a, e.b));
-    EXPECT_TRUE(has_half_edge(mesh.triangles[e.right], e.b, e.a));
+    EXPECT_TRUE(has_half_edge(mesh.faces[e.left], e.a, e.b));
+    EXPECT_TRUE(has_half_edge(mesh.faces[e.right], e.b, e.a));
     const auto key = std::minmax(e.a, e.b);
     EXPECT_LE(last, (std::pair{key.first, key.second}));
     last = {key.first, key.second};
@@ -68,7 +68,7 @@ TEST(pair_edges, pairs_opposite_sides_in_file_order_where_four_triangles_meet) {
   Mesh mesh =
       joined(tetrahedron(), moved(tetrahedron(), test::rotation({0, 0, 1}, std::numbers::pi)));
   // Both bodies stand on the z axis: edge 0-3.
-  for (Triangle& t : mesh.triangles) {
+  for (Triangle& t : mesh.faces) {
     for (std::uint32_t& v : t) {
       if (v == 4) v = 0;
       if (v == 7) v = 3;
@@ -97,14 +97,14 @@ std::string refusal(const Mesh& mesh) {
 
 TEST(pair_edges, refuses_open_misoriented_and_odd_edges_with_their_number) {
   Mesh open = tetrahedron();
-  open.triangles.pop_back();
+  open.faces.pop_back();
   EXPECT_NE(refusal(open).find("3 boundary edges"), std::string::npos) << refusal(open);
   Mesh flipped = tetrahedron();
-  std::swap(flipped.triangles[0][0], flipped.triangles[0][1]);
-  EXPECT_NE(refusal(flipped).find("3 between triangles of opposite"), std::string::npos);
+  std::swap(flipped.faces[0][0], flipped.faces[0][1]);
+  EXPECT_NE(refusal(flipped).find("3 between faces of opposite"), std::string::npos);
   Mesh odd = tetrahedron();
   odd.vertices.push_back({2, 2, 2});
-  odd.triangles.push_back({0, 1, 4});
+  odd.faces.push_back({0, 1, 4});
   EXPECT_NE(refusal(odd).find("2 boundary edges"), std::string::npos);
   EXPECT_NE(refusal(odd).find("1 where three or more"), std::string::npos);
   EXPECT_TRUE(pair_edges(Mesh{}).empty());
@@ -112,7 +112,7 @@ TEST(pair_edges, refuses_open_misoriented_and_odd_edges_with_their_number) {
 
 TEST(pair_edges, passes_over_triangles_with_a_repeated_corner) {
   Mesh mesh = tetrahedron();
-  mesh.triangles.insert(mesh.triangles.begin() + 1, {{1, 1, 2}});
+  mesh.faces.insert(mesh.faces.begin() + 1, {{1, 1, 2}});
   const std::vector<Edge> edges = pair_edges(mesh);
   EXPECT_EQ(edges.size(), 6u);
   for (const Edge& e : edges) EXPECT_TRUE(e.left != 1 && e.right != 1);
@@ -154,14 +154,14 @@ TEST(inspect, measures_scale_with_the_shape) {
   const Inspection one = inspect(tetrahedron());
   for (const double scale : {1e-100, 1e-30, 1e30, 1e100}) {
     const Inspection shape = inspect(moved(tetrahedron(), {.scale = scale, .shift = {}}));
-    EXPECT_EQ(shape.degenerate_triangles, 0u);
+    EXPECT_EQ(shape.degenerate_faces, 0u);
     EXPECT_NEAR(shape.volume / scale / scale / scale, one.volume, 1e-15);
     EXPECT_NEAR(shape.area / scale / scale, one.area, 1e-14);
     EXPECT_NEAR(shape.volume_centroid.x / scale, 0.25, 1e-15);
   }
   for (const double scale : {1e-300, 1e300}) {  // volume and area exceed the range of double
     const Inspection shape = inspect(moved(tetrahedron(), {.scale = scale, .shift = {}}));
-    EXPECT_EQ(shape.degenerate_triangles, 0u);
+    EXPECT_EQ(shape.degenerate_faces, 0u);
     EXPECT_NEAR(shape.volume_centroid.x / scale, 0.25, 1e-15);
     EXPECT_FALSE(std::isnan(shape.volume) || std::isnan(shape.area));
   }
@@ -172,12 +172,12 @@ TEST(inspect, measures_scale_with_the_shape) {
 TEST(area_normals, are_sums_of_normals_as_long_as_twice_the_areas) {
   Mesh mesh = tetrahedron();
   mesh.vertices.push_back({7, 7, 7});  // belongs to no triangle
-  const std::vector<Vec3> normals = area_normals(mesh.vertices, mesh.triangles);
+  const std::vector<Vec3> normals = area_normals(mesh.vertices, mesh.faces);
   EXPECT_EQ(normals, (std::vector<Vec3>{{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}));
   for (Vec3& v : mesh.vertices) v = 2 * v;  // powers of two are exact
-  EXPECT_EQ(area_normals(mesh.vertices, mesh.triangles)[1], (Vec3{4, 0, 0}));
+  EXPECT_EQ(area_normals(mesh.vertices, mesh.faces)[1], (Vec3{4, 0, 0}));
   flip(mesh);
-  EXPECT_EQ(area_normals(mesh.vertices, mesh.triangles)[2], (Vec3{0, -4, 0}));
+  EXPECT_EQ(area_normals(mesh.vertices, mesh.faces)[2], (Vec3{0, -4, 0}));
   EXPECT_TRUE(area_normals({}, {}).empty());
 }
 
@@ -196,12 +196,12 @@ TEST(inspect, finds_the_shape_turned_inside_out_and_flip_turns_it_back) {
 
 TEST(inspect, counts_boundary_and_misoriented_edges) {
   Mesh open = icosphere(1);
-  open.triangles.pop_back();
+  open.faces.pop_back();
   EXPECT_EQ(inspect(open).boundary_edges, 3u);
   EXPECT_FALSE(inspect(open).closed);
   EXPECT_TRUE(inspect(open).manifold);
   Mesh turned = icosphere(1);
-  std::swap(turned.triangles[5][0], turned.triangles[5][1]);
+  std::swap(turned.faces[5][0], turned.faces[5][1]);
   EXPECT_EQ(inspect(turned).misoriented_edges, 3u);
   EXPECT_TRUE(inspect(turned).closed);
   EXPECT_FALSE(inspect(turned).oriented);
@@ -221,8 +221,8 @@ TEST(inspect, a_moebius_strip_has_one_boundary_no_orientation_and_characteristic
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t a = 2 * i, b = a + 1;
     const std::uint32_t c = i + 1 < n ? a + 2 : 1, d = i + 1 < n ? a + 3 : 0;
-    strip.triangles.push_back({a, c, d});
-    strip.triangles.push_back({a, d, b});
+    strip.faces.push_back({a, c, d});
+    strip.faces.push_back({a, d, b});
   }
   const Inspection shape = inspect(strip);
   EXPECT_EQ(shape.boundary_edges, 2 * n);
@@ -236,8 +236,8 @@ TEST(inspect, a_moebius_strip_has_one_boundary_no_orientation_and_characteristic
 TEST(inspect, two_tetrahedra_in_one_corner_are_not_a_manifold_there) {
   Mesh bow_tie = joined(tetrahedron(), moved(tetrahedron(), {.scale = -1, .shift = {}}));
   for (std::size_t t = 4; t < 8; ++t) {
-    std::swap(bow_tie.triangles[t][0], bow_tie.triangles[t][1]);
-    for (std::uint32_t& v : bow_tie.triangles[t]) v = v == 4 ? 0 : v;
+    std::swap(bow_tie.faces[t][0], bow_tie.faces[t][1]);
+    for (std::uint32_t& v : bow_tie.faces[t]) v = v == 4 ? 0 : v;
   }
   const Inspection shape = inspect(bow_tie);
   EXPECT_TRUE(shape.closed);
@@ -250,7 +250,7 @@ TEST(inspect, two_tetrahedra_in_one_corner_are_not_a_manifold_there) {
 
 TEST(inspect, three_triangles_in_one_edge_are_not_a_manifold) {
   const Mesh book{.vertices = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0}},
-                  .triangles = {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}},
+                  .faces = {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}},
                   .attributes = {}};
   const Inspection shape = inspect(book);
   EXPECT_EQ(shape.non_manifold_edges, 1u);
@@ -261,18 +261,18 @@ TEST(inspect, three_triangles_in_one_edge_are_not_a_manifold) {
 
 TEST(inspect, counts_triangles_given_twice_in_any_order_of_corners) {
   Mesh mesh = icosphere(1);
-  const Triangle t = mesh.triangles[7], s = mesh.triangles[20];
-  mesh.triangles.push_back({t[1], t[2], t[0]});
-  mesh.triangles.push_back({s[1], s[0], s[2]});
-  mesh.triangles.push_back({s[2], s[0], s[1]});
-  EXPECT_EQ(inspect(mesh).duplicate_triangles, 3u);
-  EXPECT_EQ(inspect(icosphere(2)).duplicate_triangles, 0u);
+  const Triangle t = mesh.faces[7], s = mesh.faces[20];
+  mesh.faces.push_back({t[1], t[2], t[0]});
+  mesh.faces.push_back({s[1], s[0], s[2]});
+  mesh.faces.push_back({s[2], s[0], s[1]});
+  EXPECT_EQ(inspect(mesh).duplicate_faces, 3u);
+  EXPECT_EQ(inspect(icosphere(2)).duplicate_faces, 0u);
 }
 
 TEST(inspect, degenerate_triangles_are_those_flat_within_rounding) {
   const auto count = [](const Vec3& a, const Vec3& b, const Vec3& c) {
-    return inspect({.vertices = {a, b, c}, .triangles = {{0, 1, 2}}, .attributes = {}})
-        .degenerate_triangles;
+    return inspect({.vertices = {a, b, c}, .faces = {{0, 1, 2}}, .attributes = {}})
+        .degenerate_faces;
   };
   EXPECT_EQ(count({0, 0, 0}, {1, 0, 0}, {2, 0, 0}), 1u);
   EXPECT_EQ(count({0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}, {0.3, 0.3, 0.3}), 1u);  // decimals are rounded
@@ -284,9 +284,8 @@ TEST(inspect, degenerate_triangles_are_those_flat_within_rounding) {
   EXPECT_EQ(count({0, 0, 0}, {1e-200, 0, 0}, {0, 1, 0}), 1u);
   // At a distance of 1e5 this thickness is rounding: an ulp there is 1.5e-11.
   EXPECT_EQ(count({1e5, 1e5, 0}, {1e5 + 1, 1e5 + 1e-12, 0}, {1e5 + 2, 1e5, 0}), 1u);
-  const Mesh repeated{
-      .vertices = {{0, 0, 0}, {1, 0, 0}}, .triangles = {{0, 0, 1}}, .attributes = {}};
-  EXPECT_EQ(inspect(repeated).degenerate_triangles, 1u);
+  const Mesh repeated{.vertices = {{0, 0, 0}, {1, 0, 0}}, .faces = {{0, 0, 1}}, .attributes = {}};
+  EXPECT_EQ(inspect(repeated).degenerate_faces, 1u);
   EXPECT_FALSE(inspect(repeated).closed);
 }
 
@@ -295,7 +294,7 @@ TEST(inspect, answers_for_the_smallest_and_refuses_the_worst_meshes) {
   EXPECT_FALSE(empty.closed);
   EXPECT_EQ(empty.volume, 0);
   const Mesh one{.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}},
-                 .triangles = {{0, 1, 2}},
+                 .faces = {{0, 1, 2}},
                  .attributes = {}};
   const Inspection shape = inspect(one);
   EXPECT_EQ(shape.boundary_edges, 3u);
@@ -306,7 +305,7 @@ TEST(inspect, answers_for_the_smallest_and_refuses_the_worst_meshes) {
   bad.vertices[1].z = std::numeric_limits<double>::infinity();
   EXPECT_THROW(inspect(bad), Error);
   bad = tetrahedron();
-  bad.triangles[2][1] = 4;
+  bad.faces[2][1] = 4;
   EXPECT_THROW(inspect(bad), Error);
   EXPECT_THROW(pair_edges(bad), Error);
 }

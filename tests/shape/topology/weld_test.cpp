@@ -23,13 +23,12 @@ TEST(weld, of_a_soup_gives_the_mesh_back) {
     const Mesh mesh = icosphere(3);
     const Welded welded = weld(exploded(mesh), tolerance);
     EXPECT_EQ(welded.mesh.vertices.size(), mesh.vertices.size());
-    EXPECT_EQ(welded.merged_vertices, 3 * mesh.triangles.size() - mesh.vertices.size());
-    EXPECT_EQ(welded.collapsed_triangles, 0u);
-    ASSERT_EQ(welded.mesh.triangles.size(), mesh.triangles.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    EXPECT_EQ(welded.merged_vertices, 3 * mesh.faces.size() - mesh.vertices.size());
+    EXPECT_EQ(welded.collapsed_faces, 0u);
+    ASSERT_EQ(welded.mesh.faces.size(), mesh.faces.size());
+    for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
       for (int k = 0; k < 3; ++k) {
-        EXPECT_EQ(welded.mesh.vertices[welded.mesh.triangles[t][k]],
-                  mesh.vertices[mesh.triangles[t][k]]);
+        EXPECT_EQ(welded.mesh.vertices[welded.mesh.faces[t][k]], mesh.vertices[mesh.faces[t][k]]);
       }
     }
   }
@@ -46,44 +45,44 @@ TEST(outward, welds_and_turns_what_is_inside_out_and_nothing_else) {
     EXPECT_GT(enclosed_volume(shape.welded.mesh), 0);
   }
   // An open mesh has no inside, whatever the sign of its volume.
-  turned.triangles.pop_back();
+  turned.faces.pop_back();
   ASSERT_LT(enclosed_volume(turned), 0);
   const Outward open = outward(turned);
   EXPECT_FALSE(open.flipped);
-  EXPECT_EQ(open.welded.mesh.triangles, turned.triangles);
+  EXPECT_EQ(open.welded.mesh.faces, turned.faces);
 }
 
 TEST(weld, takes_zero_and_minus_zero_as_one_and_keeps_neighbouring_doubles_apart) {
   const double next = std::nextafter(1.0, 2.0);
   const Mesh mesh{
       .vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0, 0, -0.0}, {next, 0, 0}, {0, 0, 1}},
-      .triangles = {{0, 1, 2}, {3, 4, 5}},
+      .faces = {{0, 1, 2}, {3, 4, 5}},
       .attributes = {}};
   const Welded welded = weld(mesh);
   EXPECT_EQ(welded.merged_vertices, 1u);
-  EXPECT_EQ(welded.mesh.triangles[1], (Triangle{0, 3, 4}));
+  EXPECT_EQ(welded.mesh.faces[1], (Triangle{0, 3, 4}));
 }
 
 TEST(weld, keeps_order_first_vertices_and_their_attributes_and_drops_unused_ones) {
   const Mesh mesh{.vertices = {{9, 9, 9}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {1, 0, 0}},
-                  .triangles = {{3, 2, 4}, {5, 3, 2}},
+                  .faces = {{3, 2, 4}, {5, 3, 2}},
                   .attributes = {{.name = "quality", .values = {0, 1, 2, 3, 4, 5}}}};
   const Welded welded = weld(mesh);
   EXPECT_EQ(welded.mesh.vertices, (std::vector<Vec3>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
   EXPECT_EQ(welded.mesh.attributes[0].values, (std::vector<double>{1, 2, 4}));
-  EXPECT_EQ(welded.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+  EXPECT_EQ(welded.mesh.faces, (std::vector<Triangle>{{0, 1, 2}}));
   EXPECT_EQ(welded.merged_vertices, 2u);
-  EXPECT_EQ(welded.collapsed_triangles, 1u);
+  EXPECT_EQ(welded.collapsed_faces, 1u);
 }
 
 TEST(weld, joins_chains_of_vertices_within_the_tolerance) {
   Mesh mesh;
   for (int i = 0; i <= 20; ++i) mesh.vertices.push_back({i * 1.0, 0, 0});
   mesh.vertices.insert(mesh.vertices.end(), {{100, 0, 0}, {0, 100, 0}, {0, 0, 100}});
-  mesh.triangles = {{20, 21, 22}, {0, 22, 23}};
+  mesh.faces = {{20, 21, 22}, {0, 22, 23}};
   EXPECT_EQ(weld(mesh, 0.999).merged_vertices, 0u);
   EXPECT_EQ(weld(mesh, 1).merged_vertices, 20u);
-  EXPECT_EQ(weld(mesh, 1).mesh.triangles[0][0], weld(mesh, 1).mesh.triangles[1][0]);
+  EXPECT_EQ(weld(mesh, 1).mesh.faces[0][0], weld(mesh, 1).mesh.faces[1][0]);
 }
 
 // Random points in clusters; the oracle compares all pairs.
@@ -101,7 +100,7 @@ TEST(weld, with_a_tolerance_agrees_with_the_comparison_of_all_pairs) {
       }
       mesh.vertices.push_back(v);
     }
-    for (std::uint32_t i = 0; i < n; i += 3) mesh.triangles.push_back({i, i + 1, i + 2});
+    for (std::uint32_t i = 0; i < n; i += 3) mesh.faces.push_back({i, i + 1, i + 2});
     for (const double tolerance : {1e-6, 0.02, 0.05, 0.1, 0.5, 10.0}) {
       DisjointSets sets(n);
       std::size_t merged = 0;
@@ -113,7 +112,7 @@ TEST(weld, with_a_tolerance_agrees_with_the_comparison_of_all_pairs) {
       for (std::uint32_t i = 0; i < n; ++i) merged += sets.find(i) != i;
       const Welded welded = weld(mesh, tolerance);
       EXPECT_EQ(welded.merged_vertices, merged) << seed << " " << tolerance;
-      EXPECT_EQ(welded.mesh.triangles.size() + welded.collapsed_triangles, n / 3);
+      EXPECT_EQ(welded.mesh.faces.size() + welded.collapsed_faces, n / 3);
     }
   }
 }
@@ -140,8 +139,8 @@ TEST(weld, refuses_bad_tolerances_and_bad_meshes) {
   Mesh mesh = icosphere(0);
   mesh.vertices[3].y = nan;
   EXPECT_THROW(weld(mesh), Error);
-  EXPECT_TRUE(weld(Mesh{}).mesh.triangles.empty());
-  EXPECT_TRUE(weld(Mesh{}, 1).mesh.triangles.empty());
+  EXPECT_TRUE(weld(Mesh{}).mesh.faces.empty());
+  EXPECT_TRUE(weld(Mesh{}, 1).mesh.faces.empty());
 }
 
 }  // namespace

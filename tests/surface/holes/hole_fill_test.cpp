@@ -271,7 +271,7 @@ TEST(HoleFill, missing_cap_of_a_sphere_is_filled_to_a_small_part_of_its_sagitta)
     // left out: the error of linear interpolation, step^2 / 8, is large for them. A chord gives 2
     // degrees.
     std::vector<Vec3> normals(surface.mesh.vertices.size());
-    for (const Triangle& t : surface.mesh.triangles) {
+    for (const Triangle& t : surface.mesh.faces) {
       const std::vector<Vec3>& v = surface.mesh.vertices;
       const Vec3 n = cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]]);
       for (const std::uint32_t corner : t) normals[corner] += n;
@@ -404,7 +404,7 @@ TEST(HoleFill, threads_do_not_change_a_bit) {
     meshes.push_back(extract_surface(sphere.grid).mesh);
   }
   EXPECT_EQ(meshes[0].vertices, meshes[1].vertices);
-  EXPECT_EQ(meshes[0].triangles, meshes[1].triangles);
+  EXPECT_EQ(meshes[0].faces, meshes[1].faces);
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ TEST(cut_handles, leaves_rods_however_thin) {
     const Mesh before = mesh;
     EXPECT_EQ(cut_handles(mesh, everywhere(0.15), {}).handles, 0U);
     EXPECT_EQ(mesh.vertices, before.vertices);
-    EXPECT_EQ(mesh.triangles, before.triangles);
+    EXPECT_EQ(mesh.faces, before.faces);
   }
 }
 
@@ -133,7 +133,7 @@ TEST(places_to_cut, are_all_that_cutting_needs) {
   EXPECT_EQ(cut_handles_at(few, kept, everywhere(kResolution), {}, {}).handles, 1U);
   EXPECT_EQ(cut_handles_at(all, places, everywhere(kResolution), {}, {}).handles, 1U);
   EXPECT_EQ(few.vertices, all.vertices);
-  EXPECT_EQ(few.triangles, all.triangles);
+  EXPECT_EQ(few.faces, all.faces);
   std::vector<std::uint32_t> of_rod;
   std::copy_if(places.begin(), places.end(), std::back_inserter(of_rod), is_of_rod);
   EXPECT_TRUE(places_to_cut(whole, of_rod, everywhere(kResolution), {}).empty());

@@ -33,8 +33,8 @@ void expect_closed_manifold(const Inspection& found) {
   EXPECT_EQ(found.misoriented_edges, 0U);
   EXPECT_EQ(found.non_manifold_vertices, 0U);
   EXPECT_EQ(found.isolated_vertices, 0U);
-  EXPECT_EQ(found.degenerate_triangles, 0U);
-  EXPECT_EQ(found.duplicate_triangles, 0U);
+  EXPECT_EQ(found.degenerate_faces, 0U);
+  EXPECT_EQ(found.duplicate_faces, 0U);
 }
 
 // Values for the nodes of blocks 0 ... 2: random where the eight cubes around a node are complete,
@@ -59,7 +59,7 @@ TEST(SurfaceTable, every_crossed_edge_stands_in_one_loop_that_is_triangulated) {
       crossed += (inside >> from & 1) != (inside >> (from | 1U << e / 4) & 1);
     }
     EXPECT_EQ(surface.n_edges, crossed);
-    EXPECT_EQ(surface.n_triangles == 0, crossed == 0) << inside;
+    EXPECT_EQ(surface.n_faces == 0, crossed == 0) << inside;
   }
 }
 
@@ -111,7 +111,7 @@ TEST(Extract, values_of_zero_are_outside_and_give_no_degenerate_triangle) {
     expect_closed_manifold(with_zeros);
     for (float& v : grid.values) v = v == 0 ? 0.1F : v;
     const Inspection without = inspect(extract_surface(grid).mesh);
-    EXPECT_EQ(with_zeros.triangles, without.triangles);
+    EXPECT_EQ(with_zeros.faces, without.faces);
     EXPECT_EQ(with_zeros.euler_characteristic, without.euler_characteristic);
   }
 }
@@ -169,7 +169,7 @@ TEST(Extract, gyroid_has_the_euler_characteristic_of_its_cell) {
   }
   long long triangles = 0;
   double area = 0;
-  for (const Triangle& t : surface.mesh.triangles) {
+  for (const Triangle& t : surface.mesh.faces) {
     const std::vector<Vec3>& v = surface.mesh.vertices;
     const Vec3 middle = (v[t[0]] + v[t[1]] + v[t[2]]) / 3;
     if (!in_cell(middle.x) || !in_cell(middle.y) || !in_cell(middle.z)) continue;
@@ -231,18 +231,18 @@ TEST(Extract, threads_do_not_change_a_bit) {
   const ExtractedSurface one = extract_surface(grid, {.threads = 1, .progress = {}});
   const ExtractedSurface two = extract_surface(grid, {.threads = 2, .progress = {}});
   EXPECT_EQ(one.mesh.vertices, two.mesh.vertices);
-  EXPECT_EQ(one.mesh.triangles, two.mesh.triangles);
+  EXPECT_EQ(one.mesh.faces, two.mesh.faces);
   EXPECT_EQ(one.first_vertex, two.first_vertex);
   BlockGrid last = random_grid(7, 0.3);
   const ExtractedSurface released = extract_last_surface(last, {.threads = 2, .progress = {}});
   EXPECT_EQ(released.mesh.vertices, one.mesh.vertices);
-  EXPECT_EQ(released.mesh.triangles, one.mesh.triangles);
+  EXPECT_EQ(released.mesh.faces, one.mesh.faces);
   EXPECT_EQ(last.values.size(), 0U);
 }
 
 TEST(Extract, no_blocks_give_an_empty_mesh) {
   const BlockGrid grid = make_block_grid({}, 1, {});
-  EXPECT_TRUE(extract_surface(grid).mesh.triangles.empty());
+  EXPECT_TRUE(extract_surface(grid).mesh.faces.empty());
 }
 
 // Every node within a disc must have its block; blocks are sorted and distinct.

@@ -29,7 +29,7 @@ Vec3 random_point(double half, std::uint64_t seed, std::uint64_t i) {
 std::set<std::uint32_t> sharp_by_edges(const Mesh& mesh, const NormalAttributes& normals,
                                        double length) {
   std::set<std::uint32_t> sharp;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
       const double edge =

@@ -36,7 +36,7 @@ Mesh sphere() {
 // Returns edges with a triangle on one side only.
 std::vector<std::pair<Vec3, Vec3>> border(const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     for (int k = 0; k < 3; ++k) ++sides[std::minmax(t[k], t[(k + 1) % 3])];
   }
   std::vector<std::pair<Vec3, Vec3>> edges;
@@ -58,7 +58,7 @@ TEST(Trim, border_of_a_cut_sphere_is_a_circle) {
     EXPECT_EQ(found.components, 1U);
     EXPECT_TRUE(found.manifold && found.oriented);
     EXPECT_EQ(found.isolated_vertices, 0U);
-    EXPECT_EQ(found.degenerate_triangles, 0U);
+    EXPECT_EQ(found.degenerate_faces, 0U);
     // The cut moves the border by a tenth of an edge, which has at most sqrt(3) steps. Smoothing
     // then changes z on an irregular mesh.
     double length = 0;
@@ -110,7 +110,7 @@ TEST(Trim, full_support_keeps_all_and_none_keeps_nothing) {
   const Mesh whole = sphere();
   const Mesh kept = trim(whole, std::vector<double>(whole.vertices.size(), 1));
   EXPECT_EQ(kept.vertices, whole.vertices);
-  EXPECT_EQ(kept.triangles, whole.triangles);
+  EXPECT_EQ(kept.faces, whole.faces);
   EXPECT_TRUE(trim(whole, std::vector<double>(whole.vertices.size(), 0)).vertices.empty());
   EXPECT_THROW(trim(whole, std::vector<double>(3, 1)), Error);
   EXPECT_THROW(trim(whole, std::vector<double>(whole.vertices.size(), NAN)), Error);

@@ -46,7 +46,7 @@ void expect_same(const Comparison& a, const Comparison& b) {
 // Compares in memory and in portions of one triangle up to all, on one and several threads.
 void expect_the_same_in_portions(const Mesh& a, const Mesh& b, const CompareOptions& options) {
   const Comparison expected = compare(a, b, options);
-  const std::size_t all = std::max(a.triangles.size(), b.triangles.size());
+  const std::size_t all = std::max(a.faces.size(), b.faces.size());
   for (const std::size_t triangles : {std::size_t{1}, std::size_t{7}, all / 3 + 1, all}) {
     if (all / triangles > 2000) continue;  // would take a second
     for (const int threads : {1, 3}) {
@@ -65,8 +65,8 @@ Mesh moved(Mesh mesh, double scale, const Vec3& offset) {
 
 // Returns triangles in an order unrelated to their positions.
 Mesh shuffled(Mesh mesh) {
-  const std::size_t n = mesh.triangles.size();
-  for (std::size_t t = 0; t < n; ++t) std::swap(mesh.triangles[t], mesh.triangles[t * 7919 % n]);
+  const std::size_t n = mesh.faces.size();
+  for (std::size_t t = 0; t < n; ++t) std::swap(mesh.faces[t], mesh.faces[t * 7919 % n]);
   return mesh;
 }
 
@@ -83,9 +83,9 @@ TEST(compare_in_portions, has_the_bits_of_a_comparison_in_memory) {
 TEST(compare_in_portions, ties_go_to_the_same_triangles) {
   Mesh a = box({2, 2, 2}, 4), b = moved(a, 0.7, {0.123, 0.456, 0.789});
   for (Mesh* mesh : {&a, &b}) {
-    const std::vector<Triangle> once = mesh->triangles;
-    for (const Triangle& t : once) mesh->triangles.push_back({t[0], t[2], t[1]});
-    mesh->triangles.insert(mesh->triangles.end(), once.begin(), once.end());
+    const std::vector<Triangle> once = mesh->faces;
+    for (const Triangle& t : once) mesh->faces.push_back({t[0], t[2], t[1]});
+    mesh->faces.insert(mesh->faces.end(), once.begin(), once.end());
   }
   expect_the_same_in_portions(a, b, {.samples = 2000});
   expect_the_same_in_portions(a, a, {.samples = 2000});
@@ -95,9 +95,9 @@ TEST(compare_in_portions, ties_go_to_the_same_triangles) {
 
 TEST(compare_in_portions, takes_degenerate_triangles_and_any_scale) {
   Mesh mesh = bumpy_sphere(2, 0.5);
-  for (std::size_t t = 0; t < 40; ++t) mesh.triangles[7 * t] = {0, 0, 1};
-  for (std::size_t t = 0; t < 9; ++t) mesh.triangles.push_back({2, 3, 3});  // the last faces
-  mesh.vertices.push_back({3, 3, 3});  // belongs to no triangle
+  for (std::size_t t = 0; t < 40; ++t) mesh.faces[7 * t] = {0, 0, 1};
+  for (std::size_t t = 0; t < 9; ++t) mesh.faces.push_back({2, 3, 3});  // the last faces
+  mesh.vertices.push_back({3, 3, 3});                                   // belongs to no triangle
   const Mesh other = icosphere(2);
   for (const double scale : {1.0, 1e-200, 1e200}) {
     expect_the_same_in_portions(moved(mesh, scale, {}), moved(other, scale, {}), {.samples = 500});
@@ -108,31 +108,31 @@ TEST(compare_in_portions, takes_degenerate_triangles_and_any_scale) {
 // Rows of a file: floats with other bytes before and after.
 TEST(compare_in_portions, takes_rows_of_any_kind_and_releases_them) {
   const Mesh a = bumpy_sphere(3, 0.4);
-  std::vector<std::byte> vertices(31 * a.vertices.size() + 3), triangles(13 * a.triangles.size());
+  std::vector<std::byte> vertices(31 * a.vertices.size() + 3), triangles(13 * a.faces.size());
   for (std::size_t i = 0; i < a.vertices.size(); ++i) {
     const Vec3& v = a.vertices[i];
     const float row[3] = {static_cast<float>(v.x), static_cast<float>(v.y),
                           static_cast<float>(v.z)};
     std::memcpy(vertices.data() + 31 * i + 3, row, sizeof row);
   }
-  for (std::size_t t = 0; t < a.triangles.size(); ++t) {
-    std::memcpy(triangles.data() + 13 * t + 1, a.triangles[t].data(), 12);
+  for (std::size_t t = 0; t < a.faces.size(); ++t) {
+    std::memcpy(triangles.data() + 13 * t + 1, a.faces[t].data(), 12);
   }
-  std::vector<int> released(a.triangles.size());
+  std::vector<int> released(a.faces.size());
   std::size_t vertices_released = 0;
   const MeshInPlace place{.mesh = {.vertices = vertices.data() + 3,
                                    .n_vertices = a.vertices.size(),
                                    .vertex_stride = 31,
                                    .coordinate = ScalarType::kFloat32,
-                                   .triangles = triangles.data() + 1,
-                                   .n_triangles = a.triangles.size(),
-                                   .triangle_stride = 13},
+                                   .faces = triangles.data() + 1,
+                                   .n_faces = a.faces.size(),
+                                   .face_stride = 13},
                           .release_vertices =
                               [&](std::size_t first, std::size_t n) {
                                 ASSERT_LE(first + n, a.vertices.size());
                                 vertices_released += n;
                               },
-                          .release_triangles =
+                          .release_faces =
                               [&](std::size_t first, std::size_t n) {
                                 for (std::size_t t = first; t < first + n; ++t) ++released[t];
                               }};
@@ -166,14 +166,14 @@ void expect_refused(const Mesh& a, const Mesh& b, const CompareOptions& options,
 TEST(compare_in_portions, refuses_what_a_comparison_refuses) {
   const Mesh good = icosphere(1);
   Mesh bad = good;
-  bad.triangles[50][1] = 42;
+  bad.faces[50][1] = 42;
   expect_refused(good, bad, {}, {"B", "50", "42"});
   expect_refused(bad, good, {}, {"A", "50", "42"});
   bad = good;
   bad.vertices[7].y = NAN;
   expect_refused(bad, good, {}, {"A", "vertex 7"});
   Mesh flat = good;
-  flat.triangles = {{0, 0, 1}};
+  flat.faces = {{0, 0, 1}};
   expect_refused(flat, good, {}, {"area 0"});
   expect_refused(good, flat, {}, {"area 0"});
   expect_refused(good, {}, {}, {"area 0"});

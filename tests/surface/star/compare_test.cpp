@@ -38,11 +38,11 @@ TEST(sample_by_area, gives_every_triangle_its_share) {
   const AreaSamples samples = sample_by_area(mesh, n, 3);
   ASSERT_EQ(samples.points.size(), n);
   double area = 0;
-  for (const Triangle& t : mesh.triangles) area += triangle_area(mesh, t);
-  std::vector<int> count(mesh.triangles.size());
-  for (const std::uint32_t t : samples.triangles) ++count[t];
+  for (const Triangle& t : mesh.faces) area += triangle_area(mesh, t);
+  std::vector<int> count(mesh.faces.size());
+  for (const std::uint32_t t : samples.faces) ++count[t];
   for (std::size_t t = 0; t < count.size(); ++t) {
-    EXPECT_NEAR(count[t], n * triangle_area(mesh, mesh.triangles[t]) / area, 2);
+    EXPECT_NEAR(count[t], n * triangle_area(mesh, mesh.faces[t]) / area, 2);
   }
 }
 
@@ -51,7 +51,7 @@ TEST(sample_by_area, gives_every_triangle_its_share) {
 TEST(sample_by_area, is_uniform_within_a_triangle) {
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  mesh.triangles = {{0, 1, 2}};
+  mesh.faces = {{0, 1, 2}};
   const std::size_t n = 100000;
   double x = 0, y = 0, xx = 0, xy = 0;
   for (const Vec3& p : sample_by_area(mesh, n, 1).points) {
@@ -70,17 +70,17 @@ TEST(sample_by_area, is_uniform_within_a_triangle) {
 
 TEST(sample_by_area, passes_over_triangles_without_area) {
   Mesh mesh = box({1, 1, 1});
-  mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 1});
-  mesh.triangles.push_back({2, 3, 3});
-  const auto last = static_cast<std::uint32_t>(mesh.triangles.size() - 1);
-  for (const std::uint32_t t : sample_by_area(mesh, 5000, 1).triangles) {
+  mesh.faces.insert(mesh.faces.begin(), {0, 0, 1});
+  mesh.faces.push_back({2, 3, 3});
+  const auto last = static_cast<std::uint32_t>(mesh.faces.size() - 1);
+  for (const std::uint32_t t : sample_by_area(mesh, 5000, 1).faces) {
     ASSERT_TRUE(t != 0 && t != last);
   }
 }
 
 TEST(AreaSampling, gives_any_range_of_the_samples_by_itself) {
   Mesh mesh = bumpy_sphere(2, 0.5);
-  for (std::size_t t = 0; t < 40; ++t) mesh.triangles[t] = {0, 0, 1};  // without area
+  for (std::size_t t = 0; t < 40; ++t) mesh.faces[t] = {0, 0, 1};  // without area
   for (const std::size_t n : {1u, 5u, 3000u}) {
     const AreaSamples all = sample_by_area(mesh, n, 3);
     AreaSum sum(unit_frame(bounds(mesh.vertices)).scale);
@@ -93,7 +93,7 @@ TEST(AreaSampling, gives_any_range_of_the_samples_by_itself) {
         ASSERT_EQ(range.points.size(), here);
         for (std::size_t k = 0; k < here; ++k) {
           EXPECT_EQ(range.points[k], all.points[first + k]);
-          EXPECT_EQ(range.triangles[k], all.triangles[first + k]);
+          EXPECT_EQ(range.faces[k], all.faces[first + k]);
         }
       }
     }
@@ -107,7 +107,7 @@ TEST(AreaSampling, gives_any_range_of_the_samples_by_itself) {
 TEST(compare, concentric_spheres_differ_by_their_radii) {
   const Mesh a = icosphere(5), b = moved(a, 1.1, {});
   double inner = 1;
-  for (const Triangle& t : a.triangles) {
+  for (const Triangle& t : a.faces) {
     const Vec3& p = a.vertices[t[0]];
     const Vec3 normal = normalized(cross(a.vertices[t[1]] - p, a.vertices[t[2]] - p));
     inner = std::min(inner, dot(normal, p));
@@ -165,7 +165,7 @@ TEST(compare, precision_is_the_share_of_b_and_recall_that_of_a) {
   Mesh a = b;
   const auto n = static_cast<std::uint32_t>(a.vertices.size());
   a.vertices.insert(a.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const Triangle& t : b.triangles) a.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+  for (const Triangle& t : b.faces) a.faces.push_back({t[0] + n, t[1] + n, t[2] + n});
   const Comparison result = compare(a, b, {.samples = 10000});
   EXPECT_EQ(result.precision, 1);
   EXPECT_NEAR(result.recall, 0.5, 2.0 / 10000);
@@ -283,7 +283,7 @@ TEST(compare, seeds_change_the_samples_and_little_else) {
 
 TEST(compare, survives_degenerate_triangles_in_both_meshes) {
   Mesh mesh = box({1, 1, 1}, 2);
-  for (std::uint32_t k = 0; k < 10; ++k) mesh.triangles.insert(mesh.triangles.begin(), {k, k, 5});
+  for (std::uint32_t k = 0; k < 10; ++k) mesh.faces.insert(mesh.faces.begin(), {k, k, 5});
   const Comparison result = compare(mesh, mesh, {.samples = 5000});
   EXPECT_LT(result.hausdorff, 1e-15);
   EXPECT_TRUE(std::isfinite(result.normal_mean_degrees));

@@ -37,7 +37,7 @@ TEST(synthesize, puts_vertices_and_normals_where_the_closed_form_has_them) {
   e.center = {1, -2, 3};
   const Mesh sphere = latitude_longitude_sphere(12, 20);
   const Mesh mesh = synthesize(e, sphere);
-  ASSERT_EQ(mesh.triangles, sphere.triangles);
+  ASSERT_EQ(mesh.faces, sphere.faces);
   const auto& nx = find_attribute(mesh.attributes, "nx")->values;
   const auto& ny = find_attribute(mesh.attributes, "ny")->values;
   const auto& nz = find_attribute(mesh.attributes, "nz")->values;
@@ -106,7 +106,7 @@ TEST(synthesize, gives_the_same_bits_for_any_number_of_threads) {
 TEST(directions_of, keep_connectivity_and_refuse_the_centre) {
   const Mesh mesh = box({2, 4, 6});
   const Mesh sphere = directions_of(mesh, {0.5, 0, 0});
-  EXPECT_EQ(sphere.triangles, mesh.triangles);
+  EXPECT_EQ(sphere.faces, mesh.faces);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     EXPECT_NEAR(norm(sphere.vertices[i]), 1, 1e-15);
     EXPECT_LT(norm(cross(sphere.vertices[i], mesh.vertices[i] - Vec3{0.5, 0, 0})), 1e-14);

@@ -31,7 +31,7 @@ TEST(surface_pieces, add_up_to_the_area_and_to_the_sphere) {
   for (const double offset : {0.0, 0.9}) {
     const Mesh mesh = test::star_polyhedron(3, 0, offset, 5);
     double area = 0;
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.faces) {
       const Vec3& a = mesh.vertices[t[0]];
       area += norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) / 2;
     }
@@ -46,7 +46,7 @@ TEST(surface_pieces, add_up_to_the_area_and_to_the_sphere) {
     EXPECT_NEAR(areas, area, 1e-12 * area);
     // One point per piece: the error is of second order in sizes of 1/50.
     EXPECT_NEAR(angle, 4 * kPi, 0.01 * 4 * kPi);
-    EXPECT_LT(pieces.size(), 10'000 + mesh.triangles.size());
+    EXPECT_LT(pieces.size(), 10'000 + mesh.faces.size());
   }
 }
 

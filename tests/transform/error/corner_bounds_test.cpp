@@ -33,19 +33,19 @@ double slow_bound(const std::array<Vec3, 3>& p, double bend) {
 TEST(corner_bounds, are_those_of_each_face) {
   Mesh mesh = bumpy_sphere(3);
   const Vec3 center = {0.02, -0.01, 0.03};
-  mesh.vertices[5] = 3.0 * mesh.vertices[5];              // long, steep faces
-  mesh.triangles[7] = {1, 2, 2};                          // without area
-  std::swap(mesh.triangles[9][0], mesh.triangles[9][1]);  // faces inwards
+  mesh.vertices[5] = 3.0 * mesh.vertices[5];      // long, steep faces
+  mesh.faces[7] = {1, 2, 2};                      // without area
+  std::swap(mesh.faces[9][0], mesh.faces[9][1]);  // faces inwards
   const MeshView view = view_of(mesh);
   std::size_t infinite = 0;
-  for (const std::size_t n : {1UL, 3UL, 8UL, 13UL, 128UL, 131UL, mesh.triangles.size()}) {
+  for (const std::size_t n : {1UL, 3UL, 8UL, 13UL, 128UL, 131UL, mesh.faces.size()}) {
     std::vector<double> bounds(n + 1, -1);
     corner_bounds(view, 0, n, center, 0.5, 4, bounds.data());
     EXPECT_EQ(bounds[n], -1);
     for (std::size_t t = 0; t < n; ++t) {
       std::array<Vec3, 3> p;
       for (std::size_t i = 0; i < 3; ++i) {
-        p[i] = 0.5 * (mesh.vertices[mesh.triangles[t][i]] - center);
+        p[i] = 0.5 * (mesh.vertices[mesh.faces[t][i]] - center);
       }
       const double slow = slow_bound(p, 4);
       if (std::isfinite(slow)) {

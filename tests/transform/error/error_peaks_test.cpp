@@ -31,8 +31,8 @@ Mesh box_with_a_pit() {
   Mesh mesh;
   mesh.vertices = {{-.3, -.9, -.5}, {.3, -.9, -.5}, {.3, .9, -.5}, {-.3, .9, -.5},  {-.3, -.9, .5},
                    {.3, -.9, .5},   {.3, .9, .5},   {-.3, .9, .5}, {0.05, 0.1, 0.3}};
-  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7},
-                    {2, 7, 6}, {3, 0, 4}, {3, 4, 7}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 4, 8}};
+  mesh.faces = {{0, 2, 1}, {0, 3, 2}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7},
+                {2, 7, 6}, {3, 0, 4}, {3, 4, 7}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 4, 8}};
   return mesh;
 }
 
@@ -75,8 +75,8 @@ TEST(truncation_errors, measured_max_is_that_of_dense_points_nightly) {
       const double dense =
           test::largest_error_of_dense_points(mesh, transform.expansion.coefficients, 28);
       const TruncationErrors errors = truncation_errors(view_of(mesh), transform.expansion);
-      EXPECT_GT(*errors.measured_max, 0.9995 * dense) << mesh.triangles.size() << ' ' << degree;
-      EXPECT_LT(*errors.measured_max, 1.001 * dense) << mesh.triangles.size() << ' ' << degree;
+      EXPECT_GT(*errors.measured_max, 0.9995 * dense) << mesh.faces.size() << ' ' << degree;
+      EXPECT_LT(*errors.measured_max, 1.001 * dense) << mesh.faces.size() << ' ' << degree;
     }
   }
 }

@@ -45,12 +45,12 @@ Expansion ball(double radius) {
 // Corners are at distance 1 on the axes.
 Mesh octahedron() {
   Mesh mesh;
-  mesh.triangles.reserve(8);
+  mesh.faces.reserve(8);
   mesh.vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   for (const std::uint32_t top : {4u, 5u}) {
     for (const auto& [a, b] : {std::pair{0u, 2u}, {2u, 1u}, {1u, 3u}, {3u, 0u}}) {
-      if (top == 4) mesh.triangles.push_back({a, b, top});
-      if (top == 5) mesh.triangles.push_back({b, a, top});
+      if (top == 4) mesh.faces.push_back({a, b, top});
+      if (top == 5) mesh.faces.push_back({b, a, top});
     }
   }
   return mesh;
@@ -74,7 +74,7 @@ TEST(radial_bound, of_an_octahedron_is_its_largest_error) {
 TEST(radial_bound, of_a_fine_mesh_of_a_sphere_is_the_depth_of_its_faces) {
   const Mesh mesh = icosphere(4);
   double depth = 0;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
     depth = std::max(depth, 1 - dot(normalized(cross(b - a, c - a)), a));
   }
@@ -98,14 +98,14 @@ TEST_OF_TWO_SIZES(radial_bound, no_error_of_random_meshes_is_above_it) {
       const double dense = test::largest_error_of_dense_points(mesh, expansion.coefficients, 14);
       const TruncationErrors errors = truncation_errors(view_of(mesh), expansion);
       ASSERT_TRUE(errors.max_bound.has_value());
-      EXPECT_GE(*errors.max_bound, dense) << mesh.triangles.size() << ' ' << degree;
+      EXPECT_GE(*errors.max_bound, dense) << mesh.faces.size() << ' ' << degree;
       EXPECT_GE(*errors.max_bound, *errors.measured_max);
       EXPECT_LE(*errors.max_bound, (degree < 10 ? 2 : 8) * dense)
-          << mesh.triangles.size() << ' ' << degree;
+          << mesh.faces.size() << ' ' << degree;
       // The bound holds for any number of cells.
       for (const std::size_t most_cells : {0, 10, 1000}) {
         EXPECT_GE(bound_of(mesh, expansion, {.seen = dense, .most_cells = most_cells}).value, dense)
-            << mesh.triangles.size() << ' ' << degree << ' ' << most_cells;
+            << mesh.faces.size() << ' ' << degree << ' ' << most_cells;
       }
     }
   }
@@ -124,7 +124,7 @@ TEST_OF_TWO_SIZES(radial_bound, proves_measured_max_to_a_hundredth) {
       };
       const RadialBound above = bound(1.01 * measured, 2'000'000);
       EXPECT_LE(above.value, 1.0101 * measured)
-          << mesh.triangles.size() << ' ' << degree << ' ' << above.cells;
+          << mesh.faces.size() << ' ' << degree << ' ' << above.cells;
       EXPECT_GT(bound(0.99 * measured, 20'000).value, 0.999 * measured);
     }
   }

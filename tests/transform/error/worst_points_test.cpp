@@ -71,7 +71,7 @@ TEST(worst_points, are_of_faces) {
     for (const bool usual_number : {false, true}) {
       Mesh with = mesh;
       with.vertices.push_back({far, 0, 0});
-      if (usual_number) with.triangles.insert(with.triangles.end(), {{0, 1, 1}, {0, 2, 2}});
+      if (usual_number) with.faces.insert(with.faces.end(), {{0, 1, 1}, {0, 2, 2}});
       const MeshView view = view_of(with);
       const FaceScan scan = scan_faces(view, Vec3{}, {});
       const WorstPoints worst = worst_points(view, scan, expansion, model, {.rms = 1e-2}, {});
@@ -115,7 +115,7 @@ TEST(area_points, give_a_root_mean_square_to_three_in_a_thousand) {
       const auto square = [&](const Vec3& x) { return std::pow(std::sin(dot(k, x)), 4); };
       double sum = 0, areas = 0, of_points = 0;
       constexpr int n = 24;
-      for (const Triangle& t : mesh.triangles) {
+      for (const Triangle& t : mesh.faces) {
         const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
         const double area = norm(cross(b - a, c - a)) / (n * n);
         for (int i = 0; i < n; ++i) {
@@ -143,7 +143,7 @@ TEST(area_points, give_a_root_mean_square_to_three_in_a_thousand) {
 TEST(face_sizes, are_what_the_faces_have) {
   for (const std::size_t n : {1, 3, 7, 127, 128, 130, 320}) {
     Mesh mesh = test::rotated(bumpy_sphere(2, 0.3));
-    mesh.triangles.resize(n);
+    mesh.faces.resize(n);
     const Vec3 center = {0.1, -0.2, 0.05};
     const FaceSizes sizes = scan_faces(view_of(mesh), center, {}).sizes;
     std::vector<double> areas((n + FaceSizes::kGroup - 1) / FaceSizes::kGroup);
@@ -152,7 +152,7 @@ TEST(face_sizes, are_what_the_faces_have) {
     for (std::size_t t = 0; t < n; ++t) {
       Vec3 p[3];
       for (std::size_t k = 0; k < 3; ++k) {
-        p[k] = sizes.scale * (mesh.vertices[mesh.triangles[t][k]] - center);
+        p[k] = sizes.scale * (mesh.vertices[mesh.faces[t][k]] - center);
       }
       areas[t / FaceSizes::kGroup] += norm(cross(p[1] - p[0], p[2] - p[0]));
       const double angle = std::sqrt(sizes.angles2[t / FaceSizes::kRun]);

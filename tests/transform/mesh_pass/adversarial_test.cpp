@@ -40,7 +40,7 @@ void judge(const test::AdversarialMesh& made) {
   };
   const double error = relative(1), band_error = relative(3 * made.degree / 4 + 1);
   std::printf("%-28s %6zu %4d  %.0e  %.1e  %.1e  %.1e  %.1e\n", made.name.c_str(),
-              made.mesh.triangles.size(), made.degree, made.precision, error, found.report.error,
+              made.mesh.faces.size(), made.degree, made.precision, error, found.report.error,
               band_error, found.report.band_error);
   EXPECT_LE(error, made.precision) << made.name << ", degree " << made.degree;
   EXPECT_GE(found.report.error, error / 2) << made.name << ", degree " << made.degree;

@@ -81,7 +81,7 @@ Written write_cap(const Mesh& mesh, int degree, double allowed) {
   NodeWriter writer(
       {.divided = {.degree = degree, .allowed = allowed, .divided = true}, .rounding = allowed},
       {.mesh = view, .center = {}, .scale = 1}, nodes);
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const std::array<Vec3, 3> p = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
     if (p[0].z + p[1].z + p[2].z > 3 * 0.93) writer.add_triangle(p, t);
   }

@@ -52,13 +52,13 @@ TEST(division, parts_are_whole_blocks_that_cover_all_triangles) {
 
 TEST(division, the_range_of_indices_is_that_of_the_corners) {
   Mesh mesh = icosphere(3);
-  test::shuffle(mesh.triangles, 3);
+  test::shuffle(mesh.faces, 3);
   const auto file = test::packed<float>(mesh);
   for (const std::size_t first : {0u, 7u, 1000u}) {
     for (const std::size_t n : {1u, 2u, 3u, 280u}) {
       std::set<std::uint32_t> corners;
       for (std::size_t t = first; t < first + n; ++t) {
-        corners.insert(mesh.triangles[t].begin(), mesh.triangles[t].end());
+        corners.insert(mesh.faces[t].begin(), mesh.faces[t].end());
       }
       const IndexRange range = index_range(file.view, first, n);
       EXPECT_EQ(range.low, *corners.begin());
@@ -104,7 +104,7 @@ TEST(division, ranges_from_a_part_on_hold_its_indices_and_those_behind_it) {
 TEST(division, parts_overlap_where_their_vertices_lie_among_those_of_others) {
   const auto overlap = [](const Mesh& mesh, std::size_t parts) {
     const MeshView view = view_of(mesh);
-    return parts_overlap(view, divide_triangles(view.n_triangles, parts));
+    return parts_overlap(view, divide_triangles(view.n_faces, parts));
   };
   for (const std::size_t parts : {2u, 3u, 8u}) {
     EXPECT_TRUE(overlap(icosphere(6), parts)) << parts;
@@ -113,8 +113,8 @@ TEST(division, parts_overlap_where_their_vertices_lie_among_those_of_others) {
   EXPECT_FALSE(overlap(icosphere(6), 1));
   Mesh few_used = icosphere(4);
   few_used.vertices.resize(10 * few_used.vertices.size(), {0, 0, 2});
-  for (std::size_t i = 0; i < few_used.triangles.size(); i += 7) {
-    few_used.triangles[i] = {static_cast<std::uint32_t>(few_used.vertices.size() - 1 - i), 0, 1};
+  for (std::size_t i = 0; i < few_used.faces.size(); i += 7) {
+    few_used.faces[i] = {static_cast<std::uint32_t>(few_used.vertices.size() - 1 - i), 0, 1};
   }
   EXPECT_FALSE(overlap(few_used, 8));
 }
@@ -208,7 +208,7 @@ TEST(border_sums, that_are_complete_can_be_taken) {
 
 TEST(part_mesh, knows_where_scattered_corners_are_among_its_own) {
   Mesh mesh = icosphere(4);
-  test::shuffle(mesh.triangles, 5);
+  test::shuffle(mesh.faces, 5);
   const auto file = test::packed<double>(mesh, 5);
   const std::size_t first = 256, n = 300;
   std::size_t checked = 0;
@@ -226,7 +226,7 @@ TEST(part_mesh, knows_where_scattered_corners_are_among_its_own) {
         std::uint32_t place;
         std::memcpy(&place, places.record + i / 3 * places.stride + i % 3 * 4, sizeof place);
         ASSERT_LT(place, part.n_vertices);
-        EXPECT_EQ(part.name(place), mesh.triangles[first + t + i / 3][i % 3]);
+        EXPECT_EQ(part.name(place), mesh.faces[first + t + i / 3][i % 3]);
       }
     }
   });
@@ -297,7 +297,7 @@ TEST(mesh_parts, their_sum_is_the_whole_whatever_their_number) {
         EXPECT_TRUE(sum.closed);
         // Whole vertices are spread as before, so that the error does not grow.
         EXPECT_LT(sum.report.error, 2 * whole.report.error + precision / 10);
-        EXPECT_EQ(sum.report.lumped_triangles, whole.report.lumped_triangles);
+        EXPECT_EQ(sum.report.lumped_faces, whole.report.lumped_faces);
         EXPECT_EQ(sum.min_d, whole.min_d);
       }
     }
@@ -321,7 +321,7 @@ TEST(mesh_parts, give_the_same_bits_for_any_number_of_threads) {
 TEST(mesh_parts, whose_vertices_lie_scattered_are_the_same_on_any_number_of_threads) {
   const Mesh mesh = test::rotated(bumpy_sphere(6, 0.2));
   const MeshView view = view_of(mesh);
-  ASSERT_TRUE(parts_overlap(view, divide_triangles(view.n_triangles, 4)));
+  ASSERT_TRUE(parts_overlap(view, divide_triangles(view.n_faces, 4)));
   std::set<bool> single;
   for (const auto& [degree, precision] :
        {std::pair{20, 1e-3}, {40, 1e-6}, {100, 1e-4}, {100, 1e-7}, {60, 1e-11}}) {
@@ -338,7 +338,7 @@ TEST(mesh_parts, whose_vertices_lie_scattered_are_the_same_on_any_number_of_thre
     options.parts = 9;
     const MeshPassResult parts = mesh_pass(view, options, {});
     EXPECT_LT(relative_error(one.coefficients, parts.coefficients), 1.5 * precision);
-    EXPECT_EQ(one.report.lumped_triangles, parts.report.lumped_triangles);
+    EXPECT_EQ(one.report.lumped_faces, parts.report.lumped_faces);
   }
   EXPECT_EQ(single.size(), 2u);
 }
@@ -346,7 +346,7 @@ TEST(mesh_parts, whose_vertices_lie_scattered_are_the_same_on_any_number_of_thre
 TEST(mesh_parts, whose_vertices_lie_scattered_refuse_an_index_out_of_range) {
   for (const std::size_t at : {0u, 40000u, 81919u}) {
     Mesh mesh = bumpy_sphere(6, 0.2);
-    mesh.triangles[at][1] = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.faces[at][1] = static_cast<std::uint32_t>(mesh.vertices.size());
     EXPECT_THROW(mesh_pass(view_of(mesh), {.degree = 20, .precision = 1e-3}, {}), Error) << at;
   }
 }
@@ -365,10 +365,10 @@ TEST(mesh_parts, whose_vertices_lie_scattered_release_all_of_them) {
 TEST(mesh_parts, triangles_without_common_vertices_have_no_border_and_are_closed) {
   const Mesh mesh = bumpy_sphere(4);
   Mesh soup;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle& t : mesh.faces) {
     const auto n = static_cast<std::uint32_t>(soup.vertices.size());
     for (const std::uint32_t corner : t) soup.vertices.push_back(mesh.vertices[corner]);
-    soup.triangles.push_back({n, n + 1, n + 2});
+    soup.faces.push_back({n, n + 1, n + 2});
   }
   const MeshPassOptions whole{.degree = 12, .precision = 1e-8};
   MeshPassOptions parts = whole;
@@ -412,7 +412,7 @@ template <typename T>
 void expect_same_through_bytes(const Mesh& mesh, const MeshPlan& plan) {
   const MeshView view = view_of(mesh);
   const MeshPassOptions options;
-  const Division division = divide_triangles(view.n_triangles, 5);
+  const Division division = divide_triangles(view.n_faces, 5);
   const Context silent;
   SharedProgress progress(silent, "", 0, 1, 1);
   std::vector<IndexRange> ranges;

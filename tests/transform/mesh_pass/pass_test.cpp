@@ -32,14 +32,14 @@ using test::rough_sphere;
 // The vertex m is in the middle of the edge, except for rounding.
 Mesh with_flat_triangles(Mesh mesh, std::size_t n) {
   for (std::size_t t = 0; t < n; ++t) {
-    const auto [a, b, c] = mesh.triangles[t];
+    const auto [a, b, c] = mesh.faces[t];
     const auto m = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
-    mesh.triangles[t] = {a, m, c};
-    mesh.triangles.push_back({m, b, c});
-    mesh.triangles.push_back({a, b, m});
-    mesh.triangles.push_back({a, c, a});  // without area, and closed in itself
-    mesh.triangles.push_back({a, a, c});
+    mesh.faces[t] = {a, m, c};
+    mesh.faces.push_back({m, b, c});
+    mesh.faces.push_back({a, b, m});
+    mesh.faces.push_back({a, c, a});  // without area, and closed in itself
+    mesh.faces.push_back({a, a, c});
   }
   return mesh;
 }
@@ -130,7 +130,7 @@ void sweep(const Case& c, Sweep& totals) {
 TEST_OF_TWO_SIZES(mesh_pass, keeps_wanted_precisions_and_wastes_no_more_than_a_factor_of_thirty) {
   Sweep totals;
   for (const Case& c : cases()) {
-    const auto oracle_takes = static_cast<double>(c.mesh.triangles.size()) * c.degree * c.degree;
+    const auto oracle_takes = static_cast<double>(c.mesh.faces.size()) * c.degree * c.degree;
     if (nightly || oracle_takes < 3e6) sweep(c, totals);
   }
   EXPECT_GT(totals.close, 0.5 * totals.reports);
@@ -146,9 +146,9 @@ TEST(mesh_pass, lumps_rough_meshes_with_hessians) {
   for (const double wish : {1e-2, 1e-4}) {
     const Transform found = expand(chart, {.degree = 30, .precision = wish});
     EXPECT_LT(relative_error(found.expansion.coefficients, expected.expansion.coefficients), wish);
-    EXPECT_GT(found.fast->lumped_triangles, mesh.triangles.size() * 9 / 10);
+    EXPECT_GT(found.fast->lumped_faces, mesh.faces.size() * 9 / 10);
     EXPECT_GT(found.fast->nodes, nodes);
-    EXPECT_LT(found.fast->nodes, 8 * mesh.triangles.size());
+    EXPECT_LT(found.fast->nodes, 8 * mesh.faces.size());
     nodes = found.fast->nodes;
   }
 }
@@ -213,7 +213,7 @@ TEST_OF_TWO_SIZES(mesh_pass, single_precision_is_enough_where_nodes_take_a_part)
   const MeshPassResult found = mesh_pass(view_of(mesh), options, {});
   EXPECT_TRUE(found.report.single);
   EXPECT_EQ(found.report.passes, 1);
-  EXPECT_GT(found.report.nodes, mesh.triangles.size());
+  EXPECT_GT(found.report.nodes, mesh.faces.size());
   const MeshPassResult expected =
       mesh_pass(view_of(mesh), {.degree = options.degree, .precision = 1e-10}, {});
   EXPECT_LT(relative_error(found.coefficients, expected.coefficients), 1e-6);
@@ -284,7 +284,7 @@ TEST(mesh_pass, the_order_of_triangles_changes_nothing_but_rounding) {
     options.precision = precision;
     const MeshPassResult in_order = mesh_pass(view_of(mesh), options, {});
     Mesh mixed = mesh;
-    test::shuffle(mixed.triangles, 11);
+    test::shuffle(mixed.faces, 11);
     const MeshPassResult random = mesh_pass(view_of(mixed), options, {});
     EXPECT_LT(relative_error(random.coefficients, in_order.coefficients), 2 * precision);
     EXPECT_TRUE(random.closed);
@@ -299,7 +299,7 @@ TEST(mesh_pass, a_fine_mesh_in_random_order_is_as_good_as_in_order) {
   const MeshPassOptions options{.degree = 48, .precision = 1e-5, .center = {0.1, 0, 0}};
   const MeshPassResult in_order = mesh_pass(view_of(mesh), options, {});
   Mesh mixed = mesh;
-  test::shuffle(mixed.triangles, 11);
+  test::shuffle(mixed.faces, 11);
   std::vector<std::uint32_t> order(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0U);
   test::shuffle(order, 12);
@@ -317,10 +317,10 @@ TEST(mesh_pass, a_fine_mesh_in_random_order_is_as_good_as_in_order) {
 
 TEST(mesh_pass, a_disordered_mesh_with_something_wrong_is_refused) {
   Mesh mesh = bumpy_sphere(5);
-  test::shuffle(mesh.triangles, 11);
+  test::shuffle(mesh.faces, 11);
   const MeshPassOptions options{.degree = 8, .precision = 1e-3};
   Mesh beyond = mesh;
-  beyond.triangles[777][1] = static_cast<std::uint32_t>(mesh.vertices.size());
+  beyond.faces[777][1] = static_cast<std::uint32_t>(mesh.vertices.size());
   EXPECT_THROW(mesh_pass(view_of(beyond), options, {}), Error);
   Mesh nowhere = mesh;
   nowhere.vertices[777].y = std::nan("");
@@ -352,26 +352,26 @@ TEST(mesh_pass, tells_whether_the_mesh_is_closed_and_how_it_lies) {
   EXPECT_NEAR(whole.volume, enclosed_volume(mesh), 1e-13);
   EXPECT_NEAR(whole.min_d, star.min_d, 1e-13);
   EXPECT_NEAR(whole.min_cos_gamma, star.min_cos_gamma, 1e-13);
-  EXPECT_EQ(whole.bad_triangles, 0u);
+  EXPECT_EQ(whole.bad_faces, 0u);
   EXPECT_TRUE(mesh_pass(view_of(test::exploded(mesh)), options, {}).closed);
   Mesh inward = mesh;
   flip(inward);
   const MeshPassResult inside_out = mesh_pass(view_of(inward), options, {});
   EXPECT_TRUE(inside_out.closed);
   EXPECT_NEAR(inside_out.volume, -whole.volume, 1e-13);
-  EXPECT_EQ(inside_out.bad_triangles, mesh.triangles.size());
+  EXPECT_EQ(inside_out.bad_faces, mesh.faces.size());
   Mesh open = mesh;
-  open.triangles.pop_back();
+  open.faces.pop_back();
   EXPECT_FALSE(mesh_pass(view_of(open), options, {}).closed);
   Mesh misoriented = mesh;
-  std::swap(misoriented.triangles[9][0], misoriented.triangles[9][1]);
+  std::swap(misoriented.faces[9][0], misoriented.faces[9][1]);
   EXPECT_FALSE(mesh_pass(view_of(misoriented), options, {}).closed);
 }
 
 TEST(mesh_pass, works_on_a_single_triangle) {
   Mesh mesh;
   mesh.vertices = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  mesh.triangles = {{0, 1, 2}};
+  mesh.faces = {{0, 1, 2}};
   const MeshPassResult one = mesh_pass(view_of(mesh), {.degree = 8, .precision = 1e-10}, {});
   EXPECT_FALSE(one.closed);
   EXPECT_NEAR(one.volume, 1.0 / 6, 1e-15);
@@ -396,13 +396,13 @@ TEST(mesh_pass, refuses_meshes_without_triangles_numbers_or_area) {
   for (const std::uint32_t index : {162u, 0xFFFFFFFFu}) {
     for (const std::size_t t : {0u, 200u, 319u}) {
       Mesh mesh = icosphere(2);
-      mesh.triangles[t][1] = index;
+      mesh.faces[t][1] = index;
       EXPECT_EQ(code_of(view_of(mesh), options), ErrorCode::kInvalidInput);
     }
   }
   Mesh flat;
   flat.vertices = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
-  flat.triangles = {{0, 1, 2}, {2, 1, 0}};
+  flat.faces = {{0, 1, 2}, {2, 1, 0}};
   EXPECT_EQ(code_of(view_of(flat), options), ErrorCode::kInvalidInput);
 }
 
@@ -416,7 +416,7 @@ TEST(mesh_pass, refuses_a_surface_through_the_centre) {
 
 TEST(mesh_pass, asks_the_hooks_about_every_triangle_and_stops_when_one_is_none) {
   const Mesh mesh = bumpy_sphere(6);
-  std::vector<int> checked(mesh.triangles.size(), 0), released(mesh.triangles.size(), 0);
+  std::vector<int> checked(mesh.faces.size(), 0), released(mesh.faces.size(), 0);
   bool in_turn = true;
   const MeshPassOptions options{.degree = 4,
                                 .precision = 1e-2,

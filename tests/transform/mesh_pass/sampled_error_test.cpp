@@ -103,7 +103,7 @@ TEST(sampled_error, of_all_triangles_are_what_the_pass_leaves) {
                         {gear(96, 20, 12, 0.2), 12, 1e-4},
                         {gear(60, 3, 10, 0.4), 32, 1e-6}};
   for (const auto& [mesh, degree, precision] : cases) {
-    SCOPED_TRACE(fmt::format("{} {}", mesh.triangles.size(), degree));
+    SCOPED_TRACE(fmt::format("{} {}", mesh.faces.size(), degree));
     const Coefficients exact = exact_of(mesh, degree, 1e-4 * precision);
     const Sampled sampled = sample(mesh, exact, precision, {1.0});
     const SampledError& rules = sampled.said[0];
@@ -180,7 +180,7 @@ TEST_OF_TWO_SIZES(sampled_error, of_some_triangles_are_right_within_their_doubt)
              {elongated(200, 200, 1.5), 16}};
   }
   for (const auto& [mesh, degree] : cases) {
-    SCOPED_TRACE(std::to_string(mesh.triangles.size()) + " " + std::to_string(degree));
+    SCOPED_TRACE(std::to_string(mesh.faces.size()) + " " + std::to_string(degree));
     const Sampled sampled =
         sample(mesh, exact_of(mesh, degree, 1e-9), 1e-5, {0.26, 0.28, 0.3, 0.33, 0.37, 0.42});
     double mean2 = 0;
@@ -200,8 +200,8 @@ TEST_OF_TWO_SIZES(sampled_error, of_large_meshes_keep_the_wish) {
   std::vector<Mesh> meshes = {oblique(gear(480, 105, 24, 0.2))};
   if (nightly) meshes.push_back(elongated(320, 160, 100));
   for (const Mesh& mesh : meshes) {
-    SCOPED_TRACE(mesh.triangles.size());
-    ASSERT_GT(mesh.triangles.size(), kMostVerified);
+    SCOPED_TRACE(mesh.faces.size());
+    ASSERT_GT(mesh.faces.size(), kMostVerified);
     const Coefficients exact = exact_of(mesh, 8, 1e-8);  // a hundredth of the smaller precision
     for (const double wish : {1e-4, 1e-6}) {
       const MeshPassOptions options{.degree = 8, .precision = wish};

@@ -35,16 +35,16 @@ std::vector<VertexLump<T>> scattered(const Mesh& mesh, const BlockParameters& pa
                                      bool backwards) {
   std::vector<VertexLump<T>> lumps(lumps_per_vertex(parameters.hessians) * mesh.vertices.size(),
                                    VertexLump<T>{});
-  const std::size_t n_triangles = mesh.triangles.size();
-  const std::size_t blocks = (n_triangles + kTrianglesPerBlock - 1) / kTrianglesPerBlock;
+  const std::size_t n_faces = mesh.faces.size();
+  const std::size_t blocks = (n_faces + kTrianglesPerBlock - 1) / kTrianglesPerBlock;
   const auto block = std::make_unique<TriangleBlock<T>>();
   BlockSums sums = no_triangles();
   for (std::size_t k = 0; k < blocks; ++k) {
     const std::size_t first = (backwards ? blocks - 1 - k : k) * kTrianglesPerBlock;
-    const std::size_t n = std::min(kTrianglesPerBlock, n_triangles - first);
+    const std::size_t n = std::min(kTrianglesPerBlock, n_faces - first);
     work_block(view_of(mesh), first, n, parameters, *block, sums);
     const MeshView view = view_of(mesh);
-    const CornerPlaces places{view.triangles + first * view.triangle_stride, view.triangle_stride};
+    const CornerPlaces places{view.faces + first * view.face_stride, view.face_stride};
     scatter_lumps(places, n, parameters.hessians, *block, lumps.data());
   }
   return lumps;
@@ -64,7 +64,7 @@ void expect_exact_sums(bool hessians) {
     if (i % lumps_per_vertex(hessians) == 0) sum += static_cast<double>(forwards[i].value[0]);
   }
   // Each corner of each triangle is rounded by half a quantum at most.
-  EXPECT_LT(std::abs(sum), 1.5 * static_cast<double>(mesh.triangles.size()));
+  EXPECT_LT(std::abs(sum), 1.5 * static_cast<double>(mesh.faces.size()));
 }
 
 TEST(scatter, sums_at_vertices_are_the_same_in_any_order) {

@@ -75,11 +75,11 @@ void expect_same_bits(const MeshPassResult& a, const MeshPassResult& b) {
   EXPECT_EQ(a.closed, b.closed);
   EXPECT_EQ(a.min_d, b.min_d);
   EXPECT_EQ(a.min_cos_gamma, b.min_cos_gamma);
-  EXPECT_EQ(a.bad_triangles, b.bad_triangles);
+  EXPECT_EQ(a.bad_faces, b.bad_faces);
   EXPECT_EQ(a.report.error, b.report.error);
   EXPECT_EQ(a.report.band_error, b.report.band_error);
   EXPECT_EQ(a.report.nodes, b.report.nodes);
-  EXPECT_EQ(a.report.lumped_triangles, b.report.lumped_triangles);
+  EXPECT_EQ(a.report.lumped_faces, b.report.lumped_faces);
   EXPECT_EQ(a.report.passes, b.report.passes);
 }
 
@@ -99,8 +99,8 @@ Mesh rows_of_vertices() {
 TEST_OF_TWO_SIZES(shared_parts, give_the_bits_of_one_process) {
   const Mesh fine = bumpy_sphere(7), rough = rough_sphere(5), rows = rows_of_vertices(),
              small = bumpy_sphere(4);
-  ASSERT_TRUE(parts_overlap(view_of(fine), divide_triangles(fine.triangles.size(), 8)));
-  ASSERT_FALSE(parts_overlap(view_of(rows), divide_triangles(rows.triangles.size(), 8)));
+  ASSERT_TRUE(parts_overlap(view_of(fine), divide_triangles(fine.faces.size(), 8)));
+  ASSERT_FALSE(parts_overlap(view_of(rows), divide_triangles(rows.faces.size(), 8)));
   const std::array meshes = {&fine, &rough, &rows, &small};
   const std::array precisions = {1e-2, 1e-6, 1e-10};
   const std::array<std::size_t, 3> all_parts = {0, 3, 21};
@@ -133,7 +133,7 @@ TEST_OF_TWO_SIZES(shared_parts, give_the_bits_of_one_process) {
 // Other processes do not know the order into which triangles are sorted.
 TEST(shared_parts, triangles_in_random_order_are_not_shared) {
   Mesh mesh = bumpy_sphere(6);
-  test::shuffle(mesh.triangles, 3);
+  test::shuffle(mesh.faces, 3);
   MeshPassOptions options{.degree = 12, .precision = 1e-6};
   const MeshPassResult alone = mesh_pass(view_of(mesh), options, {});
   Processes processes(mesh, 3);
@@ -161,8 +161,7 @@ TEST(shared_parts, bytes_that_are_no_input_are_refused) {
   EXPECT_THROW(other.helper.work_of("nonsense"), Error);
   EXPECT_THROW(other.helper.work_of(parts_job({}, false)), Error);  // ranges must come first
   const NonuniformPlan transform = plan_nonuniform({.degree = 4});
-  const std::string input =
-      ranges_job({}, transform, divide_triangles(other.mesh.triangles.size(), 2));
+  const std::string input = ranges_job({}, transform, divide_triangles(other.mesh.faces.size(), 2));
   EXPECT_THROW(other.helper.work_of(input.substr(0, input.size() - 1)), Error);
   EXPECT_EQ(other.helper.work_of(input)(1, 1).size(), sizeof(IndexRange));
 }

@@ -165,7 +165,7 @@ TEST(verify_pass, keeps_the_wish_on_random_bodies) {
 TEST_OF_TWO_SIZES(verify_pass, of_degrees_that_are_zero_by_symmetry_leaves_what_rounding_does) {
   Mesh tetrahedron;
   tetrahedron.vertices = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-  tetrahedron.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+  tetrahedron.faces = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
   const Mesh cube = box({2, 2, 2});
   for (int turn = 0; turn < (nightly ? 40 : 14); ++turn) {
     const Vec3 axis = test::random_direction(7, static_cast<std::uint64_t>(turn));
@@ -189,7 +189,7 @@ TEST_OF_TWO_SIZES(verify_pass, of_degrees_that_are_zero_by_symmetry_leaves_what_
 
 TEST(verify_pass, leaves_meshes_alone_that_are_too_large) {
   const Mesh sphere = bumpy_sphere(7);
-  ASSERT_GT(sphere.triangles.size(), kMostVerified);
+  ASSERT_GT(sphere.faces.size(), kMostVerified);
   const MeshPassOptions options{.degree = 8, .precision = 1e-6};
   MeshPassResult found = mesh_pass(view_of(sphere), options, {});
   const double sampled = found.report.error;

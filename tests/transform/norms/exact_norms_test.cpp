@@ -40,7 +40,7 @@ struct LongNorms {
 // Evaluates (M7) in extended precision, triangle by triangle, without cubature.
 LongNorms oracle(const MeshView& mesh, const Vec3& center) {
   LongNorms sum;
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+  for (std::size_t t = 0; t < mesh.n_faces; ++t) {
     LongVec p[3];
     Long r[3];
     for (int i = 0; i < 3; ++i) {
@@ -101,7 +101,7 @@ std::vector<Shape> shapes(bool nightly) {
 TEST_OF_TWO_SIZES(exact_norms, agree_with_closed_forms_in_extended_precision) {
   for (const Shape& shape : shapes(nightly)) {
     expect_exact(test::packed<float>(shape.mesh).view, shape.center, shape.name);
-    if (shape.mesh.triangles.size() > 50000) continue;  // the oracle is slow
+    if (shape.mesh.faces.size() > 50000) continue;  // the oracle is slow
     expect_exact(test::packed<double>(shape.mesh, 4).view, shape.center, shape.name);
   }
 }
@@ -118,18 +118,18 @@ TEST(exact_norms, are_as_good_with_every_instruction_set) {
 // 1/|x| is infinite. It adds nothing, because its plane passes through the centre.
 TEST(exact_norms, are_numbers_for_any_number_of_triangles_whatever_the_last_one_is) {
   Mesh mesh = bumpy_sphere(1, 0.3);
-  const std::vector<Triangle> triangles = mesh.triangles;
+  const std::vector<Triangle> triangles = mesh.faces;
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), {{3, 0, 0}, {0, 3, 0}, {-3, -3, 0}});
   test::for_each_target([&](const char* target) {
     double first_power = 0, volume = 0;
     for (std::size_t n = 1; n <= 33; ++n) {
-      mesh.triangles = {triangles[n - 1]};
+      mesh.faces = {triangles[n - 1]};
       const ExactNorms one = exact_norms(view_of(mesh), {});
       first_power += one.radius_squared, volume += one.volume;
-      mesh.triangles.assign(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(n));
+      mesh.faces.assign(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(n));
       for (const bool more : {false, true}) {
-        if (more) mesh.triangles.push_back({first, first + 1, first + 2});
+        if (more) mesh.faces.push_back({first, first + 1, first + 2});
         const ExactNorms norms = exact_norms(view_of(mesh), {});
         EXPECT_NEAR(norms.radius_squared, first_power, 1e-13) << target << " " << n << more;
         EXPECT_NEAR(norms.volume, volume, 1e-13) << target << " " << n << more;
@@ -152,11 +152,11 @@ TEST(exact_norms, have_the_same_bits_for_any_number_of_threads) {
 // A repeated corner makes an area that is only rounding, in any direction.
 TEST(exact_norms, know_runs_with_faces_without_area) {
   Mesh mesh = test::rotated(bumpy_sphere(4, 0.3));
-  const std::size_t n = mesh.triangles.size();
+  const std::size_t n = mesh.faces.size();
   for (std::size_t k = 0; k < 3; ++k) {
-    Triangle twice = mesh.triangles[700 * k];
+    Triangle twice = mesh.faces[700 * k];
     twice[k] = twice[(k + 1) % 3];
-    mesh.triangles.push_back(twice);
+    mesh.faces.push_back(twice);
   }
   test::for_each_target([&](const char* target) {
     FaceSizes sizes;
@@ -166,7 +166,7 @@ TEST(exact_norms, know_runs_with_faces_without_area) {
       EXPECT_EQ(sizes.flat[run], run == n / FaceSizes::kRun ? 1 : 0) << target;
     }
     double area = 0, known = 0;
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.faces) {
       const Vec3 &p = mesh.vertices[t[0]], &q = mesh.vertices[t[1]], &r = mesh.vertices[t[2]];
       area += norm(cross(q - p, r - p)) * sizes.scale * sizes.scale;
     }
@@ -226,7 +226,7 @@ TEST(exact_norms, mean_powers_of_a_triangle_of_any_size_shape_and_tilt) {
           Mesh mesh;
           mesh.vertices = {u - 0.5 * size * along, u + 0.5 * size * along,
                            u + size * (foot - 0.5) * along + size * height * up};
-          mesh.triangles = {{0, 1, 2}};
+          mesh.faces = {{0, 1, 2}};
           const ExactNorms norms = exact_norms(view_of(mesh), {});
           const LongNorms exact = oracle(view_of(mesh), {});
           const double error = std::max(std::abs(relative(norms.radius_squared / norms.volume,
@@ -293,12 +293,12 @@ TEST(exact_norms, count_nothing_without_area_or_seen_edge_on) {
   const Mesh solid = box({2, 2, 2});
   Mesh dirty = solid;
   dirty.vertices.push_back({1, 0, 0});
-  dirty.triangles.push_back({0, 0, 1});
-  dirty.triangles.push_back({2, 2, 2});
+  dirty.faces.push_back({0, 0, 1});
+  dirty.faces.push_back({2, 2, 2});
   dirty.vertices.push_back({0.5, 0, 0});
   dirty.vertices.push_back({0, 0.5, 0});
   const auto n = static_cast<std::uint32_t>(dirty.vertices.size());
-  dirty.triangles.push_back({n - 3, n - 2, n - 1});  // in the plane z = 0
+  dirty.faces.push_back({n - 3, n - 2, n - 1});  // in the plane z = 0
   const ExactNorms clean = exact_norms(view_of(solid), {}), same = exact_norms(view_of(dirty), {});
   EXPECT_NEAR(same.radius_squared, clean.radius_squared, 1e-14);
   EXPECT_NEAR(same.solid_angle, clean.solid_angle, 1e-14);
@@ -331,7 +331,7 @@ TEST(exact_norms, refuse_what_is_not_a_mesh) {
     EXPECT_THROW(vertex_error_strengths(view_of(mesh), {}), Error);
   };
   Mesh mesh = bumpy_sphere(2);
-  mesh.triangles[17][1] = 100000;
+  mesh.faces[17][1] = 100000;
   expect_refused(mesh);
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200}) {

@@ -43,7 +43,7 @@ TEST_OF_TWO_SIZES(search_tolerance, doubles_the_degree_until_it_is_good) {
       const ToleranceTransform found = expand(chart, tolerance);
       const std::vector<int>& degrees = found.degrees;
       ASSERT_GE(degrees.size(), 2u);
-      EXPECT_EQ(degrees[0], first_degree(mesh.triangles.size(), tolerance));
+      EXPECT_EQ(degrees[0], first_degree(mesh.faces.size(), tolerance));
       const auto is_next = [&](int a, int b) {
         return b > a && b == std::min(2 * (a + 1), tolerance.max_degree);
       };
@@ -96,11 +96,11 @@ TEST_OF_TWO_SIZES(search_tolerance, finds_the_smallest_degree_for_the_largest_ra
   for (const Mesh& mesh : meshes) {
     const StarChart chart = chart_of(mesh);
     const Transform exact = expand(chart, {.degree = 100, .precision = 1e-10});
-    const int n = mesh.triangles.size() > 100 ? 8 : 24;
+    const int n = mesh.faces.size() > 100 ? 8 : 24;
     for (const double error : nightly ? std::vector{0.2, 0.08} : std::vector{0.12}) {
       Tolerance tolerance{.error = error, .norm = ErrorNorm::kMax, .max_degree = 100};
       const ToleranceTransform found = expand(chart, tolerance);
-      ASSERT_TRUE(found.met) << mesh.triangles.size() << ' ' << found.reached;
+      ASSERT_TRUE(found.met) << mesh.faces.size() << ' ' << found.reached;
       const int degree = found.transform.expansion.coefficients.degree();
       const auto largest = [&](int l, int rounds) {
         return test::largest_error_of_dense_points(mesh, exact.expansion.coefficients.resized(l), n,

@@ -222,8 +222,8 @@ HWY_INLINE void load_corners(const MeshView& mesh, size_t first, size_t n,
   const D d;
   constexpr size_t kLanes = hn::MaxLanes(D());
   const Frame frame = frame_of(d, parameters);
-  const std::byte* indices = mesh.triangles + first * mesh.triangle_stride;
-  for (size_t at = 0; at < n; at += kLanes, indices += kLanes * mesh.triangle_stride) {
+  const std::byte* indices = mesh.faces + first * mesh.face_stride;
+  for (size_t at = 0; at < n; at += kLanes, indices += kLanes * mesh.face_stride) {
     for (size_t i = 0; i < 3; ++i) {
       const V3 v = kWholeVectors && at + kLanes <= n
                        ? LoadWhole(d, mesh, indices + 4 * i, double())
@@ -240,10 +240,10 @@ HWY_INLINE void load_corners(const MeshView& mesh, size_t first, size_t n,
   const D d;
   constexpr size_t kLanes = hn::MaxLanes(DF());
   const Frame frame = frame_of(d, parameters);
-  const std::byte* indices = mesh.triangles + first * mesh.triangle_stride;
+  const std::byte* indices = mesh.faces + first * mesh.face_stride;
   // A row of floats is read with 4 bytes beyond it: only in a block without the last vertex.
   const bool whole = kWholeVectors && parameters.largest_index + 1 < mesh.n_vertices;
-  for (size_t at = 0; at < n; at += kLanes, indices += kLanes * mesh.triangle_stride) {
+  for (size_t at = 0; at < n; at += kLanes, indices += kLanes * mesh.face_stride) {
     for (size_t i = 0; i < 3; ++i) {
       const FloatRows rows = whole && at + kLanes <= n
                                  ? LoadWholeRows(mesh, indices + 4 * i)
@@ -305,8 +305,8 @@ HWY_INLINE void work_any(const MeshView& mesh, size_t first, size_t n,
 // Each record but the last is read with 4 bytes beyond it. Prefetches corners, so that they are in
 // the cache when the block is processed.
 uint32_t LargestIndex(const MeshView& mesh, size_t first, size_t n) {
-  const size_t stride = mesh.triangle_stride;
-  const std::byte* record = mesh.triangles + first * stride;
+  const size_t stride = mesh.face_stride;
+  const std::byte* record = mesh.faces + first * stride;
   size_t t = 0;
   uint32_t largest = 0;
 #if HWY_TARGET != HWY_SCALAR

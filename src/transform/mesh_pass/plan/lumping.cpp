@@ -130,8 +130,8 @@ struct RuleErrors {
 };
 std::vector<RuleErrors> rule_errors(const MeshSample& sample) {
   std::vector<RuleErrors> all;
-  all.reserve(sample.triangles.size());
-  for (const MeshSample::Triangle& t : sample.triangles) {
+  all.reserve(sample.faces.size());
+  for (const MeshSample::Triangle& t : sample.faces) {
     RuleErrors errors = {
         .edges = {}, .face = {}, .z2 = *std::max_element(t.z2.begin(), t.z2.end())};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -162,13 +162,13 @@ Seen with_hessians(const MeshSample& sample, const std::vector<RuleErrors>& rule
   seen.unseen_edges = 0;                      // the entries contain them
   std::vector<std::array<double, 3>> errors;  // errors of half-edges
   std::vector<double> errors2;
-  errors.reserve(sample.triangles.size());
-  errors2.reserve(sample.triangles.size());
-  seen.entries.reserve(sample.triangles.size());
+  errors.reserve(sample.faces.size());
+  errors2.reserve(sample.faces.size());
+  seen.entries.reserve(sample.faces.size());
   seen.edges.reserve(sample.edges.size());
   double nodes = 0;
   for (std::size_t n = 0; n < rules.size(); ++n) {
-    const MeshSample::Triangle& t = sample.triangles[n];
+    const MeshSample::Triangle& t = sample.faces[n];
     std::array<double, 3> error;
     double edges2 = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -187,11 +187,11 @@ Seen with_hessians(const MeshSample& sample, const std::vector<RuleErrors>& rule
     const double own2 = sample.edge_share > 0 ? face2 : face2 + 2 * edges2;
     seen.entries.push_back({edges2 + face2, own2, t.face * t.face});
   }
-  lumps.between = nodes / static_cast<double>(std::max<std::size_t>(sample.triangles.size(), 1));
+  lumps.between = nodes / static_cast<double>(std::max<std::size_t>(sample.faces.size(), 1));
   for (const auto& [first, second] : sample.twins) {
     const double a = errors[first / 3][first % 3], b = errors[second / 3][second % 3];
     const double a2 = errors2[first / 3], b2 = errors2[second / 3];
-    const MeshSample::Triangle &t = sample.triangles[first / 3], &u = sample.triangles[second / 3];
+    const MeshSample::Triangle &t = sample.faces[first / 3], &u = sample.faces[second / 3];
     const double z2 = t.z2[first % 3];
     const double factor = kHermiteEdges[hermite_rule(lumps.edge_reach2, z2)].hessian * z2;
     const double ta = t.weight[first % 3], tb = u.weight[second % 3];
@@ -224,7 +224,7 @@ struct MeanWeights {
 MeanWeights mean_weights(const MeshSample& sample) {
   MeanWeights mean;
   double faces = 0, halves = 0;
-  for (const MeshSample::Triangle& t : sample.triangles) {
+  for (const MeshSample::Triangle& t : sample.faces) {
     const double sum = std::abs(t.weight[0]) + std::abs(t.weight[1]) + std::abs(t.weight[2]);
     if (!std::isfinite(sum + t.face)) continue;
     mean.face += std::abs(t.face);
@@ -261,11 +261,11 @@ double own_nodes_of(const MeshSample& sample, const NodeAllowance& element) {
   };
   for (std::size_t n = 0; n < sample.twins.size(); n += kEvery) {
     const auto [a, b] = sample.twins[n];
-    add_edge(sample.triangles[a / 3].weight[a % 3] + sample.triangles[b / 3].weight[b % 3],
-             sample.triangles[a / 3].z2[a % 3]);
+    add_edge(sample.faces[a / 3].weight[a % 3] + sample.faces[b / 3].weight[b % 3],
+             sample.faces[a / 3].z2[a % 3]);
   }
-  for (std::size_t t = 0; t < sample.triangles.size(); t += kEvery) {
-    const MeshSample::Triangle& triangle = sample.triangles[t];
+  for (std::size_t t = 0; t < sample.faces.size(); t += kEvery) {
+    const MeshSample::Triangle& triangle = sample.faces[t];
     const double z2 = *std::max_element(triangle.z2.begin(), triangle.z2.end());
     if (sample.twins.empty()) add_edge(triangle.weight[t % 3], triangle.z2[t % 3]);
     if (!std::isfinite(triangle.face + z2) || triangle.face == 0) continue;
@@ -278,7 +278,7 @@ double own_nodes_of(const MeshSample& sample, const NodeAllowance& element) {
 
 double crowding_of(const MeshSample& sample) {
   double sum = 0, weights = 0;
-  for (const MeshSample::Triangle& t : sample.triangles) {
+  for (const MeshSample::Triangle& t : sample.faces) {
     const auto [a, b, c] = t.z2;
     const double longest = std::max({a, b, c});
     const double weight = std::pow(t.face * std::pow(longest, 4), 2);  // for an error as z^8
@@ -299,7 +299,7 @@ std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allow
   const MeanWeights mean = mean_weights(sample);
   if (!(mean.edge > 0) || !(mean.face > 0) || !(allowed2 > 0)) return {};
   // Errors of an edge and a face if all were alike; a face has one and a half edges.
-  const double triangles = sample.share * static_cast<double>(sample.triangles.size());
+  const double triangles = sample.share * static_cast<double>(sample.faces.size());
   const double edge = std::sqrt(allowed2 / (3 * triangles)) / mean.edge;
   const double face = std::sqrt(allowed2 / (2 * triangles)) / mean.face;
   const std::vector<RuleErrors> rules = rule_errors(sample);

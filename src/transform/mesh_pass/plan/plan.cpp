@@ -56,16 +56,16 @@ constexpr double kElements = 2.5;
 
 // Returns the limit of names for some four thousand sampled edges. They give the sum of squares to
 // a few per cent, if none outweighs the others.
-std::uint32_t sampled_names(std::size_t n_triangles) {
-  const double part = 4000 / (1.5 * static_cast<double>(n_triangles));
+std::uint32_t sampled_names(std::size_t n_faces) {
+  const double part = 4000 / (1.5 * static_cast<double>(n_faces));
   return static_cast<std::uint32_t>(std::min(1.0, part) * 4294967295.0);
 }
 
 // Returns the allowed error of each edge and face with nodes. A kind of face that the sample lacks
 // counts as three of its faces, as in largest_tolerance().
-double allowed_of_element(const MeshPlan& plan, const MeshSample& sample, std::size_t n_triangles) {
-  const double noded = std::max(plan.node_share * static_cast<double>(n_triangles),
-                                std::max(3 * sample.share, 10.0));
+double allowed_of_element(const MeshPlan& plan, const MeshSample& sample, std::size_t n_faces) {
+  const double noded =
+      std::max(plan.node_share * static_cast<double>(n_faces), std::max(3 * sample.share, 10.0));
   return plan.allowed.rules * std::sqrt(node_share2(plan.node_share > 0) / (kElements * noded)) /
          kTypicalShare;
 }
@@ -75,11 +75,10 @@ double allowed_of_element(const MeshPlan& plan, const MeshSample& sample, std::s
 // So the faces together may have a tenth of the wanted error (chosen). On a ball 2 |T| / d_T adds
 // up to 8 pi r. Only faces with thirty times their part of that are refused (chosen), because
 // bounded terms for every face would cost more than they save.
-double allowed_face_rounding(const MeshPlan& plan, const MeshSample& sample,
-                             std::size_t n_triangles) {
+double allowed_face_rounding(const MeshPlan& plan, const MeshSample& sample, std::size_t n_faces) {
   const double wanted = 0.1 * plan.allowed.rules * plan.allowed.caution / kRuleShare;
   const double ball = 30 * kWeightRounding * 8 * kPi * sample.mean;
-  return std::min(plan.divided.allowed, std::max(wanted, ball) / static_cast<double>(n_triangles));
+  return std::min(plan.divided.allowed, std::max(wanted, ball) / static_cast<double>(n_faces));
 }
 
 // Derivative p of 1/|x|^2 along a line is below p! / |x|^(p + 2). So the error is the error of
@@ -108,7 +107,7 @@ BlockParameters block_parameters(const MeshView& mesh, const MeshSample& sample,
           // No other rounding cancels the rounding of Hessians, so their quanta are finer. Still
           // Hessians are smaller than weights, by kFarthest of hermite_rules.cpp.
           .per_hessian = 4 * std::pow(std::max(degree, 1), 2) / quantum.size,
-          .sampled_names = sampled_names(mesh.n_triangles)};
+          .sampled_names = sampled_names(mesh.n_faces)};
 }
 
 }  // namespace
@@ -177,7 +176,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   plan.source2 = sample.source2;
   plan.node_share = lumps.node_share;
   const auto own_nodes = [&] {
-    const double element = allowed_of_element(plan, sample, mesh.n_triangles);
+    const double element = allowed_of_element(plan, sample, mesh.n_faces);
     plan.divided = {.degree = degree, .allowed = element, .divided = true};
     return plan.node_share > 0 ? own_nodes_of(sample, plan.divided) : 0;
   };
@@ -205,7 +204,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   plan.round_modulus = roundness(sample) * sample.modulus;
   plan.node_modulus = std::min(1.0, plan.node_share + plan.between) * sample.modulus;
   plan.nodes = plan.between + plan.node_share * own_nodes();
-  plan.face_rounding = allowed_face_rounding(plan, sample, mesh.n_triangles);
+  plan.face_rounding = allowed_face_rounding(plan, sample, mesh.n_faces);
   return plan;
 }
 

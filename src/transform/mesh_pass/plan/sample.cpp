@@ -125,7 +125,7 @@ void add_triangles(const TriangleBlock<double>& block, std::size_t n, int degree
       p[i] = {block.corner[i][0][t], block.corner[i][1][t], block.corner[i][2][t]};
     }
     moments.add(p);
-    sample.triangles.push_back(triangle_of(block, t, p, degree));
+    sample.faces.push_back(triangle_of(block, t, p, degree));
     for (int i = 0; i < 3; ++i) {
       const double weight = std::abs(block.edge_weight[i][t]);
       if (std::isfinite(weight) && weight > 0) edges.add(p[i], p[(i + 1) % 3], weight);
@@ -154,7 +154,7 @@ double modulus_of(const MeshSample& sample) {
   return faces + (sample.edge_share > 0 ? sample.edge_share * edges : faces);
 }
 
-void set_statistics(const Moments& moments, const EdgeStatistics& edges, std::size_t n_triangles,
+void set_statistics(const Moments& moments, const EdgeStatistics& edges, std::size_t n_faces,
                     MeshSample& sample) {
   if (moments.solid > 0) {
     sample.mean = moments.sum / moments.solid;
@@ -163,7 +163,7 @@ void set_statistics(const Moments& moments, const EdgeStatistics& edges, std::si
   }
   sample.aligned = edges.all > 0 ? edges.aligned / edges.all : 0;
   sample.angle = edges.count > 0 ? edges.angles / edges.count : 0;
-  const double all = static_cast<double>(n_triangles);
+  const double all = static_cast<double>(n_faces);
   const double n = static_cast<double>(std::max<std::size_t>(sample.entries.size(), 1));
   sample.share = all / n;
   sample.overlaps = moments.solid > 1.01 * std::abs(moments.signed_solid);
@@ -181,22 +181,22 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
   sample.scale = scale_of(mesh, center);
   BlockParameters parameters = judging_only(center, sample.scale, degree);
   constexpr std::size_t kSize = TriangleBlock<double>::kSize;
-  const std::size_t blocks = (mesh.n_triangles + kSize - 1) / kSize;
+  const std::size_t blocks = (mesh.n_faces + kSize - 1) / kSize;
   const std::size_t taken = std::min(blocks, kSampleBlocks);
   auto block = std::make_unique<TriangleBlock<double>>();
   Moments moments;
   EdgeStatistics edges;
   for (std::size_t k = 0; k < taken; ++k) {
     const std::size_t first = k * blocks / taken * kSize;
-    const std::size_t n = std::min(kSize, mesh.n_triangles - first);
+    const std::size_t n = std::min(kSize, mesh.n_faces - first);
     parameters.largest_index = largest_index(mesh, first, n);
     if (parameters.largest_index >= mesh.n_vertices) continue;  // the pass reports it
     BlockSums sums = no_triangles();
     work_block(mesh, first, n, parameters, *block, sums);
     add_triangles(*block, n, degree, moments, edges, sample);
-    add_edges(*block, n, sample.triangles.size() - n, sample);
+    add_edges(*block, n, sample.faces.size() - n, sample);
   }
-  set_statistics(moments, edges, mesh.n_triangles, sample);
+  set_statistics(moments, edges, mesh.n_faces, sample);
   return sample;
 }
 

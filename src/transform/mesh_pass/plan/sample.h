@@ -32,7 +32,7 @@ struct MeshSample {
     std::array<double, 3> weight, z2;
     double face;
   };
-  std::vector<Triangle> triangles;
+  std::vector<Triangle> faces;
   std::vector<std::array<std::uint32_t, 2>> twins;
   double edge_share = 0;  // edges of the mesh per edge of the sample; 0: none is known
   // Energy of the edges' errors relative to the faces', if no edge is known: as on smooth meshes.

@@ -61,8 +61,8 @@ Worked<T> work(const MeshView& mesh, BlockParameters parameters,
                std::size_t per_block = kTrianglesPerBlock) {
   Worked<T> worked;
   parameters.largest_index = static_cast<std::uint32_t>(mesh.n_vertices - 1);
-  for (std::size_t first = 0; first < mesh.n_triangles; first += per_block) {
-    const std::size_t n = std::min(per_block, mesh.n_triangles - first);
+  for (std::size_t first = 0; first < mesh.n_faces; first += per_block) {
+    const std::size_t n = std::min(per_block, mesh.n_faces - first);
     worked.blocks.push_back(std::make_unique<TriangleBlock<T>>());
     work_block(mesh, first, n, parameters, *worked.blocks.back(), worked.sums);
   }
@@ -75,7 +75,7 @@ BlockSums sums_of(const Mesh& mesh, const Vec3& center = {}) {
 // Returns triangles of many sizes and slopes, none of them seen edge-on.
 Mesh random_triangles(std::size_t n, std::uint64_t seed) {
   Mesh mesh;
-  for (std::uint64_t k = 0; mesh.triangles.size() < n; ++k) {
+  for (std::uint64_t k = 0; mesh.faces.size() < n; ++k) {
     const Vec3 middle =
         test::random_in(0.5, 1.5, seed, 5 * k) * test::random_direction(seed, 7 * k);
     const double size = std::pow(10.0, test::random_in(-3, 0, seed, 5 * k + 1));
@@ -87,7 +87,7 @@ Mesh random_triangles(std::size_t n, std::uint64_t seed) {
     if (std::abs(dot(normal, p[0])) < 0.05 * norm(normal) * norm(p[0])) continue;
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), p.begin(), p.end());
-    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.faces.push_back({first, first + 1, first + 2});
   }
   return mesh;
 }
@@ -108,7 +108,7 @@ struct Exact {
   }
   Exact(const Mesh& mesh, std::size_t t) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3& v = mesh.vertices[mesh.triangles[t][i]];
+      const Vec3& v = mesh.vertices[mesh.faces[t][i]];
       p[i] = {v.x, v.y, v.z};
     }
     const Vec n = outer(minus(p[1], p[0]), minus(p[2], p[0]));
@@ -136,8 +136,8 @@ TEST(block, lumps_of_a_triangle_add_up_to_nothing) {
   parameters.per_weight = parameters.per_gradient = 1 << 20;
   parameters.largest = 1 << 28;
   const auto worked = work<std::int32_t>(view_of(mesh), parameters);
-  EXPECT_LT(worked.sums.nodes, mesh.triangles.size() / 2);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  EXPECT_LT(worked.sums.nodes, mesh.faces.size() / 2);
+  for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
     const auto& block = *worked.blocks[t / kTrianglesPerBlock];
     const std::size_t at = t % kTrianglesPerBlock;
     if (block.flag[at] != kLumped) continue;
@@ -152,7 +152,7 @@ TEST(block, lumps_of_a_triangle_add_up_to_nothing) {
 TEST(block, lumps_are_what_the_rule_makes_of_the_definition) {
   const Mesh mesh = random_triangles(1000, 1);
   const auto worked = work<double>(view_of(mesh), parameters_about({}));
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
     const Exact exact(mesh, t);
     const auto& block = *worked.blocks[t / kTrianglesPerBlock];
     const std::size_t at = t % kTrianglesPerBlock;
@@ -178,7 +178,7 @@ TEST(block, lumps_are_what_the_rule_makes_of_the_definition) {
 TEST(block, weights_of_a_triangle_sum_to_zero) {
   const Mesh mesh = random_triangles(300, 2);
   const auto worked = work<double>(view_of(mesh), parameters_about({}));
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
     const auto& block = *worked.blocks[t / kTrianglesPerBlock];
     double sum = 0;
     for (int i = 0; i < 3; ++i) sum += block.lump[i][t % kTrianglesPerBlock].value[0];
@@ -190,7 +190,7 @@ TEST(block, weights_of_a_triangle_sum_to_zero) {
 TEST(block, lumps_are_exact_for_quadratic_functions) {
   const Mesh mesh = random_triangles(200, 3);
   const auto worked = work<double>(view_of(mesh), parameters_about({}));
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
     const Exact exact(mesh, t);
     std::array<double, 10> q;
     for (std::size_t i = 0; i < 10; ++i) q[i] = test::random_in(-1, 1, 4, 10 * t + i);
@@ -205,8 +205,8 @@ TEST(block, lumps_are_exact_for_quadratic_functions) {
     };
     double lumped = 0, expected = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3& a = mesh.vertices[mesh.triangles[t][i]];
-      const Vec3& b = mesh.vertices[mesh.triangles[t][(i + 1) % 3]];
+      const Vec3& a = mesh.vertices[mesh.faces[t][i]];
+      const Vec3& b = mesh.vertices[mesh.faces[t][(i + 1) % 3]];
       const double middle = value(0.5 * (a + b));
       expected += static_cast<double>(exact.w[i]) * (value(a) + 4 * middle + value(b)) / 6 +
                   static_cast<double>(exact.face) * middle / 3;
@@ -227,7 +227,7 @@ TEST(block, lumps_and_nodes_of_a_triangle_add_up_to_nothing) {
     parameters.largest = 1 << 28;
     with_rule(parameters, rule);
     const auto worked = work<std::int32_t>(view_of(mesh), parameters);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
       const auto& block = *worked.blocks[t / kTrianglesPerBlock];
       const std::size_t at = t % kTrianglesPerBlock;
       if (block.flag[at] != kLumped) continue;
@@ -271,7 +271,7 @@ TEST(block, lumps_with_hessians_are_exact_for_polynomials) {
     with_rule(parameters, rule);
     const int edge_nodes = kHermiteEdges[edge_rule_of(rule)].nodes;
     const auto worked = work<double>(view_of(mesh), parameters);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
       const Exact exact(mesh, t);
       const auto& block = *worked.blocks[t / kTrianglesPerBlock];
       const std::size_t at = t % kTrianglesPerBlock;
@@ -348,7 +348,7 @@ TEST(block, closed_meshes_have_hash_sums_of_zero) {
 TEST(block, zero_and_minus_zero_are_one_place) {
   Mesh mesh = test::random_octahedron(3);
   for (std::size_t t = 0; t < 4; ++t) {
-    for (std::uint32_t& corner : mesh.triangles[t]) {
+    for (std::uint32_t& corner : mesh.faces[t]) {
       Vec3 copy = mesh.vertices[corner];
       for (double* x : {&copy.x, &copy.y, &copy.z}) {
         if (*x == 0) *x = -*x;
@@ -366,12 +366,12 @@ TEST(block, zero_and_minus_zero_are_one_place) {
 TEST(block, meshes_that_are_not_closed_or_oriented_have_other_hash_sums) {
   for (const int subdivisions : {0, 1, 3}) {
     const Mesh mesh = bumpy_sphere(subdivisions);
-    for (std::size_t t = 0; t < mesh.triangles.size(); t += 7) {
+    for (std::size_t t = 0; t < mesh.faces.size(); t += 7) {
       Mesh open = mesh, flipped = mesh, doubled = mesh, moved = test::exploded(mesh);
-      open.triangles.erase(open.triangles.begin() + static_cast<std::ptrdiff_t>(t));
-      std::swap(flipped.triangles[t][0], flipped.triangles[t][1]);
-      doubled.triangles.push_back(mesh.triangles[t]);
-      double& x = moved.vertices[moved.triangles[t][0]].x;
+      open.faces.erase(open.faces.begin() + static_cast<std::ptrdiff_t>(t));
+      std::swap(flipped.faces[t][0], flipped.faces[t][1]);
+      doubled.faces.push_back(mesh.faces[t]);
+      double& x = moved.vertices[moved.faces[t][0]].x;
       x = std::nextafter(x, 2.0);
       for (const Mesh& bad : {open, flipped, doubled, moved}) EXPECT_FALSE(closes(bad));
       for (const Mesh& bad : {open, flipped, doubled}) {
@@ -385,7 +385,7 @@ TEST(block, meshes_that_are_not_closed_or_oriented_have_other_hash_sums) {
 TEST(block, holes_in_a_lattice_have_other_hash_sums) {
   Mesh open = box({8, 8, 8}, 8);
   for (std::size_t holes = 0; holes < 100; ++holes) {
-    open.triangles.erase(open.triangles.begin() + static_cast<std::ptrdiff_t>(3 * holes));
+    open.faces.erase(open.faces.begin() + static_cast<std::ptrdiff_t>(3 * holes));
     EXPECT_FALSE(closes(open)) << holes;
     EXPECT_FALSE(closes(test::packed<float>(open).view)) << holes;
   }
@@ -411,7 +411,7 @@ TEST(block, volume_distances_and_bad_faces_are_those_of_the_star_check) {
     EXPECT_NEAR(sums.volume6 / 6, enclosed_volume(mesh), 1e-13 * (1 + std::abs(sums.volume6)));
     EXPECT_NEAR(signed_root(sums.min_d2), report.min_d, 1e-14);
     EXPECT_NEAR(signed_root(sums.min_cos2), report.min_cos_gamma, 1e-14);
-    EXPECT_EQ(sums.bad, report.bad_triangles);
+    EXPECT_EQ(sums.bad, report.bad_faces);
   }
 }
 
@@ -422,7 +422,7 @@ TEST(block, lumps_integrate_the_radius_to_a_sixth_of_the_fourth_power_of_the_edg
     const Vec3 center = {0.1, -0.2, 0.1};
     const BlockSums sums = sums_of(mesh, center);
     double expected = 0;
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.faces) {
       const std::array<Vec3, 3> p = {mesh.vertices[t[0]] - center, mesh.vertices[t[1]] - center,
                                      mesh.vertices[t[2]] - center};
       expected += radius_integral(p, 1e-14);
@@ -442,7 +442,7 @@ TEST(block, six_nodes_integrate_the_radius_to_the_fifth_power_of_the_edge) {
       parameters.mean_nodes_reach2 = kInfinity;
       const BlockSums sums = work<double>(view_of(mesh), parameters).sums;
       double expected = 0;
-      for (const Triangle& t : mesh.triangles) {
+      for (const Triangle& t : mesh.faces) {
         const std::array<Vec3, 3> p = {mesh.vertices[t[0]] - center, mesh.vertices[t[1]] - center,
                                        mesh.vertices[t[2]] - center};
         expected += radius_integral(p, 1e-14);
@@ -503,7 +503,7 @@ TEST(block, every_instruction_set_agrees_to_rounding) {
     EXPECT_TRUE(closes(test::exploded(bumpy_sphere(2)))) << target;
     EXPECT_NE(worked.sums.hash1, 0u) << target;
     EXPECT_EQ(worked.sums.bad, expected.sums.bad) << target;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t t = 0; t < mesh.faces.size(); ++t) {
       const auto &a = *worked.blocks[t / kTrianglesPerBlock],
                  &b = *expected.blocks[t / kTrianglesPerBlock];
       const std::size_t at = t % kTrianglesPerBlock;
@@ -526,7 +526,7 @@ TEST(block, flags_what_cannot_be_lumped) {
                    {1, 0, 0},  {2, 0, 0},   {1, 0, 0.1},  // edge-on
                    {1, 1, 1},  {1, 1, 1},   {1, 0, 0},    // no area
                    {1, -1, 0}, {1, 1, 0},   {1, 0, 1}};   // large
-  mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}};
+  mesh.faces = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}};
   BlockParameters parameters = parameters_about({});
   parameters.tolerance2 = 1;
   parameters.mean_reach2 = 0.1;

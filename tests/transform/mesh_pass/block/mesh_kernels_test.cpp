@@ -118,7 +118,7 @@ TEST(mesh_kernels, triangles_do_not_depend_on_those_beside_them) {
 TEST(mesh_kernels, largest_index_is_that_of_any_number_of_triangles) {
   const test::PackedMesh mesh = test::packed<float>(bumpy_sphere(2));
   test::for_each_target([&](const char* target) {
-    for (std::size_t end = 1; end <= mesh.view.n_triangles; ++end) {
+    for (std::size_t end = 1; end <= mesh.view.n_faces; ++end) {
       const std::size_t n = std::min(end, end % kMost + 1);
       std::uint32_t largest = 0;
       for (std::size_t t = end - n; t < end; ++t) {

@@ -1,4 +1,4 @@
-#include "shape/points/strays.h"
+#include "shape/points/isolated_points.h"
 
 #include <algorithm>
 #include <array>
@@ -44,7 +44,7 @@ constexpr double kThick = 0.05;
 constexpr double kThinner = 1.5;  // distance to the eighth neighbour over that of the largest group
 constexpr std::size_t kAsked = 200;
 
-// Limits of find_far_strays().
+// Limits of find_far_isolated_points().
 constexpr std::size_t kBeyond = 200, kFewestForBox = 32;
 constexpr double kFarOutside = 20;
 
@@ -63,7 +63,7 @@ class Groups {
     find_links(gaps, neighbors);
   }
 
-  std::vector<std::uint8_t> strays() const {
+  std::vector<std::uint8_t> isolated() const {
     const std::size_t n = points_.size();
     std::vector<std::uint8_t> flags(n, 0);
     // Tests single points and small groups among all points.
@@ -273,7 +273,7 @@ FarBall find_far_ball(std::span<const Vec3> points) {
   return {.middle = middle, .radius = kFarOutside * diagonal};
 }
 
-std::vector<std::uint8_t> find_far_strays(std::span<const Vec3> points) {
+std::vector<std::uint8_t> find_far_isolated_points(std::span<const Vec3> points) {
   std::vector<std::uint8_t> flags(points.size(), 0);
   if (is_compact(points)) return flags;
   const FarBall ball = find_far_ball(points);
@@ -283,14 +283,14 @@ std::vector<std::uint8_t> find_far_strays(std::span<const Vec3> points) {
   return flags;
 }
 
-std::vector<std::uint8_t> find_strays(const PointTree& tree, std::span<const Vec3> points,
-                                      const SamplingGaps& gaps, const Context& context,
-                                      std::vector<std::uint32_t>* neighbors) {
+std::vector<std::uint8_t> find_isolated_points(const PointTree& tree, std::span<const Vec3> points,
+                                               const SamplingGaps& gaps, const Context& context,
+                                               std::vector<std::uint32_t>* neighbors) {
   if (points.size() < kLeastGroup) {
     if (neighbors != nullptr) *neighbors = graph_neighbors(tree, gaps, context);
     return std::vector<std::uint8_t>(points.size(), 0);
   }
-  return Groups(tree, points, gaps, context, neighbors).strays();
+  return Groups(tree, points, gaps, context, neighbors).isolated();
 }
 
 }  // namespace rholm
