@@ -108,7 +108,11 @@ std::string advice_text(const MeshReport& report) {
   const bool damaged = i.boundary_edges + i.non_manifold_edges + i.non_manifold_vertices +
                            i.misoriented_edges + i.degenerate_faces + i.duplicate_faces >
                        0;
-  if (damaged && i.faces > 0) text += line("repair with", "rholm repair");
+  if (damaged && i.faces > 0) {
+    text += line("repair with", report.closes_at
+                                    ? fmt::format("rholm repair --weld {:.2g}", *report.closes_at)
+                                    : "rholm repair");
+  }
   return text;
 }
 

@@ -79,8 +79,8 @@ struct Patch {
 };
 
 // Covers the region with caps and fits them: the slow part. Throws InvalidInput for a wavelength
-// that is not positive or not above the mesh's spacing there, for a region too wide to be bridged,
-// and errors of region_weights().
+// that is not above the mesh's spacing there or longer than its diagonal, for a region too wide to
+// be bridged, and errors of region_weights().
 Patch analyze_patch(const Mesh& mesh, std::span<const Region> regions, const PatchOptions& options,
                     const Context& context = {});
 

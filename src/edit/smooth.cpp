@@ -68,6 +68,10 @@ void check_mesh(const Mesh& mesh, double wavelength) {
     refuse(fmt::format("lengths must be within {:g} ... {:g}; scale the shape", 1 / kLargest,
                        kLargest));
   }
+  if (wavelength > diagonal) {
+    refuse(fmt::format("the wavelength is {:g}, longer than the diagonal of the shape, {:g}",
+                       wavelength, diagonal));
+  }
 }
 
 // Marks the points of the regions; they and the points within `rim` get a weight.
@@ -187,7 +191,7 @@ double longest_wavelength(const Patch& patch) {
 std::vector<Vec3> update(const Patch& patch, const PatchUpdate& wanted) {
   const double wavelength = wanted.wavelength == 0 ? patch.wavelength : wanted.wavelength;
   if (!(wavelength >= patch.wavelength) || !(wavelength <= longest_wavelength(patch))) {
-    refuse(fmt::format("the patch was analysed for wavelengths {:g} ... {:g}, not {:g}",
+    refuse(fmt::format("the patch is made for wavelengths {:g} ... {:g}, not {:g}",
                        patch.wavelength, longest_wavelength(patch), wavelength));
   }
   if (!std::isfinite(wanted.strength)) refuse("the strength must be finite");

@@ -34,7 +34,7 @@ void fields() {
   std::string names;
   rholm::for_each_field<rholm::SimplifyOptions>(
       [&](auto, const rholm::FieldInfo& info) { names += std::string(info.name) + " "; });
-  expect(names == "triangles share max_error ", "options list their fields");
+  expect(names == "faces share max_error ", "options list their fields");
 }
 
 void context() {

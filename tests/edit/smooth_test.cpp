@@ -284,7 +284,7 @@ TEST(Smooth, normals_of_the_file_follow) {
 TEST(Smooth, what_cannot_be_done_is_refused) {
   const Mesh mesh = test::sheet(40, kEdge);
   const Region ball = BallRegion{{0, 0, 0}, 1};
-  for (const double wavelength : {0.0, -1.0, std::nan(""), 1e300, 0.15}) {
+  for (const double wavelength : {0.0, -1.0, std::nan(""), 1e300, 0.15, 40.0}) {
     EXPECT_THROW(patch_of(mesh, ball, {.wavelength = wavelength}), Error) << wavelength;
   }
   EXPECT_THROW(analyze_patch(mesh, {}, {.wavelength = 1}), Error);

@@ -114,7 +114,7 @@ class PointStream::Reader {
   Reader(const std::filesystem::path& path, const ShapeReadOptions& options)
       : window_(path), options_(options) {
     const std::span<const char> begin = window_.at_least(kFirst, {});
-    if (begin.empty()) source(begin).fail("is empty");
+    if (begin.empty()) source(begin).fail("the file is empty");
     if (looks_like_ply(begin)) {
       open_ply();
     } else {

@@ -1,6 +1,6 @@
 // Searches for the degree that keeps a tolerance. Coarse coefficients, cheap beside full precision,
 // have twice as many degrees each time until their error is within it. Then a bracket follows, and
-// the degree found is analysed like any other. The error of a degree is the same in all
+// the degree found is expanded like any other. The error of a degree is the same in all
 // coefficients that have the degree, so known errors outlive each set of coefficients.
 #pragma once
 
