@@ -4,6 +4,6 @@
 namespace rholm {
 
 // Major, minor and patch: packages of the same minor version are compatible.
-inline constexpr const char* kVersion = "0.2.0";
+inline constexpr const char* kVersion = "0.3.0";
 
 }  // namespace rholm

@@ -10,7 +10,7 @@ import numpy.typing
 from numpy.typing import NDArray
 
 
-VERSION: str = '0.2.0'
+VERSION: str = '0.3.0'
 
 MAX_DEGREE: int = 16384
 
