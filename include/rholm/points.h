@@ -239,7 +239,7 @@ ScanAlignment align_scans(PointCloud& cloud, const Context& context = {});
 
 // Options for computing normals and their signs.
 struct OrientOptions {
-  int neighbors = 0;             // number in a fit, 3 ... 1000; 0: chosen from the data
+  int neighbors = 0;             // number in a fit, 3 ... 10000; 0: chosen from the data
   bool keep_directions = false;  // keep directions of given nonzero normals, choose only signs
   // Point inside from which the surface is seen: normals point away from it. Decides all signs.
   std::optional<Vec3> center = {};
@@ -261,7 +261,7 @@ void visit_fields(FieldsOf<OrientOptions>, const Visitor& field) {
          .help = "number of neighbours that a normal is fitted to; 0: chosen from the data",
          .value = "N",
          .least = 3,
-         .most = 1000,
+         .most = 10000,
          .may_be_zero = true});
   field(&O::keep_directions,
         {.name = "keep_directions",

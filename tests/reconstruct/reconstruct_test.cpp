@@ -221,6 +221,21 @@ TEST(Reconstruct, an_open_half_is_closed_or_kept) {
 
 // ---- Bad data ----
 
+// Noise of three spacings, in points without normals.
+TEST_OF_TWO_SIZES(Reconstruct, noise_of_spacings_leaves_no_handles) {
+  const std::size_t n = nightly ? 60000 : 10000;
+  const double sigma = 3 * std::sqrt(4 * std::numbers::pi / static_cast<double>(n));
+  PointCloud cloud = sphere_points(n);
+  for (std::size_t i = 0; i < n; ++i) cloud.points[i] *= 1 + sigma * random_normal(11, i);
+  cloud.normals.clear();
+  const Reconstruction made = reconstruct(cloud);
+  EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 2);
+  EXPECT_NEAR(made.report.noise, sigma, 0.15 * sigma);
+  double squares = 0;
+  for (const Vec3& v : made.mesh.vertices) squares += (norm(v) - 1) * (norm(v) - 1);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(made.mesh.vertices.size())), 0.25 * sigma);
+}
+
 TEST_OF_TWO_SIZES(Reconstruct, noise_is_found_and_averaged_out) {
   constexpr double kSigma = 0.01;
   PointCloud cloud = sphere_points(nightly ? 20000 : 8000);

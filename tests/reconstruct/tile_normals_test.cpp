@@ -291,7 +291,8 @@ TEST(tile_normals, are_those_of_a_tile_that_is_loaded) {
   const PointCloud given = ring_points(5000);
   Oriented made(without_normals(given), 1000);
   const TileScene scene = load_tile(made.store, made.tiles.plan, 1, 0.1, {});
-  EXPECT_TRUE(scene.computed_normals);
+  EXPECT_EQ(scene.normal_neighbors, normal_neighbors(made.store));
+  EXPECT_GE(scene.normal_neighbors, 10U);
   ASSERT_EQ(scene.normals.size(), scene.points.size());
   ASSERT_EQ(scene.confidence.size(), scene.points.size());
   EXPECT_GT(scene.points.size(), scene.n_own);

@@ -103,6 +103,15 @@ bool is_exact(const CapSizeTrial& trial) {
          trial.rms < kExact * trial.support;
 }
 
+// Returns the number of seeds of a trial: fewer for large caps, whose errors differ less.
+std::size_t seeds_of(double k, bool noisy) {
+  constexpr double kManyPoints = 500;
+  constexpr std::size_t kFewestSeeds = 200;
+  if (!noisy) return kSeeds;
+  const auto n = static_cast<std::size_t>(kSeedsNoisy * std::min(1.0, kManyPoints / k));
+  return std::max(n, kFewestSeeds);
+}
+
 // Returns true if the residuals of the smallest caps are noise, not shape.
 bool is_noise(const OrderedPoints& points, const CapSizeTrial& first, int degree, double weight,
               const Context& context) {
@@ -190,10 +199,19 @@ CapSize choose_cap_size(const OrderedPoints& points, int degree, const Context& 
   const std::size_t most = std::min(kMost, points.points.size() / (4 * stride));
   for (double k = kFewest; chosen.neighbours == 0 || k < static_cast<double>(most); k *= kLadder) {
     const CapSizeTrial trial = try_cap_size(points, static_cast<std::size_t>(k), degree, weight,
-                                            noisy ? kSeedsNoisy : kSeeds, context);
+                                            seeds_of(k, noisy), context);
     trials.push_back(trial);
     if (trial.slope_rms > 0) weight = kNormalsFavoured * trial.level_rms / trial.slope_rms;
-    if (chosen.neighbours == 0) noisy = is_noise(points, trial, degree, weight, context);
+    if (k == kFewest) {
+      noisy = is_noise(points, trial, degree, weight, context);
+      // The error of fewer points says nothing: their slopes have part in the computed normals.
+      if (const auto least = std::min(points.normal_neighbors, most);
+          noisy && k * kLadder < static_cast<double>(least)) {
+        k = static_cast<double>(least) / kLadder;
+        trials.clear();
+        continue;
+      }
+    }
     if (!noisy && is_exact(chosen) && trial.own < kOneSheet) break;
     // Clean points show no minimum: larger caps need a clear gain.
     const double better = noisy ? 1 : kClearlyBetter;
@@ -201,14 +219,16 @@ CapSize choose_cap_size(const OrderedPoints& points, int degree, const Context& 
     if (trial.slope_error > (noisy ? kGrownNoisy : kGrown) * chosen.slope_error) break;
   }
   if (const std::size_t k = noisy ? steady_size(trials, chosen.slope_error) : 0; k > 0) {
-    chosen = try_cap_size(points, k, degree, weight, kSeedsNoisy, context);
+    chosen =
+        try_cap_size(points, k, degree, weight, seeds_of(static_cast<double>(k), true), context);
   }
   best.neighbours = chosen.neighbours;
   best.normal_noise = chosen.slope_rms * dilation_between(kHalfAngle, kOpened) / kSlopesGrow;
   double favoured = kNormalsFavoured;
   if (!noisy) {
-    favoured = points.computed_normals ? kComputedFavoured
-                                       : favoured * kTurned / std::max(kTurned, best.normal_noise);
+    favoured = points.normal_neighbors > 0
+                   ? kComputedFavoured
+                   : favoured * kTurned / std::max(kTurned, best.normal_noise);
   }
   if (chosen.slope_rms > 0) {
     best.gradient_weight = std::clamp(favoured * chosen.level_rms / chosen.slope_rms, 0.01, 10.0);

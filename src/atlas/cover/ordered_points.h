@@ -16,7 +16,8 @@ struct OrderedPoints {
   std::span<const Vec3> points;
   std::span<const Vec3> normals;
   const SamplingGaps* gaps = nullptr;  // nullptr: the points are even
-  bool computed_normals = false;       // computed from the points alone
+  // Number of points that each normal was computed from; 0: the normals were given.
+  std::size_t normal_neighbors = 0;
 
   // Returns the number of neighbours of point i that reach as far as k of even points.
   std::size_t scaled(std::size_t i, std::size_t k) const {

@@ -58,7 +58,7 @@ TileScene load_tile(const PieceStore& store, const TilePlan& plan, std::size_t t
   std::vector<float> confidence;
   if (have_normals(store)) confidence = put_normals(store, tile, read);
   if (have_turned(store)) turn_normals(store, tile, read);
-  scene.computed_normals = have_normals(store);
+  scene.normal_neighbors = normal_neighbors(store);
   scene.n_own = read.n_own;
   scene.halo = std::move(read.halo);
   const bool fits = tree && tree->size() == read.cloud.points.size();
@@ -68,14 +68,14 @@ TileScene load_tile(const PieceStore& store, const TilePlan& plan, std::size_t t
   scene.points.resize(n);
   scene.foreign.resize(n);
   if (directed) scene.normals.resize(n);
-  if (scene.computed_normals) scene.confidence.resize(n);
+  if (scene.normal_neighbors > 0) scene.confidence.resize(n);
   parallel_for(n, 8192, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t given = scene.tree->order()[i];
       scene.points[i] = read.cloud.points[given];
       scene.foreign[i] = given >= scene.n_own;
       if (directed) scene.normals[i] = normalized(read.cloud.normals[given]);
-      if (scene.computed_normals) scene.confidence[i] = confidence[given];
+      if (scene.normal_neighbors > 0) scene.confidence[i] = confidence[given];
     }
   });
   scene.attributes = std::move(read.cloud.attributes);

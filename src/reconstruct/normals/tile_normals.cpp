@@ -83,6 +83,11 @@ void remove_normals(PieceStore& store, std::size_t tile, const std::vector<std::
 
 bool have_normals(const PieceStore& store) { return store.has(kOriented); }
 
+std::size_t normal_neighbors(const PieceStore& store) {
+  if (!have_normals(store)) return 0;
+  return only(store.open(kOriented).values<TileNormalsReport>(0)).neighbors;
+}
+
 TileNormals::TileNormals(PieceStore& store, const TilePlan& plan, std::vector<double> spacings,
                          const TileNormalsOptions& options)
     : store_(store), plan_(plan), spacings_(std::move(spacings)), options_(options) {

@@ -52,6 +52,8 @@ std::vector<TileNormal> read_normals(const PieceStore& store, std::size_t tile);
 void remove_normals(PieceStore& store, std::size_t tile, const std::vector<std::uint8_t>& flags);
 // Returns true if the store has the normals of all tiles.
 bool have_normals(const PieceStore& store);
+// Returns how many points each of these normals was fitted to; 0 without them.
+std::size_t normal_neighbors(const PieceStore& store);
 
 // Each step is done for all tiles, in any order, before the next step. Steps that an earlier run
 // has done cost nothing.

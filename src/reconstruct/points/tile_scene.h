@@ -24,9 +24,9 @@ struct TileScene {
   std::vector<std::uint8_t> foreign;  // in the order of the tree: 1 of the halo
   std::vector<float> confidence;      // in this order, of computed normals: see OrientReport
   SamplingGaps gaps;
-  bool computed_normals = false;
+  std::size_t normal_neighbors = 0;  // see OrderedPoints
 
-  OrderedPoints ordered() const { return {*tree, points, normals, &gaps, computed_normals}; }
+  OrderedPoints ordered() const { return {*tree, points, normals, &gaps, normal_neighbors}; }
 };
 
 }  // namespace rholm

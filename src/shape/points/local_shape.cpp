@@ -72,6 +72,18 @@ Seed look(const PointTree& tree, std::span<const Vec3> points, std::span<const V
 
 }  // namespace
 
+double kurtosis_of_heights(const PointTree& tree, std::span<const Vec3> points, std::size_t k,
+                           const Context& context) {
+  const std::size_t n = points.size();
+  std::vector<double> kurtosis(std::min(n, kSeeds));
+  parallel_for(kurtosis.size(), 8, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      kurtosis[s] = look(tree, points, {}, s * n / kurtosis.size(), k).kurtosis;
+    }
+  });
+  return median(std::move(kurtosis));
+}
+
 LocalShape look_at_shape(const PointTree& tree, std::span<const Vec3> points,
                          std::span<const Vec3> normals, const Context& context) {
   LocalShape shape{.thickness = 1};

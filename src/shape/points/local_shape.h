@@ -36,6 +36,10 @@ struct LocalShape {
   double crooked = 0;  // share of flat neighbourhoods tilted more than 45 degrees from the normal
 };
 
+// Returns the median kurtosis of the heights of k neighbours over their plane, as in LocalShape.
+double kurtosis_of_heights(const PointTree& tree, std::span<const Vec3> points, std::size_t k,
+                           const Context& context);
+
 // Takes points in the order of the tree, with unit normals or none. With normals, only neighbours
 // on the same sheet count; points of the opposite wall of a thin body do not.
 LocalShape look_at_shape(const PointTree& tree, std::span<const Vec3> points,

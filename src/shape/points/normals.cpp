@@ -14,11 +14,22 @@ constexpr std::size_t kGrain = 1024;  // number of points of a chunk; chosen: a 
 
 // Numbers of neighbours to choose from, measured on clean samples of meshes. Below 10 the error
 // grows, as 6 unknowns need more points; every factor 1.5 changes the error by 10 %.
-constexpr int kLadder[] = {10, 15, 22, 33, 50, 75, 112, 168, 252};
+constexpr int kLadder[] = {10,  15,  22,  33,   50,   75,   112,  168, 252,
+                           378, 567, 850, 1275, 1913, 2870, 4305, 6458};
 constexpr std::size_t kRungs = std::size(kLadder);
+// Rungs that are always tried. The others are for noise of more than a spacing: only where the last
+// of the first ones is best, since they take a second.
+constexpr std::size_t kFirstRungs = 9;
 constexpr double kCleanFall = 3.3;    // see choose_neighbors
 constexpr double kCalmShare = 0.9;    // see choose_neighbors
 constexpr std::size_t kSeeds = 1000;  // chosen: the error of the mean is 3 %
+constexpr std::size_t kSeedsOfMore = 400;
+
+// Fits to more neighbours than this hardly differ between near points, and take long. Then some
+// points are fitted; the others take the slope of the paraboloid of such a point, which must be
+// within this part of its radius (chosen: terms of third order are 1/64 of those at the radius).
+static_assert(kMostForOwnFits == kLadder[kFirstRungs - 1]);
+constexpr double kShared = 0.25;
 
 // Neighbours ten times as long as wide (squares in PlaneFit) are nearly on a line, such as a
 // scanner's. Then twice as many are asked for each time, up to kMostNeighbors (chosen: a
@@ -32,6 +43,7 @@ struct FitOfPoint {
   Vec3 normal;
   double radius = 0;
   double residual = 0;
+  ParaboloidFit shape;  // in units of the neighbourhood's radius, if a paraboloid was fitted
 };
 
 double rms_distance(const Neighborhood& near, const Vec3& normal) {
@@ -57,8 +69,8 @@ FitOfPoint fit_point(const PointTree& tree, std::span<const Vec3> points, std::s
   }
   if (plane.width <= kNoPlane * plane.length) return fit;
   fit.residual = rms_distance(near, plane.normal);
-  fit.normal =
-      curved ? fit_paraboloid(near.points, near.weights, plane.normal).normal : plane.normal;
+  if (curved) fit.shape = fit_paraboloid(near.points, near.weights, plane.normal);
+  fit.normal = curved ? fit.shape.normal : plane.normal;
   return fit;
 }
 
@@ -120,17 +132,15 @@ void Neighborhood::gather(const PointTree& tree, std::span<const Vec3> all, std:
   }
 }
 
-int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
-                     const Context& context) {
+namespace {
+
+// Returns the place in kLadder of the best of the first `rungs` numbers.
+std::size_t best_rung(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
+                      std::size_t rungs, std::size_t n_seeds, const Context& context) {
   const std::size_t n = points.size();
-  const std::size_t n_seeds = std::min(n, kSeeds);
-  const std::size_t stride = gaps.typical_stride();
-  std::size_t rungs = 0;  // number of rungs with at most a tenth of the points
-  while (rungs < kRungs && stride * static_cast<std::size_t>(kLadder[rungs]) * 10 <= n) ++rungs;
-  if (rungs < 3) return kLadder[0];
   const std::size_t most_stride = n / static_cast<std::size_t>(kLadder[rungs - 1] + 2);
   std::vector<Halves> halves(n_seeds);
-  parallel_for(n_seeds, 64, context, {}, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n_seeds, 16, context, {}, [&](std::size_t begin, std::size_t end) {
     Neighborhood near;
     for (std::size_t s = begin; s < end; ++s) {
       const std::size_t i = s * n / n_seeds;
@@ -167,7 +177,7 @@ int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const 
   // more for noise alone. Clean samples of meshes have 0.7 (flat faces) to 3. Noise of a
   // twentieth of the spacing gives 3.4 or more, and 3.1 on the most detailed mesh. Clean points
   // get the smallest neighbourhood.
-  if (base == 0 && calm_difference(0) < kCleanFall * calm_difference(2)) return kLadder[0];
+  if (base == 0 && calm_difference(0) < kCleanFall * calm_difference(2)) return 0;
   std::size_t best = base;
   double least = 1;
   for (std::size_t r = base; r < rungs; ++r) {
@@ -179,8 +189,102 @@ int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const 
       best = r;
     }
   }
+  return best;
+}
+
+}  // namespace
+
+int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
+                     const Context& context) {
+  const std::size_t n = points.size(), stride = gaps.typical_stride();
+  std::size_t rungs = 0;  // number of rungs with at most a tenth of the points
+  while (rungs < kRungs && stride * static_cast<std::size_t>(kLadder[rungs]) * 10 <= n) ++rungs;
+  if (rungs < 3) return kLadder[0];
+  const std::size_t first = std::min(rungs, kFirstRungs);
+  std::size_t best = best_rung(tree, points, gaps, first, std::min(n, kSeeds), context);
+  if (best + 1 == kFirstRungs && rungs > kFirstRungs) {
+    best = best_rung(tree, points, gaps, rungs, std::min(n, kSeedsOfMore), context);
+  }
   return kLadder[best];
 }
+
+namespace {
+
+// Returns the radius of the disc that has as many points per area as the ball of a fit has in its
+// middle, over the ball's radius. Noise leads out of the ball near its rim.
+double disc_of_ball(const Neighborhood& near, const Vec3& normal) {
+  constexpr double kMiddle = 0.5;  // radius of the cylinder whose points are counted
+  std::size_t within = 0;
+  for (const Vec3& p : near.points) {
+    const double h = dot(p, normal);
+    within += dot(p, p) - h * h < kMiddle * kMiddle;
+  }
+  const auto all = static_cast<double>(near.points.size());
+  return kMiddle * std::sqrt(all / static_cast<double>(std::max<std::size_t>(within, 1)));
+}
+
+// Fits the points of a chunk of the tree's order. Some of them share their fits with points near
+// them in the same chunk.
+class ChunkFit {
+ public:
+  ChunkFit(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
+           std::span<const std::uint8_t> skipped, LocalFits& fits)
+      : tree_(tree), points_(points), gaps_(gaps), skipped_(skipped), fits_(fits) {}
+
+  void fit(std::size_t begin, std::size_t end) {
+    const bool shared = fits_.n_neighbors > kMostForOwnFits;
+    const bool curved = shared || fits_.n_neighbors <= kMostForCurvature;
+    begin_ = begin;
+    fitted_.assign(end - begin, 0);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!skipped_.empty() && skipped_[i] != 0) continue;
+      if (fitted_[i - begin] != 0) {
+        tree_.nearest_to(i, gaps_.stride(i) * kGraphNeighbors + 1, near_.found);
+      } else {
+        const std::size_t k = gaps_.scaled(i, static_cast<std::size_t>(fits_.n_neighbors));
+        FitOfPoint fit = fit_point(tree_, points_, i, k, curved, near_);
+        if (shared && !(fit.normal == Vec3{})) fit.radius *= disc_of_ball(near_, fit.shape.plane);
+        put(i, fit, fit.normal);
+        if (shared) share(i, fit);
+      }
+      keep_neighbors(tree_, i, gaps_.stride(i), near_.found, fits_.neighbors);
+    }
+  }
+
+ private:
+  void put(std::size_t i, const FitOfPoint& fit, const Vec3& normal) {
+    fits_.normals[i] = normal;
+    fits_.radius[i] = static_cast<float>(fit.radius);
+    fits_.residual[i] = static_cast<float>(fit.residual);
+    fitted_[i - begin_] = 1;
+  }
+  // Stores the fit of point i for those near it, too.
+  void share(std::size_t i, const FitOfPoint& fit) {
+    fits_.settled[i] = points_[i];
+    if (fit.normal == Vec3{}) return;
+    const Vec3 middle = points_[i];
+    fits_.settled[i] += near_.radius * fit.shape.point_at({});
+    for (std::size_t j = 0; j < near_.found.size(); ++j) {
+      const std::size_t other = near_.found[j].index;
+      if (dot(near_.points[j], near_.points[j]) > kShared * kShared) return;
+      if (other < begin_ || other - begin_ >= fitted_.size()) continue;
+      if (fitted_[other - begin_] != 0 || (!skipped_.empty() && skipped_[other] != 0)) continue;
+      put(other, fit, fit.shape.normal_at(near_.points[j]));
+      fits_.settled[other] = middle + near_.radius * fit.shape.point_at(near_.points[j]);
+    }
+  }
+
+  const PointTree& tree_;
+  std::span<const Vec3> points_;
+  const SamplingGaps& gaps_;
+  std::span<const std::uint8_t> skipped_;
+  LocalFits& fits_;
+  std::size_t begin_ = 0;
+  std::vector<std::uint8_t> fitted_;
+  Neighborhood near_;
+};
+
+}  // namespace
 
 bool are_noisy(int n_neighbors) { return n_neighbors > kLadder[0]; }
 
@@ -222,18 +326,10 @@ LocalFits fit_normals(const PointTree& tree, std::span<const Vec3> points, const
   fits.radius.resize(n);
   fits.residual.resize(n);
   fits.neighbors.resize(n * kGraphNeighbors);
+  if (fits.n_neighbors > kMostForOwnFits) fits.settled.resize(n);
   parallel_for(n, kGrain, context, {.name = "normals", .from = 0, .to = 0.7},
                [&](std::size_t begin, std::size_t end) {
-                 Neighborhood near;
-                 for (std::size_t i = begin; i < end; ++i) {
-                   if (!skipped.empty() && skipped[i] != 0) continue;
-                   const std::size_t k = gaps.scaled(i, fits.n_neighbors);
-                   const FitOfPoint fit = fit_point(tree, points, i, k, curved, near);
-                   fits.normals[i] = fit.normal;
-                   fits.radius[i] = static_cast<float>(fit.radius);
-                   fits.residual[i] = static_cast<float>(fit.residual);
-                   keep_neighbors(tree, i, gaps.stride(i), near.found, fits.neighbors);
-                 }
+                 ChunkFit(tree, points, gaps, skipped, fits).fit(begin, end);
                });
   std::vector<float> residuals = fits.residual;
   const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(n / 2);

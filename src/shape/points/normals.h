@@ -19,6 +19,10 @@ inline constexpr int kGraphNeighbors = 10;  // chosen: Hoppe's graph stays conne
 // take twice the time (scripts/constants, noise of 0.2 % of the diagonal); edges are not resolved.
 inline constexpr int kMostForCurvature = 50;
 
+// Fits to more neighbours than this hardly differ between near points, and take long: points share
+// them.
+inline constexpr int kMostForOwnFits = 252;
+
 // Results of the fits, in the order of the tree. All points are distinct.
 struct LocalFits {
   std::vector<Vec3> normals;    // unit, of either sign; zero if the neighbours define no plane
@@ -27,7 +31,10 @@ struct LocalFits {
   std::vector<std::uint32_t> neighbors;  // kGraphNeighbors nearest of each point; itself as filling
   int n_neighbors = 0;                   // number of neighbours of a fit
   double typical_residual = 0;           // median of the residuals
-  bool noisy = false;                    // true if noise, not curvature, causes the residual
+  // Places of the points on the fitted surfaces, for the signs of much noise: only for fits of more
+  // points than kMostForOwnFits; otherwise empty.
+  std::vector<Vec3> settled = {};
+  bool noisy = false;  // true if noise, not curvature, causes the residual
 };
 
 // Fits weighted planes, then paraboloids, to the `n_neighbors` nearest points, or for 0 to a number

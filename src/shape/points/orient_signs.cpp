@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "shape/points/local_shape.h"
 #include "shape/points/orient_field.h"
 #include "shape/points/orient_graph.h"
 #include "shape/points/orient_rules.h"
@@ -16,15 +17,28 @@ namespace {
 
 // Up to this many points, thin sheets are tried before noise; larger clouds are seldom so thin.
 constexpr std::size_t kMostForSheets = 20000;
+// The kurtosis of heights is 3 for Gaussian noise, 1.8 for a filled slab and 1 for two sheets.
+constexpr double kSheetKurtosis = 2;
+
+// Returns true if the heights of some neighbourhoods look like those of two sheets.
+bool may_be_sheets(const OrientScene& scene, int n_neighbors, const Context& context) {
+  for (const int part : {1, 2, 4, 8}) {
+    const auto k = static_cast<std::size_t>(n_neighbors / part);
+    if (kurtosis_of_heights(*scene.tree, scene.points, k, context) < kSheetKurtosis) return true;
+  }
+  return false;
+}
+
 // Computes signs by neighbours and winding number, and the share of points where these disagree.
-OrientSigns turn_by_graph(const OrientScene& scene, const Patches& patches, const LocalFits& fits,
-                          double& doubtful, OrientReport& report, const Context& context) {
+OrientSigns turn_by_graph(std::span<const Vec3> points, const Patches& patches,
+                          const LocalFits& fits, double& doubtful, OrientReport& report,
+                          const Context& context) {
   OrientSigns signs{.normals = fits.normals};
-  const OrientedParts parts = orient_along_graph(scene.points, fits, signs.normals);
+  const OrientedParts parts = orient_along_graph(points, fits, signs.normals);
   report_progress(context, "signs", 0.5);
-  const SideTrust trust = turn_outwards(scene.points, patches, parts, signs.normals, context);
+  const SideTrust trust = turn_outwards(points, patches, parts, signs.normals, context);
   report.components = parts.n_components;
-  signs.agreement = mean_agreement(scene.points, fits, signs.normals);
+  signs.agreement = mean_agreement(points, fits, signs.normals);
   for (std::size_t i = 0; i < signs.agreement.size(); ++i) {
     signs.agreement[i] *= static_cast<float>(trust.of_component[parts.component[i]]);
   }
@@ -102,14 +116,23 @@ OrientSigns find_signs(const OrientScene& scene, std::span<const Vec3> given, Lo
                        OrientReport& report, const Context& context) {
   const Patches fine = patches_of(fits, scene.gaps, 1);
   const Patches coarse = patches_of(fits, scene.gaps, spread_of(fits.n_neighbors));
+  // Settled points are nearer to the surface than noise, by about this factor.
+  constexpr double kSettled = 3;
+  const Patches settled = patches_of(fits, scene.gaps, spread_of(fits.n_neighbors) / kSettled);
   const bool much_noise = fits.n_neighbors > kMostForCurvature;
+  // A point far off the surface would be on the wrong side of it.
+  const std::span<const Vec3> points = fits.settled.empty() ? scene.points : fits.settled;
   double in_doubt = 0;
-  OrientSigns by_graph =
-      turn_by_graph(scene, much_noise ? coarse : fine, fits, in_doubt, report, context);
+  OrientSigns by_graph = turn_by_graph(points,
+                                       !much_noise            ? fine
+                                       : fits.settled.empty() ? coarse
+                                                              : settled,
+                                       fits, in_doubt, report, context);
   // The graph is right if the surface is sampled well and evenly.
   const bool sure = in_doubt <= kDoubtfulGraph && scene.gaps.ratio.empty();
   // Two sheets as near as the points of each look like noise, until the field separates them.
-  const bool few = scene.points.size() <= kMostForSheets;
+  const bool two_peaks = much_noise && may_be_sheets(scene, fits.n_neighbors, context);
+  const bool few = two_peaks || scene.points.size() <= kMostForSheets;
   double residual = 0;
   if (much_noise ? few : !sure) {
     LocalFits clean = fits;
@@ -117,10 +140,12 @@ OrientSigns find_signs(const OrientScene& scene, std::span<const Vec3> given, Lo
     OrientSigns of_sheets = turn_by_field(scene, fine, given, kField, clean, residual, context);
     if (residual < kSheets) {
       fits.n_neighbors = kCleanNeighbors;
+      if (two_peaks) return of_sheets;
       return better(scene, fine, std::move(by_graph), of_sheets, residual, context);
     }
   }
-  if (sure) return by_graph;
+  // Points that were settled need no field; its solution among far scattered points takes minutes.
+  if (sure || !fits.settled.empty()) return by_graph;
   OrientSigns by_field = turn_by_field(scene, coarse, given, kWideField, fits, residual, context);
   return better(scene, coarse, std::move(by_graph), by_field, residual, context);
 }

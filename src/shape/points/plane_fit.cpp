@@ -80,10 +80,31 @@ ParaboloidFit fit_paraboloid(std::span<const Vec3> points, std::span<const doubl
     total += weights[i];
   }
   Vector6 c = b;
-  if (!factorize(a)) return {normal, std::sqrt(squares / total)};
+  if (!factorize(a)) return {normal, std::sqrt(squares / total), normal, u, v};
   solve(a, c);
   for (int j = 0; j < kTerms; ++j) squares -= c[j] * b[j];
-  return {normalized(normal - c[1] * u - c[2] * v), std::sqrt(std::max(squares, 0.0) / total)};
+  return {.normal = normalized(normal - c[1] * u - c[2] * v),
+          .residual = std::sqrt(std::max(squares, 0.0) / total),
+          .plane = normal,
+          .u = u,
+          .v = v,
+          .c = c[0],
+          .x = c[1],
+          .y = c[2],
+          .xx = c[3],
+          .xy = c[4],
+          .yy = c[5]};
+}
+
+Vec3 ParaboloidFit::point_at(const Vec3& offset) const {
+  const double a = dot(offset, u), b = dot(offset, v);
+  const double height = c + (x + xx * a + xy * b) * a + (y + yy * b) * b;
+  return offset + (height - dot(offset, plane)) * plane;
+}
+
+Vec3 ParaboloidFit::normal_at(const Vec3& offset) const {
+  const double a = dot(offset, u), b = dot(offset, v);
+  return normalized(plane - (x + 2 * xx * a + xy * b) * u - (y + xy * a + 2 * yy * b) * v);
 }
 
 Vec3 perpendicular(const Vec3& n) {

@@ -24,6 +24,15 @@ PlaneFit fit_plane(std::span<const Vec3> points, std::span<const double> weights
 struct ParaboloidFit {
   Vec3 normal;          // at the origin
   double residual = 0;  // weighted rms height of the points above it
+  // The height over the plane through the origin is c + x a + y b + xx a^2 + xy a b + yy b^2, with
+  // a along u and b along v.
+  Vec3 plane = {}, u = {}, v = {};  // unit vectors; `plane` is its normal
+  double c = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+
+  // Return the point of the paraboloid above the place of `offset` in the plane, and its unit
+  // normal.
+  Vec3 point_at(const Vec3& offset) const;
+  Vec3 normal_at(const Vec3& offset) const;
 };
 
 // Returns the best paraboloid over the plane across `normal`. If the points do not determine one,
