@@ -65,7 +65,7 @@ BEYOND = {
     "region": ["ball:0,0,0,0", "ball:0,0,0,-1", "ball:1", "vertex:-1,1", "color:12345",
                "vertex:0,0", "property:"],
     "wavelength": ["0", "-1"], "strength": ["-11", "1.1"], "transition": ["-1"],
-    "from-degree": ["1", "65"], "scale": ["0", "1e7"], "neighbors": ["2", "1001"],
+    "from-degree": ["1", "65"], "scale": ["0", "1e7"], "neighbors": ["2", "10001"],
     "sensor": ["1,2"], "min-cosine": ["-0.1", "1.1"], "reconstruct --noise": ["1.1", "-0.1"],
     "reconstruct --resolution": ["3", "65537"], "min-component": ["-0.1", "1.1"],
     "max-memory": ["0"], "max-numbers": ["-1"],

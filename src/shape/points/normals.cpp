@@ -25,10 +25,8 @@ constexpr double kCalmShare = 0.9;    // see choose_neighbors
 constexpr std::size_t kSeeds = 1000;  // chosen: the error of the mean is 3 %
 constexpr std::size_t kSeedsOfMore = 400;
 
-// Fits to more neighbours than this hardly differ between near points, and take long. Then some
-// points are fitted; the others take the slope of the paraboloid of such a point, which must be
-// within this part of its radius (chosen: terms of third order are 1/64 of those at the radius).
-static_assert(kMostForOwnFits == kLadder[kFirstRungs - 1]);
+// Points within this part of the radius of a fit to many neighbours share it. Chosen: there, terms
+// of third order are 1/64 of those at the radius.
 constexpr double kShared = 0.25;
 
 // Neighbours ten times as long as wide (squares in PlaneFit) are nearly on a line, such as a

@@ -20,7 +20,7 @@ constexpr std::size_t kMostForSheets = 20000;
 // The kurtosis of heights is 3 for Gaussian noise, 1.8 for a filled slab and 1 for two sheets.
 constexpr double kSheetKurtosis = 2;
 
-// Returns true if the heights of some neighbourhoods look like those of two sheets.
+// Returns true if the heights of some neighbourhoods have two peaks.
 bool may_be_sheets(const OrientScene& scene, int n_neighbors, const Context& context) {
   for (const int part : {1, 2, 4, 8}) {
     const auto k = static_cast<std::size_t>(n_neighbors / part);
