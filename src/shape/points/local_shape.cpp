@@ -70,18 +70,32 @@ Seed look(const PointTree& tree, std::span<const Vec3> points, std::span<const V
   return seed;
 }
 
+// Looks at k neighbours of seeds that are spread evenly over the order of the tree.
+std::vector<Seed> look_around(const PointTree& tree, std::span<const Vec3> points,
+                              std::span<const Vec3> normals, std::size_t k,
+                              const Context& context) {
+  const std::size_t n = points.size();
+  std::vector<Seed> seeds(std::min(n, kSeeds));
+  parallel_for(seeds.size(), 8, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      seeds[s] = look(tree, points, normals, s * n / seeds.size(), k);
+    }
+  });
+  return seeds;
+}
+
+double median_of(const std::vector<Seed>& seeds, double Seed::*member) {
+  std::vector<double> values;
+  values.reserve(seeds.size());
+  for (const Seed& seed : seeds) values.push_back(seed.*member);
+  return median(std::move(values));
+}
+
 }  // namespace
 
 double kurtosis_of_heights(const PointTree& tree, std::span<const Vec3> points, std::size_t k,
                            const Context& context) {
-  const std::size_t n = points.size();
-  std::vector<double> kurtosis(std::min(n, kSeeds));
-  parallel_for(kurtosis.size(), 8, context, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) {
-      kurtosis[s] = look(tree, points, {}, s * n / kurtosis.size(), k).kurtosis;
-    }
-  });
-  return median(std::move(kurtosis));
+  return median_of(look_around(tree, points, {}, k, context), &Seed::kurtosis);
 }
 
 LocalShape look_at_shape(const PointTree& tree, std::span<const Vec3> points,
@@ -96,17 +110,8 @@ LocalShape look_at_shape(const PointTree& tree, std::span<const Vec3> points,
   const double local = kLocal * bounds(places).diagonal();
   bool was_long = false;
   for (std::size_t k = kFirst; k <= std::min(n / 4, kMost); k += k / 2) {
-    parallel_for(seeds.size(), 8, context, {}, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t s = begin; s < end; ++s) {
-        seeds[s] = look(tree, points, normals, s * n / seeds.size(), k);
-      }
-    });
-    const auto middle = [&](double Seed::*member) {
-      std::vector<double> values;
-      values.reserve(seeds.size());
-      for (const Seed& seed : seeds) values.push_back(seed.*member);
-      return median(std::move(values));
-    };
+    seeds = look_around(tree, points, normals, k, context);
+    const auto middle = [&](double Seed::*member) { return median_of(seeds, member); };
     if (k > kFirst && middle(&Seed::radius) > local) break;
     const double thickness = middle(&Seed::thickness), width = middle(&Seed::width);
     was_long |= width < kLong;
